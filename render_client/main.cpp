@@ -12,6 +12,7 @@
 #include "common/program/program_output.h"
 #include "common/program/stop_signals.h"
 #include "common/text/plain_text.h"
+#include "render_client/dataset/dataset_run.h"
 #include "render_client/sound/quiet_sound_libraries.h"
 #include "render_client/ui/offscreen_run.h"
 #include "render_client/ui/options.h"
@@ -33,6 +34,11 @@ void run(osteomill::RenderOptions options) {
     if (!options.look_file.empty() && std::filesystem::exists(options.look_file, failed))
         options.look.transfer = read_look(options.look_file);
     const auto stop_asked = [&stop = stop_on_signals()] { return stop.load(); };
+    if (options.dataset) {
+        const RenderReport report = run_dataset(options, OSTEOMILL_VERSION, stop_asked);
+        if (!options.json.empty()) write_report(report, options.json);
+        return;
+    }
     const auto session = make_session(options);
     std::exception_ptr failure;
     try {

@@ -150,7 +150,8 @@ void add_microscope(CLI::App& app, RenderOptions& options) {
 
 /// What the options together get wrong; empty where they agree.
 std::string contradiction(const RenderOptions& options) {
-    if (options.gpu && !options.offscreen)
+    if (options.dataset && !options.replay) return "--dataset needs --replay FILE";
+    if (options.gpu && !options.offscreen && !options.dataset)
         return "--gpu needs --offscreen; a window is drawn where its display is";
     if (options.offscreen && options.until_server_ends)
         return "--until-server-ends is for a window; an offscreen run always ends with its session";
@@ -275,6 +276,8 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
            "coarser")
         ->check(CLI::Range(1, 1 << 20))
         ->type_name("MIB");
+    DatasetOptions dataset;
+    auto* wants_dataset = add_dataset_options(app, dataset);
     app.add_option("--json", options.json, "Write what was measured to this file")->type_name("FILE");
 
     try {
@@ -289,6 +292,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
         parsed.no_run = wrong_usage(std::string(error.what()) + " (see --help)");
         return parsed;
     }
+    if (wants_dataset->count() > 0) options.dataset = dataset;
     std::string wrong = contradiction(options);
     if (wrong.empty() && frames->count() > 0 && !options.offscreen) wrong = "--frames needs --offscreen";
     try {

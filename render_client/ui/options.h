@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/net/tls_files.h"
+#include "render_client/ui/dataset_options.h"
 #include "render_client/ui/panels/theme.h"
 #include "render_client/ui/view/cut_settings.h"
 #include "render_client/ui/view/inset_view.h"
@@ -24,6 +25,7 @@ struct RenderOptions {
     std::optional<TlsFiles> tls;                  ///< absent: in the clear
     std::optional<std::filesystem::path> record;  ///< what is received goes there, too
     std::optional<std::filesystem::path> replay;  ///< a recording in place of a server
+    std::optional<DatasetOptions> dataset;        ///< of the recording
     double speed = 1.0;                           ///< of the recording: recorded seconds a second
     RendererChoice renderer = RendererChoice::raycast;
     ShadingSettings look;

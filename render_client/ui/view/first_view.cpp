@@ -120,4 +120,22 @@ Camera first_view(const Bone& bone, const BallInView& all, const std::optional<T
     return camera;
 }
 
+Camera first_view(const Bone& bone, const BoneTextures& textures, const SessionInfo* session,
+                  const ToolState* tool) {
+    std::optional<ToolPose> pose;
+    if (tool) pose = ToolPose{tool->burr_position_mm, tool->spindle_axis};
+    const bool has_burr = tool && session && tool->burr < session->burrs.size();
+    return first_view(bone, ball_round(textures), pose,
+                      has_burr ? session->burrs[tool->burr].radius_mm() : 0.0,
+                      session ? target_in_view(bone, *session) : std::nullopt);
+}
+
+BallInView ball_round(const BoneTextures& textures) {
+    const VoxelBox& box = textures.box();
+    const Grid& grid = textures.grid();
+    const glm::dvec3 middle_mm =
+        0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
+    return {middle_mm, glm::length(0.5 * grid.spacing_mm * glm::dvec3(box.size))};
+}
+
 }  // namespace osteomill

@@ -12,8 +12,10 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
+#include "common/scene/tool_state.h"
 #include "common/wire/session_info.h"
 #include "render_client/volume/camera.h"
+#include "render_client/volume/textures/bone_textures.h"
 
 namespace osteomill {
 
@@ -32,5 +34,12 @@ std::optional<BallInView> target_in_view(const Bone& bone, const SessionInfo& se
 /// `all`: round the bone. `tool`: the burr's pose; one that is far off counts as on the edge of `all`.
 Camera first_view(const Bone& bone, const BallInView& all, const std::optional<ToolPose>& tool,
                   double burr_radius_mm, const std::optional<BallInView>& target);
+
+/// The same of what a session has now: of the bone that the textures hold. `session` and `tool` may be null.
+Camera first_view(const Bone& bone, const BoneTextures& textures, const SessionInfo* session,
+                  const ToolState* tool);
+
+/// Round the bone that the textures hold.
+BallInView ball_round(const BoneTextures& textures);
 
 }  // namespace osteomill

@@ -18,10 +18,6 @@ namespace osteomill {
 
 namespace {
 
-glm::dvec3 middle_of(const Grid& grid, const VoxelBox& box) {
-    return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
-}
-
 std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
     std::vector<TissueColour> colours;
     if (!session) return colours;
@@ -144,7 +140,7 @@ void SessionPicture::show_other_textures(DrawingCost cost) {
     if (textures->plan().layout != BoneLayout::dense || textures->plan().coarsening > 1)
         spdlog::info("the bone is drawn from {}", description(textures->plan()));
     const glm::dvec3 half_mm = 0.5 * textures->grid().spacing_mm * glm::dvec3(textures->box().size);
-    const glm::dvec3 middle_mm = middle_of(textures->grid(), textures->box());
+    const glm::dvec3 middle_mm = ball_round(*textures).centre_mm;
     view_.cuts.set_bounds(middle_mm - half_mm, middle_mm + half_mm);
     // After a reconnection the view stays where the user left it.
     if (!std::exchange(has_first_view_, true)) find_first_view();
@@ -164,17 +160,9 @@ void SessionPicture::set_shading(const ShadingSettings& look) {
 }
 
 void SessionPicture::find_first_view() {
-    const BoneTextures& textures = *bone_.textures();
-    const glm::dvec3 half_mm = 0.5 * textures.grid().spacing_mm * glm::dvec3(textures.box().size);
-    const BallInView all{middle_of(textures.grid(), textures.box()), glm::length(half_mm)};
-    const SessionInfo* session = source_.session();
-    std::optional<ToolPose> pose;
-    if (tool()) pose = ToolPose{tool()->burr_position_mm, tool()->spindle_axis};
-    const bool has_burr = tool() && session && tool()->burr < session->burrs.size();
     const bool is_untouched = camera_ == first_view_;
     first_view_ =
-        first_view(*source_.bone(), all, pose, has_burr ? session->burrs[tool()->burr].radius_mm() : 0.0,
-                   session ? target_in_view(*source_.bone(), *session) : std::nullopt);
+        first_view(*source_.bone(), *bone_.textures(), source_.session(), tool() ? &*tool() : nullptr);
     set_magnification(first_view_, first_magnification_);
     if (is_untouched) camera_ = first_view_;
 }

@@ -1,0 +1,180 @@
+#include "render_client/dataset/camera_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "common/files/input_file.h"
+#include "common/files/table_line.h"
+#include "common/scene/scene_file.h"
+#include "common/scene/shallow_toml.h"
+#include "common/scene/toml_reader.h"
+#include "common/text/words.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr std::int64_t largest_edge_px = 8192;
+constexpr std::size_t most_cameras = 64;
+const double default_field_of_view_rad = Camera{}.field_of_view_rad;
+
+/// Throws std::runtime_error, in words.
+std::array<double, 8> numbers_of(const std::string& line) {
+    const std::vector<std::string> cells = cells_of(line);
+    std::array<double, 8> numbers{};
+    if (cells.size() != numbers.size())
+        throw std::runtime_error(
+            fmt::format("has {} cells, not the 8 of time_s,x,y,z,qx,qy,qz,qw", cells.size()));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto number = finite_number(cells[i]);
+        if (!number) throw std::runtime_error(fmt::format("has '{}', which is no number", cells[i]));
+        numbers[i] = *number;
+    }
+    return numbers;
+}
+
+void read_path(DatasetCamera& camera, const std::filesystem::path& file) {
+    std::istringstream in(read_text(file, table_kind));
+    std::size_t number = 0;
+    std::string line;
+    const auto refuse = [&](const std::string& why) {
+        throw SceneError(fmt::format("{}:{}: {}", file.string(), number, why));
+    };
+    try {
+        while (next_table_line(in, line, number)) {
+            if (line.empty() || line.starts_with('#') || (number == 1 && line.starts_with("time_s")))
+                continue;
+            const std::array<double, 8> n = numbers_of(line);
+            const glm::dquat rotation(n[7], n[4], n[5], n[6]);
+            if (std::abs(glm::length(rotation) - 1.0) > 1e-3) refuse("its quaternion is not of length 1");
+            if (!camera.times_s.empty() && n[0] <= camera.times_s.back())
+                refuse("its time is not behind the one before");
+            camera.times_s.push_back(n[0]);
+            camera.poses.push_back({{n[1], n[2], n[3]}, glm::normalize(rotation)});
+        }
+    } catch (const SceneError&) {
+        throw;
+    } catch (const std::runtime_error& wrong) {
+        refuse(wrong.what());
+    }
+    if (camera.poses.empty()) refuse("has no pose; a line is time_s,x,y,z,qx,qy,qz,qw");
+}
+
+Pinhole read_pinhole(TomlReader& reader) {
+    const auto edge_px = [&](const char* key, int usual) {
+        return static_cast<int>(reader.whole_number(key, 1, largest_edge_px).value_or(usual));
+    };
+    const glm::ivec2 size_px(edge_px("width_px", 640), edge_px("height_px", 480));
+    const auto k = reader.rows("intrinsics", 3);
+    if (!k) return pinhole_of(size_px, default_field_of_view_rad);
+    const bool is_pinhole = k->size() == 3 && (*k)[0][0] > 0.0 && (*k)[1][1] > 0.0 && (*k)[0][1] == 0.0 &&
+                            (*k)[1][0] == 0.0 && (*k)[2] == std::vector{0.0, 0.0, 1.0};
+    if (!is_pinhole)
+        reader.fail("intrinsics", "must be [[fx, 0, cx], [0, fy, cy], [0, 0, 1]] in pixels, fx, fy above 0");
+    return {size_px, {(*k)[0][0], (*k)[1][1]}, {(*k)[0][2], (*k)[1][2]}};
+}
+
+void read_pose(DatasetCamera& camera, TomlReader& reader, const std::filesystem::path& folder) {
+    const auto eye_mm = reader.place("eye_mm"), target_mm = reader.place("target_mm");
+    const auto up = reader.direction("up");
+    const auto path = reader.text("path");
+    if (path && (eye_mm || target_mm || up))
+        reader.fail("path", "stands in place of eye_mm, target_mm and up");
+    if (path) return read_path(camera, folder / *path);
+    if (!eye_mm && !target_mm && !up) return;
+    const glm::dvec3 from = required(reader, "eye_mm", eye_mm);
+    const glm::dvec3 to = required(reader, "target_mm", target_mm);
+    if (glm::distance(from, to) < 1e-6) reader.fail("target_mm", "is where the eye is");
+    camera.times_s = {0.0};
+    camera.poses = {looking_at(from, to, up.value_or(glm::dvec3(0.0, 0.0, 1.0)))};
+}
+
+/// A point on the axis between the two, at the distance of convergence, is in the middle of both pictures.
+DatasetCamera one_of_pair(DatasetCamera camera, const char* side, double aside_mm, double convergence_mm) {
+    camera.name += side;
+    camera.aside_mm = aside_mm;
+    camera.pinhole.centre_px.x += camera.pinhole.focal_px.x * aside_mm / convergence_mm;
+    return camera;
+}
+
+void read_camera(TomlReader& reader, const std::filesystem::path& folder,
+                 std::vector<DatasetCamera>& cameras) {
+    DatasetCamera camera;
+    camera.name = required(reader, "name", reader.text("name"));
+    const auto is_fit = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
+    };
+    if (camera.name.empty() || !std::ranges::all_of(camera.name, is_fit))
+        reader.fail("name",
+                    fmt::format("'{}' must be of letters, digits, - and _: it names a folder", camera.name));
+    camera.pinhole = read_pinhole(reader);
+    read_pose(camera, reader, folder);
+    const auto baseline_mm = reader.number("baseline_mm", {1e-3, 1e3});
+    const auto convergence_mm = reader.number("convergence_mm", {1e-3, 1e6});
+    if (convergence_mm && !baseline_mm) reader.fail("convergence_mm", "is of a pair: give baseline_mm, too");
+    reader.refuse_other_keys();
+    if (!baseline_mm) {
+        cameras.push_back(camera);
+        return;
+    }
+    const double far_mm = convergence_mm.value_or(std::numeric_limits<double>::infinity());
+    cameras.push_back(one_of_pair(camera, "_left", -0.5 * *baseline_mm, far_mm));
+    cameras.push_back(one_of_pair(camera, "_right", 0.5 * *baseline_mm, far_mm));
+}
+
+}  // namespace
+
+Pose DatasetCamera::pose_at(double time_s, const Pose& first_view) const {
+    Pose pose = poses.empty() ? first_view : poses.back();
+    const auto next = std::ranges::upper_bound(times_s, time_s) - times_s.begin();
+    if (const auto i = static_cast<std::size_t>(next); i == 0 && !poses.empty()) {
+        pose = poses.front();
+    } else if (i < times_s.size()) {
+        const double part = (time_s - times_s[i - 1]) / (times_s[i] - times_s[i - 1]);
+        pose = {glm::mix(poses[i - 1].position_mm, poses[i].position_mm, part),
+                glm::slerp(poses[i - 1].rotation, poses[i].rotation, part)};
+    }
+    pose.position_mm += pose.rotation * glm::dvec3(aside_mm, 0.0, 0.0);
+    return pose;
+}
+
+std::vector<DatasetCamera> default_cameras() {
+    DatasetCamera camera;
+    camera.pinhole = pinhole_of(camera.pinhole.size_px, default_field_of_view_rad);
+    return {camera};
+}
+
+std::vector<DatasetCamera> read_cameras(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    const std::string text = read_toml_text(file, "a file of cameras");
+    require_shallow_toml(text, name);
+    std::vector<DatasetCamera> cameras;
+    try {
+        const toml::table root = toml::parse(text, name);
+        TomlReader reader(root, name, "the cameras");
+        for (TomlReader& table : reader.tables("cameras")) read_camera(table, file.parent_path(), cameras);
+        reader.refuse_other_keys();
+        if (cameras.empty()) reader.fail("cameras", "has no camera: write [[cameras]]");
+        if (cameras.size() > most_cameras)
+            reader.fail("cameras", fmt::format("has {} cameras, may have {}", cameras.size(), most_cameras));
+        std::set<std::string> names;
+        for (const DatasetCamera& camera : cameras)
+            if (!names.insert(camera.name).second)
+                reader.fail("cameras", fmt::format("has two cameras called '{}'", camera.name));
+    } catch (const toml::parse_error& error) {
+        throw SceneError(
+            fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
+    }
+    return cameras;
+}
+
+}  // namespace osteomill

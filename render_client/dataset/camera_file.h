@@ -1,0 +1,45 @@
+// Cameras of an image set, from a TOML file:
+//
+//     [[cameras]]
+//     name = "left"                     # a folder's name: letters, digits, - and _
+//     width_px = 640                    # the default
+//     height_px = 480                   # the default
+//     intrinsics = [[800, 0, 319.5], [0, 800, 239.5], [0, 0, 1]]   # default: 34 degrees from top to bottom
+//     eye_mm = [10, -80, 60]            # patient LPS
+//     target_mm = [0, 0, 0]
+//     up = [0, 0, 1]                    # the default
+//     path = "path.csv"                 # in place of eye, target and up: time_s,x,y,z,qx,qy,qz,qw a line
+//     baseline_mm = 5                   # a pair, NAME_left and NAME_right, about that pose
+//     convergence_mm = 100              # where both pictures show the same; default: nowhere, axes parallel
+//
+// A path's poses are the camera's axes (right, down, forward) in patient LPS by recorded time; between lines
+// they are interpolated, before the first and behind the last they stay. A camera without a pose has the
+// first view of the session, as a window has it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render_client/dataset/pinhole.h"
+
+namespace osteomill {
+
+struct DatasetCamera {
+    std::string name = "view";
+    Pinhole pinhole{};
+    std::vector<double> times_s{};  ///< ascending
+    std::vector<Pose> poses{};      ///< at those; one where it stands still, none: the first view
+    double aside_mm = 0.0;          ///< how far to the right of that pose: one of a pair
+
+    Pose pose_at(double time_s, const Pose& first_view) const;
+};
+
+/// One, at the first view.
+std::vector<DatasetCamera> default_cameras();
+
+/// Throws SceneError, in one line, for what cannot be. A path's file is relative to the cameras' file.
+std::vector<DatasetCamera> read_cameras(const std::filesystem::path& file);
+
+}  // namespace osteomill

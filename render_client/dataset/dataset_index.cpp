@@ -1,0 +1,105 @@
+#include "render_client/dataset/dataset_index.h"
+
+#include <fmt/format.h>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "common/files/atomic_file.h"
+#include "render_client/volume/gl/offscreen_context.h"
+
+namespace osteomill {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Json intrinsics_of(const Pinhole& pinhole) {
+    return Json::array({{pinhole.focal_px.x, 0.0, pinhole.centre_px.x},
+                        {0.0, pinhole.focal_px.y, pinhole.centre_px.y},
+                        {0.0, 0.0, 1.0}});
+}
+
+const Json conventions{
+    {"world", "patient LPS: x to the patient's left, y to the back, z up; the patient does not move in it"},
+    {"pose", "x, y, z in mm and the quaternion x, y, z, w: of a thing's own axes in the world"},
+    {"camera",
+     "x right, y down, z forward; pixel (0, 0) is the middle of the upper left one; u = fx X / Z + cx"},
+    {"tool", "origin at the burr's centre, z along the spindle from tip to shank"},
+    {"depth", "float32 (height, width), mm along the camera's z; inf where there is nothing"},
+    {"ray_depth", "float32 (height, width), mm from the camera's centre; inf where there is nothing"},
+    {"labels", "8 bits, indices into the session's labels"},
+    {"normals",
+     "float16 (height, width, 3), unit, out of the surface, the camera's axes; 0 where there is nothing"},
+    {"colour", "8-bit sRGB"},
+    {"force_n", "on the hand, world axes, N"},
+    {"removed_mm3", "bone that was taken since the session began"},
+};
+
+}  // namespace
+
+Json json_of(const Pose& pose) {
+    return {pose.position_mm.x, pose.position_mm.y, pose.position_mm.z, pose.rotation.x,
+            pose.rotation.y,    pose.rotation.z,    pose.rotation.w};
+}
+
+DatasetIndex::DatasetIndex(const std::filesystem::path& recording, const std::string& version,
+                           std::span<const DatasetCamera> cameras, const DatasetOptions& options)
+    : file_(options.folder / (options.part.of == 1 ? "dataset.json"
+                                                   : fmt::format("dataset-{}-of-{}.json", options.part.number,
+                                                                 options.part.of))) {
+    all_ = {{"osteomill", version},
+            {"recording", recording.filename().string()},
+            {"gl_renderer", gl::renderer_name()},
+            {"conventions", conventions},
+            {"cameras", Json::array()},
+            {"sessions", Json::array()},
+            {"frames", Json::array()}};
+    for (const DatasetCamera& camera : cameras)
+        all_["cameras"].push_back({{"name", camera.name},
+                                   {"width_px", camera.pinhole.size_px.x},
+                                   {"height_px", camera.pinhole.size_px.y},
+                                   {"intrinsics", intrinsics_of(camera.pinhole)}});
+}
+
+void DatasetIndex::begin_session(const SessionInfo& session, const Grid& grid) {
+    Json labels = Json::array();
+    for (const SurfaceLabel& label : label_table(session.tissues))
+        labels.push_back({{"name", label.name}, {"rgb", label.colour_rgb}});
+    all_["sessions"].push_back({{"scene", session.scene_name},
+                                {"case", session.case_name},
+                                {"server_version", session.server_version},
+                                {"voxel_mm", grid.spacing_mm},
+                                {"labels", labels}});
+}
+
+void DatasetIndex::add_frame(std::size_t frame, const Playhead& playhead, Json images) {
+    const ToolState& state = *playhead.tool();
+    const SessionInfo& session = playhead.session();
+    const glm::dmat4 pose = pose_of(tool_as_thing(state, session));
+    Json tool{{"pose", json_of(pose_of(glm::dvec3(pose[3]), glm::dmat3(pose)))}};
+    if (state.burr < session.burrs.size()) {
+        const Burr& burr = session.burrs[state.burr];
+        tool["burr"] = burr.name;
+        tool["diameter_mm"] = burr.diameter_mm;
+        tool["spindle_rpm"] = state.spindle_on ? spindle_rpm(state, burr) : 0.0;
+    }
+    all_["frames"].push_back({{"frame", frame},
+                              {"session", all_["sessions"].size() - 1},
+                              {"recorded_s", playhead.time_s()},
+                              {"session_s", state.time_s},
+                              {"tool", tool},
+                              {"hand_mm", json_of(state.hand_position_mm)},
+                              {"force_n", json_of(state.force_n)},
+                              {"removed_mm3", state.removed_mm3},
+                              {"images", std::move(images)}});
+}
+
+void DatasetIndex::write() const {
+    write_atomic_file(file_, all_.dump() + "\n");
+}
+
+}  // namespace osteomill

@@ -1,0 +1,118 @@
+#include "render_client/dataset/dataset_run.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "render_client/dataset/dataset_index.h"
+#include "render_client/dataset/image_files.h"
+
+namespace osteomill {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Every state, or the first at or behind the beginning of each period.
+class Schedule {
+  public:
+    explicit Schedule(std::optional<double> frames_per_s) : frames_per_s_(frames_per_s) {}
+    bool is_due(double time_s) {
+        if (!frames_per_s_) return true;
+        // On the virtual clock a state lies on a period's beginning, but for rounding.
+        const double period = std::floor(time_s * *frames_per_s_ + 1e-6);
+        return period > std::exchange(period_, std::max(period_, period));
+    }
+
+  private:
+    std::optional<double> frames_per_s_;
+    double period_ = -std::numeric_limits<double>::infinity();
+};
+
+class DatasetRun {
+  public:
+    DatasetRun(const RenderOptions& options, const std::string& version)
+        : options_(*options.dataset),
+          cameras_(options_.cameras.empty() ? default_cameras() : read_cameras(options_.cameras)),
+          look_{.ambient_occlusion = options.ambient_occlusion,
+                .specular = static_cast<float>(options.specular)},
+          limits_{.budget_bytes = options.texture_budget_bytes},
+          playhead_(*options.replay),
+          context_(options.gpu),
+          index_(*options.replay, version, cameras_, options_),
+          schedule_(options_.frames_per_s) {
+        gl::require_opengl_3_3();
+        for (const DatasetCamera& camera : cameras_)
+            std::filesystem::create_directories(options_.folder / camera.name);
+        begin_session();
+    }
+
+    RenderReport run(const std::function<bool()>& stop_asked) {
+        while (!stop_asked()) {
+            const Playhead::Step step = playhead_.step(std::numeric_limits<double>::infinity());
+            if (step == Playhead::Step::end) break;
+            if (step == Playhead::Step::new_bone) begin_session();
+            if (step == Playhead::Step::state && schedule_.is_due(playhead_.time_s())) take_frame();
+        }
+        if (frames_ == 0)
+            throw std::runtime_error(options_.folder.string() + ": no frame: the recording holds no state");
+        index_.write();
+        RenderReport report;
+        report.frame_times = frame_times_;
+        report.gl_renderer = gl::renderer_name();
+        report.bone_checksum = playhead_.bone_checksum();
+        report.textures = images_->textures().plan();
+        return report;
+    }
+
+  private:
+    void begin_session() {
+        images_.emplace(playhead_, cameras_, look_, limits_);
+        index_.begin_session(playhead_.session(), playhead_.bone().grid());
+        colours_rgb_ = colours_of(label_table(playhead_.session().tissues));
+    }
+
+    void take_frame() {
+        const Clock::time_point start = Clock::now();
+        const std::size_t frame = frames_++;
+        images_->follow();
+        if (!options_.part.has(frame)) return;
+        const bool wants_surface = options_.images.depth || options_.images.ray_depth ||
+                                   options_.images.labels || options_.images.normals;
+        nlohmann::ordered_json files = nlohmann::ordered_json::array();
+        for (std::size_t i = 0; i < cameras_.size(); ++i)
+            files.push_back(write_images(options_, frame, cameras_[i],
+                                         images_->draw(i, options_.images.colour, wants_surface),
+                                         colours_rgb_));
+        index_.add_frame(frame, playhead_, std::move(files));
+        frame_times_.add(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    }
+
+    const DatasetOptions options_;
+    const std::vector<DatasetCamera> cameras_;
+    const SceneAppearance look_;
+    const TextureLimits limits_;
+    Playhead playhead_;
+    gl::OffscreenContext context_;
+    DatasetIndex index_;
+    Schedule schedule_;
+    std::optional<SessionImages> images_;
+    std::vector<std::array<std::uint8_t, 3>> colours_rgb_;
+    std::size_t frames_ = 0;  ///< of all parts
+    FrameTimes frame_times_;
+};
+
+}  // namespace
+
+RenderReport run_dataset(const RenderOptions& options, const std::string& version,
+                         const std::function<bool()>& stop_asked) {
+    return DatasetRun(options, version).run(stop_asked);
+}
+
+}  // namespace osteomill

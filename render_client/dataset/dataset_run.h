@@ -1,0 +1,22 @@
+// A run that turns a recording into an image set: for chosen frames and cameras the picture, depth, labels
+// and normals, and an index with the poses of all (dataset_index.h).
+//
+// Nothing depends on the time that it takes: the same command writes the same bytes on one machine.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "render_client/ui/options.h"
+#include "render_client/ui/report.h"
+
+namespace osteomill {
+
+/// Of options.replay as options.dataset says; `version` of the program goes into the index. What is there
+/// already under the same names is replaced. Ends early, with the index of what was written, when
+/// `stop_asked` says so. Throws std::runtime_error, in one line, for what cannot be read, drawn or written,
+/// SceneError for the cameras, and gl::NoOpenGl.
+RenderReport run_dataset(const RenderOptions& options, const std::string& version,
+                         const std::function<bool()>& stop_asked);
+
+}  // namespace osteomill

@@ -1,0 +1,83 @@
+#include "render_client/dataset/session_images.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "render_client/ui/view/first_view.h"
+#include "render_client/volume/structures/structure_surface.h"
+
+namespace osteomill {
+
+namespace {
+
+std::vector<TissueColour> solid_colours(std::span<const Tissue> tissues) {
+    std::vector<TissueColour> colours;
+    for (const Tissue& tissue : tissues)
+        colours.push_back({tissue.label, tissue.colour_rgb, tissue.opacity > 0.0 ? 1.0 : 0.0});
+    return colours;
+}
+
+}  // namespace
+
+DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session) {
+    DrawnTool tool{.state = state, .is_only_a_thing = true};
+    if (state.burr >= session.burrs.size()) return tool;
+    const Burr& burr = session.burrs[state.burr];
+    const bool clockwise = burr.sense == SpindleSense::clockwise;
+    tool.burr = {burr.diameter_mm, burr.head, burr.edges, clockwise};
+    if (!state.spindle_on) return tool;
+    const double turns = spindle_rpm(state, burr) / 60.0 * state.time_s;
+    // Clockwise seen from the shank is negative about the axis from tip to shank.
+    tool.spin_rad = (clockwise ? -2.0 : 2.0) * std::numbers::pi * (turns - std::floor(turns));
+    return tool;
+}
+
+SessionImages::SessionImages(Playhead& playhead, std::span<const DatasetCamera> cameras,
+                             const SceneAppearance& look, const TextureLimits& limits)
+    : playhead_(playhead),
+      tissues_(playhead.session().tissues),
+      textures_(playhead.bone(), solid_colours(tissues_), {}, limits) {
+    renderer_.set_look(look);
+    for (const DatasetCamera& camera : cameras) views_.push_back(std::make_unique<View>(camera, renderer_));
+    follow();
+}
+
+void SessionImages::follow() {
+    const std::vector<BrickChange> changes = playhead_.take_changes();
+    const std::span<const VoxelBox> changed = textures_.update(playhead_.bone(), changes);
+    for (const auto& view : views_) view->picture.mark_dirty(textures_, changed);
+    take_structures();
+    if (playhead_.tool() == nullptr || std::exchange(has_first_view_, true)) return;
+    first_view_ = pose_of(first_view(playhead_.bone(), textures_, &playhead_.session(), playhead_.tool()));
+}
+
+void SessionImages::take_structures() {
+    for (; structures_ < playhead_.structures().size(); ++structures_) {
+        const Structure& structure = playhead_.structures()[structures_];
+        if (structure.tissue >= tissues_.size() || tissues_[structure.tissue].opacity <= 0.0) continue;
+        const StructureSurface surface = surface_of(soft_part(structure.mask, playhead_.bone()),
+                                                    linear_from_srgb(tissues_[structure.tissue].colour_rgb));
+        for (const auto& view : views_) {
+            view->picture.add_structure(surface, 1.0);
+            view->surface.add_structure(surface, label_of_tissue(structure.tissue));
+        }
+    }
+}
+
+CameraImages SessionImages::draw(std::size_t camera, bool wants_colour, bool wants_surface) {
+    View& view = *views_.at(camera);
+    const BallInView ball = ball_round(textures_);
+    CameraImages images{.camera = view.camera.pose_at(playhead_.time_s(), first_view_),
+                        .colour = Picture(glm::ivec2(0))};
+    const Camera drawn = camera_of(view.camera.pinhole, images.camera, ball.centre_mm, ball.radius_mm);
+    std::optional<DrawnTool> tool;
+    if (playhead_.tool()) tool = tool_as_thing(*playhead_.tool(), playhead_.session());
+    const DrawnTool* shown = tool ? &*tool : nullptr;
+    if (wants_colour) images.colour = view.picture.draw(&textures_, shown, drawn).read_back();
+    if (!wants_surface) return images;
+    images.surface = view.surface.draw(textures_, shown, drawn);
+    images.labels = surface_labels(images.surface, drawn, playhead_.bone(), tissues_);
+    return images;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,63 @@
+// Images of one session of a recording: its bone's textures, and for each camera the picture and the surfaces
+// that it sees.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/recording/playhead.h"
+#include "render_client/dataset/camera_file.h"
+#include "render_client/dataset/surface_labels.h"
+#include "render_client/volume/passes/scene_picture.h"
+
+namespace osteomill {
+
+/// What a camera sees of one instant.
+struct CameraImages {
+    Pose camera{};
+    Picture colour;
+    SurfaceImage surface{};
+    std::vector<std::uint8_t> labels{};
+};
+
+/// A recorded tool as a thing: its burr in full, turned as far as its speed turns it by its time.
+DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session);
+
+class SessionImages {
+  public:
+    /// Of the session that `playhead`, which outlives it, has begun. Tissues are solid, but for those of
+    /// opacity 0, which are not there. Throws std::runtime_error where the bone cannot be drawn. Calls need a
+    /// context current.
+    SessionImages(Playhead& playhead, std::span<const DatasetCamera> cameras, const SceneAppearance& look,
+                  const TextureLimits& limits);
+
+    /// Takes up what changed since the last call, up to the playhead's instant. The first with a tool fixes
+    /// the first view.
+    void follow();
+    const BoneTextures& textures() const { return textures_; }
+    /// Of the instant that was followed last. With or without those that nobody reads.
+    CameraImages draw(std::size_t camera, bool wants_colour, bool wants_surface);
+
+  private:
+    struct View {
+        View(const DatasetCamera& its, BoneRenderer& renderer)
+            : camera(its), picture(renderer, its.pinhole.size_px), surface(its.pinhole.size_px) {}
+        DatasetCamera camera;
+        ScenePicture picture;
+        SurfacePass surface;
+    };
+    void take_structures();
+
+    Playhead& playhead_;
+    RaycastRenderer renderer_;
+    std::vector<Tissue> tissues_;
+    BoneTextures textures_;
+    std::vector<std::unique_ptr<View>> views_;
+    std::size_t structures_ = 0;  // of the playhead's, that were taken
+    bool has_first_view_ = false;
+    Pose first_view_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,88 @@
+#include "render_client/ui/dataset_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "common/program/option_checks.h"
+#include "common/text/words.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Kinds of images between commas. Throws CLI::ValidationError.
+DatasetImages images_named(const std::string& text) {
+    DatasetImages images{false, false, false, false, false};
+    const std::array kinds{
+        std::pair{"colour", &DatasetImages::colour}, std::pair{"depth", &DatasetImages::depth},
+        std::pair{"ray-depth", &DatasetImages::ray_depth}, std::pair{"labels", &DatasetImages::labels},
+        std::pair{"normals", &DatasetImages::normals}};
+    for (const std::string& name : cells_of(text)) {
+        const auto kind = std::ranges::find_if(kinds, [&](const auto& one) { return name == one.first; });
+        if (kind == kinds.end())
+            throw CLI::ValidationError(
+                "--dataset-images",
+                "has '" + name + "', not one of colour, depth, ray-depth, labels, normals");
+        images.*kind->second = true;
+    }
+    return images;
+}
+
+/// "2/8". Throws CLI::ValidationError.
+DatasetPart part_named(const std::string& text) {
+    const std::string_view all = text;
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    const auto number = parse_number<std::size_t>(all.substr(0, slash));
+    const auto of = parse_number<std::size_t>(all.substr(std::min(slash + 1, text.size())));
+    if (!number || !of || *number < 1 || *number > *of)
+        throw CLI::ValidationError("--shard", "'" + text + "' is no part I/N with 1 <= I <= N, such as 2/8");
+    return {*number, *of};
+}
+
+}  // namespace
+
+CLI::Option* add_dataset_options(CLI::App& app, DatasetOptions& dataset) {
+    auto* folder =
+        app.add_option("--dataset", dataset.folder,
+                       "Write an image set of the recording: pictures, depth, labels, normals and poses "
+                       "(docs/datasets.md)")
+            ->type_name("DIR");
+    app.add_option_function<std::string>(
+           "--cameras",
+           [&](const std::string& text) {
+               if (text == "trainee")
+                   throw CLI::ValidationError(
+                       "--cameras",
+                       "a recording does not hold the trainee's view; write a path of the camera");
+               dataset.cameras = text;
+           },
+           "Cameras of the image set, a TOML file (one, at the first view)")
+        ->type_name("FILE")
+        ->needs(folder);
+    app.add_option("--dataset-fps", dataset.frames_per_s,
+                   "Frames a recorded second of the image set (every recorded state)")
+        ->check(within(0.001, 1000.0))
+        ->needs(folder);
+    app.add_option_function<std::string>(
+           "--dataset-images", [&](const std::string& text) { dataset.images = images_named(text); },
+           "What is written, of colour, depth, ray-depth, labels, normals (all but ray-depth)")
+        ->type_name("KIND,...")
+        ->needs(folder);
+    app.add_option_function<std::string>(
+           "--shard", [&](const std::string& text) { dataset.part = part_named(text); },
+           "Only part I of N of the image set's frames, for one process among several")
+        ->type_name("I/N")
+        ->needs(folder);
+    // An image set shows things as they are, alike in picture and numbers.
+    for (const char* other :
+         {"--renderer", "--shading", "--transfer", "--look", "--cut", "--stereo", "--magnification",
+          "--light-field", "--inset", "--screenshots", "--offscreen", "--sound", "--speed", "--window-size"})
+        folder->excludes(app.get_option(other));
+    return folder;
+}
+
+}  // namespace osteomill

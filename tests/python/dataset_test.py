@@ -1,0 +1,222 @@
+"""Image sets of recordings, read by PIL and NumPy: what they hold is of one instant, and the same each time."""
+
+import hashlib
+import json
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+from PIL import Image
+from support import program, run_server
+
+CAMERAS = """[[cameras]]
+name = "side"
+eye_mm = [50, -40, 35]
+target_mm = [0, 0, 3]
+width_px = 320
+height_px = 240
+intrinsics = [[700, 0, 150], [0, 690, 130], [0, 0, 1]]
+baseline_mm = 4
+convergence_mm = 70
+
+[[cameras]]
+name = "moving"
+path = "path.csv"
+width_px = 200
+height_px = 160
+intrinsics = [[400, 0, 99.5], [0, 400, 79.5], [0, 0, 1]]
+"""
+# Straight down onto the tooth, the patient's front at the picture's lower edge.
+PATH = "time_s,x,y,z,qx,qy,qz,qw\n0,0,0,45,1,0,0,0\n3,3,-2,45,1,0,0,0\n"
+TRAJECTORY = """t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal,burr
+0.0,0.5,0.2,5.5,0,0,1,0,2
+0.4,0.5,0.2,4.5,0,0,1,1,2
+1.6,0.5,0.2,2.6,0,0.1,1,1,2
+2.4,-1.8,0.2,2.6,0.2,0.1,1,1,2
+"""
+
+
+def rotation(q):
+    """Of a quaternion x, y, z, w."""
+    x, y, z, w = q
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def to_world(pose, points):
+    return points @ rotation(pose[3:]).T + pose[:3]
+
+
+def from_world(pose, points):
+    return (points - pose[:3]) @ rotation(pose[3:])
+
+
+def render(folder, *arguments):
+    return subprocess.run([program("render_client"), *arguments], capture_output=True, text=True, check=False, cwd=folder)
+
+
+def hashes(folder):
+    return {str(file.relative_to(folder)): hashlib.sha256(file.read_bytes()).hexdigest()
+            for file in sorted(folder.rglob("*")) if file.is_file()}
+
+
+class DatasetTest(unittest.TestCase):
+    """A session of the tooth, ten frames a second, a pair of cameras and one that moves."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        (cls.folder / "hand.csv").write_text(TRAJECTORY)
+        (cls.folder / "cameras.toml").write_text(CAMERAS)
+        (cls.folder / "path.csv").write_text(PATH)
+        cls.measured, cls.log, _ = run_server(cls.folder, "--scene", "tooth", "--record", cls.folder / "s.pcap",
+                                              "--trajectory", cls.folder / "hand.csv", "--duration-s", "2.4")
+        cls.make("set", "--dataset-images", "colour,depth,ray-depth,labels,normals")
+        cls.index = json.loads((cls.folder / "set/dataset.json").read_text())
+        cls.cameras = {camera["name"]: np.array(camera["intrinsics"]) for camera in cls.index["cameras"]}
+        cls.labels = [label["name"] for label in cls.index["sessions"][0]["labels"]]
+
+    @classmethod
+    def make(cls, name, *arguments):
+        ran = render(cls.folder, "--replay", "s.pcap", "--dataset", name, "--dataset-fps", "10", "--cameras",
+                     "cameras.toml", *arguments)
+        if ran.returncode != 0:
+            raise AssertionError(ran.stderr)
+
+    def image(self, frame, camera, kind):
+        images = {images["camera"]: images for images in self.index["frames"][frame]["images"]}[camera]
+        file = self.folder / "set" / images[kind]
+        return np.load(file) if file.suffix == ".npy" else np.array(Image.open(file))
+
+    def pose(self, frame, camera):
+        return np.array({images["camera"]: images for images in self.index["frames"][frame]["images"]}[camera]["pose"])
+
+    def points(self, frame, camera):
+        """In the world, of every pixel."""
+        depth, k = self.image(frame, camera, "depth").astype(float), self.cameras[camera]
+        v, u = np.mgrid[:depth.shape[0], :depth.shape[1]]
+        seen = np.stack([(u - k[0, 2]) / k[0, 0], (v - k[1, 2]) / k[1, 1], np.ones_like(depth)], -1)
+        with np.errstate(invalid="ignore"):
+            return to_world(self.pose(frame, camera), seen * depth[..., None])
+
+    def project(self, frame, camera, points):
+        seen, k = from_world(self.pose(frame, camera), points), self.cameras[camera]
+        return seen[:, :2] / seen[:, 2:] * [k[0, 0], k[1, 1]] + [k[0, 2], k[1, 2]], seen[:, 2]
+
+    def is_tool(self, labels):
+        return (labels == self.labels.index("burr")) | (labels == self.labels.index("shank"))
+
+    def test_files_are_what_the_index_says(self):
+        self.assertEqual(len(self.index["frames"]), 25)
+        self.assertEqual(list(self.cameras), ["side_left", "side_right", "moving"])
+        for camera, (height, width) in {"side_left": (240, 320), "moving": (160, 200)}.items():
+            self.assertEqual(self.image(3, camera, "colour").shape, (height, width, 3))
+            for kind, dtype, shape in (("depth", "float32", (height, width)), ("ray_depth", "float32", (height, width)),
+                                       ("labels", "uint8", (height, width)), ("normals", "float16", (height, width, 3))):
+                self.assertEqual(self.image(3, camera, kind).dtype, dtype)
+                self.assertEqual(self.image(3, camera, kind).shape, shape)
+        with Image.open(self.folder / "set/side_left/000003_labels.png") as labels:
+            self.assertEqual(labels.mode, "P")
+            palette = np.array(labels.getpalette()).reshape(-1, 3)
+        for number, label in enumerate(self.index["sessions"][0]["labels"]):
+            self.assertEqual(list(palette[number]), label["rgb"])
+
+    def test_images_agree_with_each_other(self):
+        labels, depth = self.image(20, "side_left", "labels"), self.image(20, "side_left", "depth")
+        normals = self.image(20, "side_left", "normals").astype(float)
+        self.assertTrue(np.array_equal(labels == 0, np.isinf(depth)))
+        length = np.linalg.norm(normals, axis=2)
+        self.assertTrue(np.all(length[labels == 0] == 0.0))
+        np.testing.assert_allclose(length[labels > 0], 1.0, atol=2e-3)
+        # The ray's length is the distance from the camera.
+        away = np.linalg.norm(self.points(20, "side_left") - self.pose(20, "side_left")[:3], axis=2)
+        seen = labels > 0
+        np.testing.assert_allclose(self.image(20, "side_left", "ray_depth")[seen], away[seen], rtol=1e-6)
+        names = {self.labels[number] for number in np.unique(labels)}
+        self.assertLessEqual({"burr", "shank", "nothing"}, names)
+        self.assertGreater(len(names), 4, names)
+
+    def test_frames_are_of_one_instant(self):
+        for frame in self.index["frames"][1:]:
+            row = self.log[np.argmin(np.abs(self.log["t_s"] - frame["session_s"]))]
+            self.assertAlmostEqual(frame["recorded_s"] * 10, round(frame["recorded_s"] * 10), delta=0.4)
+            self.assertLess(abs(row["t_s"] - frame["session_s"]), 1.5e-3)
+            self.assertLess(np.linalg.norm([row["force_x_n"], row["force_y_n"], row["force_z_n"]] - np.array(frame["force_n"])), 0.5)
+            self.assertLess(np.linalg.norm([row["burr_x_mm"], row["burr_y_mm"], row["burr_z_mm"]] - np.array(frame["tool"]["pose"][:3])), 0.05)
+        self.assertAlmostEqual(self.index["frames"][-1]["removed_mm3"], self.measured["removed_mm3"]["total"], delta=0.05)
+
+    def test_a_point_of_the_tool_lands_by_the_poses_on_the_tool_of_the_next_frame(self):
+        off_px, hits, landed = [], 0, 0
+        for camera in ("side_left", "moving"):
+            for frame in range(4, 24):
+                labels = self.image(frame, camera, "labels")
+                tool, next_tool = (np.array(self.index["frames"][i]["tool"]["pose"]) for i in (frame, frame + 1))
+                points = self.points(frame, camera)[self.is_tool(labels)]
+                moved = to_world(next_tool, from_world(tool, points))
+                pixels, depth = self.project(frame + 1, camera, moved)
+                nearest = np.rint(pixels).astype(int)
+                next_labels, next_depth = (self.image(frame + 1, camera, kind) for kind in ("labels", "depth"))
+                inside = np.all((nearest >= 1) & (nearest < np.array(next_labels.shape)[::-1] - 1), axis=1)
+                moved, depth, nearest = moved[inside], depth[inside], nearest[inside]
+                at = nearest[:, 1], nearest[:, 0]
+                # What the burr's turning has brought to its back, or bone hides, cannot be seen; the rest lies on
+                # the surface that is seen there.
+                seen = np.abs(next_depth[at] - depth) < 0.3
+                hits += seen.sum()
+                landed += self.is_tool(next_labels[at])[seen].sum()
+                normals = self.image(frame + 1, camera, "normals")[at].astype(float)[seen] @ rotation(self.pose(frame + 1, camera)[3:]).T
+                off_mm = np.abs(np.sum((moved - self.points(frame + 1, camera)[at])[seen] * normals, axis=1))
+                off_px.append(off_mm * self.cameras[camera][0, 0] / depth[seen])
+        off_px = np.concatenate(off_px)
+        self.assertGreater(hits, 20_000)
+        self.assertGreater(landed / hits, 0.99)
+        self.assertLess(np.percentile(off_px, 95), 0.5)
+
+    def test_a_pair_sees_the_same_surface(self):
+        points = self.points(24, "side_left")[self.image(24, "side_left", "labels") > 3]
+        pixels, depth = self.project(24, "side_right", points)
+        u, v = np.rint(pixels).astype(int).T
+        inside = (u >= 0) & (u < 320) & (v >= 0) & (v < 240)
+        difference = np.abs(self.image(24, "side_right", "depth")[v[inside], u[inside]] - depth[inside])
+        self.assertLess(np.median(difference), 0.1)
+        baseline = self.pose(24, "side_right")[:3] - self.pose(24, "side_left")[:3]
+        self.assertAlmostEqual(np.linalg.norm(baseline), 4.0, places=9)
+
+    def test_the_same_command_writes_the_same_bytes_and_parts_those_of_the_whole(self):
+        whole = hashes(self.folder / "set")
+        kinds = "--dataset-images", "colour,depth,ray-depth,labels,normals"
+        self.make("again", *kinds)
+        self.assertEqual(hashes(self.folder / "again"), whole)
+        for part in ("1/3", "2/3", "3/3"):
+            self.make("parts", *kinds, "--shard", part)
+        parts = hashes(self.folder / "parts")
+        frames = []
+        for part in (1, 2, 3):
+            name = f"dataset-{part}-of-3.json"
+            del parts[name]
+            frames += json.loads((self.folder / "parts" / name).read_text())["frames"]
+        del whole["dataset.json"]
+        self.assertEqual(parts, whole)
+        self.assertEqual(sorted(frames, key=lambda frame: frame["frame"]), self.index["frames"])
+
+    def test_what_cannot_be_is_said_in_one_line(self):
+        for arguments, words in ((("--dataset", "x"), "--dataset needs --replay"),
+                                 (("--replay", "s.pcap", "--shard", "1/2"), "--dataset"),
+                                 (("--replay", "s.pcap", "--dataset", "x", "--shard", "3/2"), "'3/2' is no part"),
+                                 (("--replay", "s.pcap", "--dataset", "x", "--dataset-images", "depht"), "'depht'"),
+                                 (("--replay", "s.pcap", "--dataset", "x", "--cameras", "trainee"), "trainee's view"),
+                                 (("--replay", "s.pcap", "--dataset", "x", "--cameras", "none.toml"), "none.toml"),
+                                 (("--replay", "hand.csv", "--dataset", "x"), "hand.csv")):
+            ran = render(self.folder, *arguments)
+            self.assertNotEqual(ran.returncode, 0, arguments)
+            self.assertEqual(len(ran.stderr.strip().splitlines()), 1, ran.stderr)
+            self.assertIn(words, ran.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,60 @@
+#include "render_client/dataset/pinhole.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+namespace osteomill::pinhole_test {
+namespace {
+
+const Pinhole skewed{{640, 480}, {800.0, 700.0}, {300.0, 260.0}};
+
+/// As the header has it.
+glm::dvec2 projected(const Pinhole& pinhole, const Pose& pose, const glm::dvec3& point_mm) {
+    const glm::dvec3 seen = glm::conjugate(pose.rotation) * (point_mm - pose.position_mm);
+    return pinhole.focal_px * glm::dvec2(seen) / seen.z + pinhole.centre_px;
+}
+
+TEST(PinholeTest, IsDrawnByACameraThatSeesEveryPointAtItsPixel) {
+    const glm::dvec3 place_mm(10.0, -60.0, 40.0);
+    for (const glm::dvec3 up : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0.2, -0.4), glm::dvec3(0, 0, -1)}) {
+        const Pose pose = looking_at(place_mm, {3.0, 2.0, 1.0}, up);
+        const Camera camera = camera_of(skewed, pose, glm::dvec3(0.0), 20.0);
+        EXPECT_NEAR(glm::distance(camera.eye_mm(), place_mm), 0.0, 1e-9);
+        for (const glm::dvec3 point_mm : {glm::dvec3(0.0), glm::dvec3(9, -8, 7), glm::dvec3(-15, 3, -9)}) {
+            // pixel_of counts from the picture's corner, a pinhole from the middle of a pixel.
+            const glm::dvec2 drawn = pixel_of(camera, point_mm, skewed.size_px) - 0.5;
+            EXPECT_NEAR(glm::distance(drawn, projected(skewed, pose, point_mm)), 0.0, 1e-8);
+            const glm::dvec3 back = direction_through(camera, drawn + 0.5, skewed.size_px);
+            EXPECT_NEAR(glm::distance(back, glm::normalize(point_mm - place_mm)), 0.0, 1e-9);
+            const glm::dvec4 clip =
+                camera.projection(skewed.size_px) * camera.view() * glm::dvec4(point_mm, 1.0);
+            const glm::dvec2 in_picture =
+                0.5 * (glm::dvec2(clip) / clip.w + 1.0) * glm::dvec2(skewed.size_px);
+            EXPECT_NEAR(in_picture.x, drawn.x + 0.5, 1e-8);
+            EXPECT_NEAR(skewed.size_px.y - in_picture.y, drawn.y + 0.5, 1e-8);
+        }
+    }
+}
+
+TEST(PinholeTest, LooksStraightDownWithWhatIsGivenAsUp) {
+    const Pose pose = looking_at({0.0, 0.0, 50.0}, glm::dvec3(0.0), {0.0, 1.0, 0.0});
+    const Camera camera = camera_of(skewed, pose, glm::dvec3(0.0), 20.0);
+    EXPECT_NEAR(glm::distance(camera.up(), glm::dvec3(0, 1, 0)), 0.0, 1e-9);
+    EXPECT_NEAR(glm::distance(camera.right(), glm::dvec3(1, 0, 0)), 0.0, 1e-9);
+    EXPECT_TRUE(std::isfinite(looking_at({0, 0, 5}, {0, 0, 0}, {0, 0, 1}).rotation.w));
+}
+
+TEST(PinholeTest, TakesUpThePoseOfACamera) {
+    Camera camera = camera_on({1.0, 2.0, 3.0}, 30.0);
+    const Pinhole pinhole = pinhole_of({320, 240}, camera.field_of_view_rad);
+    const Camera again = camera_of(pinhole, pose_of(camera), {1.0, 2.0, 3.0}, 30.0);
+    EXPECT_NEAR(glm::distance(again.eye_mm(), camera.eye_mm()), 0.0, 1e-9);
+    EXPECT_NEAR(again.azimuth_rad, camera.azimuth_rad, 1e-9);
+    EXPECT_NEAR(again.elevation_rad, camera.elevation_rad, 1e-9);
+    EXPECT_NEAR(again.roll_rad, 0.0, 1e-9);
+    EXPECT_NEAR(again.field_of_view_rad, camera.field_of_view_rad, 1e-12);
+    EXPECT_NEAR(again.middle_slope, 0.0, 1e-12);
+    EXPECT_NEAR(again.middle_rise, 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace osteomill::pinhole_test
