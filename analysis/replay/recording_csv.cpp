@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <stdexcept>
 
+#include "common/scene/trajectory_columns.h"
 #include "common/text/csv_cell.h"
 
 namespace osteomill {
@@ -29,6 +31,13 @@ constexpr const char* state_columns =
     "hand_z_mm,force_x_n,force_y_n,force_z_n,burr,spindle,removed_mm3,nearest_structure,"
     "nearest_structure_mm\n";
 
+/// Time, place and direction with the decimals of a tick.
+void append_waypoint(fmt::memory_buffer& text, double time_s, const glm::dvec3& hand_mm,
+                     const glm::dvec3& axis, bool pedal, std::size_t burr) {
+    fmt::format_to(std::back_inserter(text), "{:.4f},{},{},{},{}\n", time_s, xyz(hand_mm, 4), xyz(axis, 6),
+                   pedal ? 1 : 0, burr);
+}
+
 void append_state(fmt::memory_buffer& text, const Playhead& playhead) {
     const ToolState& tool = *playhead.tool();
     fmt::format_to(std::back_inserter(text), "{:.4f},{:.4f},{},{},{},{},{},{},{:.5f},{}\n", playhead.time_s(),
@@ -48,7 +57,10 @@ RecordingCsv::RecordingCsv(const std::filesystem::path& file, CsvLines lines)
 
 void RecordingCsv::add(const Playhead& playhead) {
     fmt::memory_buffer text;
-    if (lines_ == CsvLines::ticks && playhead.session().holds_ticks) {
+    if (lines_ == CsvLines::trajectory) {
+        begin_columns(fmt::format("{}{}\n", trajectory_columns, trajectory_burr_column));
+        add_waypoints(text, playhead);
+    } else if (lines_ == CsvLines::ticks && playhead.session().holds_ticks) {
         if (playhead.ticks().empty()) return;
         begin_columns(TickSample::header_line(playhead.ticks().front().shank_torque_n_mm.has_value()));
         for (const TickSample& tick : playhead.ticks()) tick.append_to(text);
@@ -57,6 +69,29 @@ void RecordingCsv::add(const Playhead& playhead) {
         append_state(text, playhead);
     }
     out_.write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+void RecordingCsv::add_waypoints(fmt::memory_buffer& text, const Playhead& playhead) {
+    const auto add = [&](double time_s, const auto&... rest) {
+        const double since_s = std::round(1e4 * (time_s - trajectory_begins_s_.value_or(time_s))) / 1e4;
+        if (since_s < waypoint_s_)
+            throw std::runtime_error(
+                fmt::format("{}: the recording holds more than one session, and a trajectory is of one: cut "
+                            "them apart, with editcap for instance",
+                            file_.path().string()));
+        // The state of a session that stands still.
+        if (trajectory_begins_s_ && since_s == waypoint_s_) return;
+        if (!trajectory_begins_s_) trajectory_begins_s_ = time_s;
+        waypoint_s_ = since_s;
+        append_waypoint(text, since_s, rest...);
+    };
+    if (playhead.session().holds_ticks) {
+        for (const TickSample& tick : playhead.ticks())
+            add(tick.time_s, tick.hand_mm, tick.spindle_axis, tick.spindle_on, tick.burr);
+    } else {
+        const ToolState& tool = *playhead.tool();
+        add(tool.time_s, tool.hand_position_mm, tool.spindle_axis, tool.spindle_on, tool.burr);
+    }
 }
 
 void RecordingCsv::begin_columns(const std::string& header_line) {

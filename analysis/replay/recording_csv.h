@@ -2,8 +2,11 @@
 // frame.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "common/files/atomic_file.h"
@@ -14,6 +17,7 @@ namespace osteomill {
 enum class CsvLines {
     ticks,  ///< of a recording that holds none: states
     states,
+    trajectory,  ///< of the hand; a line a tick, where there are ticks
 };
 
 /// Ticks: as haptic_server --log-csv writes them, to the digit (tick_sample.h).
@@ -22,22 +26,29 @@ enum class CsvLines {
 /// force_y_n, force_z_n (on the hand), burr (its name, quoted), spindle (1: on), removed_mm3 (as the server
 /// counted), nearest_structure (quoted name of the protected one; empty: none is near), nearest_structure_mm
 /// (0 and below: the burr overlaps it). Patient LPS.
+/// Trajectory: as simulated hands follow it (trajectory_columns.h), from time 0 at the recording's first
+/// line; the pedal is down where the spindle turned. What else was done to the session (undo, place) is no
+/// motion.
 class RecordingCsv {
   public:
     /// Throws std::runtime_error where the file cannot be written.
     RecordingCsv(const std::filesystem::path& file, CsvLines lines);
-    /// Throws std::runtime_error where a session that was joined to another has other columns.
+    /// Throws std::runtime_error where a session that was joined to another has other columns, or would
+    /// follow it in a trajectory.
     void add(const Playhead& playhead);
     /// Makes it the file, which is as it was until then. Throws std::runtime_error where a line could not be
     /// written.
     void close();
 
   private:
+    void add_waypoints(fmt::memory_buffer& text, const Playhead& playhead);
     void begin_columns(const std::string& header_line);
 
     AtomicFile file_;
     const CsvLines lines_;
     std::string header_line_;  // empty before the first line
+    std::optional<double> trajectory_begins_s_{};
+    double waypoint_s_ = 0.0;  // of the last
     std::ofstream out_;
 };
 

@@ -13,13 +13,13 @@
 #include "common/files/input_file.h"
 #include "common/files/table_line.h"
 #include "common/scene/session_control.h"
+#include "common/scene/trajectory_columns.h"
 #include "common/text/words.h"
 
 namespace osteomill {
 
 namespace {
 
-constexpr std::string_view header = "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal";
 constexpr std::size_t columns_without_burr = 8;
 
 /// Reads one file line by line and knows where it is.
@@ -59,15 +59,15 @@ class CsvReader {
     }
 
     void read_header() {
-        const std::string with_burr = fmt::format("{},burr", header);
+        const std::string with_burr = fmt::format("{}{}", trajectory_columns, trajectory_burr_column);
         const bool found = next_line();
-        if (found && line_ == header) return;
+        if (found && line_ == trajectory_columns) return;
         if (found && line_ == with_burr) {
             has_burr_ = true;
             return;
         }
         line_number_ = std::max<std::size_t>(line_number_, 1);
-        refuse(fmt::format("the first line must be {}[,burr]", header));
+        refuse(fmt::format("the first line must be {}[{}]", trajectory_columns, trajectory_burr_column));
     }
 
     Waypoint waypoint() {

@@ -41,6 +41,12 @@ struct HandModel {
 /// How the stylus is held. `firm` is the default of the programs: a dentist holds the handpiece in a pen grip
 /// with the ring finger rested on a tooth, which is the stiffer of the two.
 enum class Grip { light, firm };
+/// Of no hand at all: the stylus is guided, and no force holds it back.
+inline constexpr const char* rails_name = "rails";
+
+inline const char* name_of(std::optional<Grip> grip) {
+    return !grip ? rails_name : *grip == Grip::light ? "light" : "firm";
+}
 
 inline HandModel hand_model(Grip grip) {
     switch (grip) {

@@ -12,6 +12,7 @@
 
 #include "common/scene/scene.h"
 #include "devices/simulated/held_arm.h"
+#include "devices/simulated/prescribed_device.h"
 #include "devices/simulated/trajectory.h"
 #include "simulation/device/haptic_device.h"
 
@@ -29,6 +30,9 @@ class SimulatedDevice final : public HapticDevice {
     /// the trajectory begins.
     SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm,
                     const HandModel& hand);
+    /// On rails: at every moment where the trajectory has it, whatever the force, as the arm that was
+    /// recorded was.
+    SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm);
 
     std::string name() const override { return "simulated arm"; }
     DeviceLimits limits() const override { return limits_of(arm_); }
@@ -51,11 +55,13 @@ class SimulatedDevice final : public HapticDevice {
 
   private:
     double pace(const glm::dvec3& target_in_device_mm) const noexcept;
+    DeviceState read_on_rails(double now_s) noexcept;
 
     Trajectory trajectory_;
     DeviceMapping mapping_;
     ArmModel arm_;
     HeldArm held_arm_;
+    std::optional<PrescribedDevice> rails_{};
     double read_at_s_ = 0.0;
     double trajectory_time_s_ = 0.0;
     std::atomic<bool> is_finished_{false};

@@ -114,8 +114,11 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--rpm", typed.spindle_rpm, "Spindle speed of every burr, in place of the scene's")
         ->check(within(least_spindle_rpm, most_spindle_rpm));
     typed.device.declare(app);
-    app.add_option("--grip", typed.grip, "How the simulated hand holds the arm")
-        ->check(one_of({"light", "firm"}))
+    app.add_option(
+           "--grip", typed.grip,
+           "How the simulated hand holds the arm; on rails it is where the trajectory has it, whatever the "
+           "force")
+        ->check(one_of({"light", "firm", rails_name}))
         ->capture_default_str();
     app.add_option("--trajectory", typed.trajectory,
                    "What the simulated hand follows, instead of the scene's")
@@ -187,9 +190,10 @@ void declare(CLI::App& app, Typed& typed) {
            "Write the milling force of every milling step; with --force-model milling-instants at 10 kHz, "
            "the force within the tooth period")
         ->type_name("FILE");
-    app.add_flag("--check", typed.check,
-                 "Look whether the machine is ready for a session with these options, say for all that is not "
-                 "what it costs and what mends it, and end: 0 where nothing is wrong, else 1");
+    app.add_flag(
+        "--check", typed.check,
+        "Look whether the machine is ready for a session with these options, say for all that is not "
+        "what it costs and what mends it, and end: 0 where nothing is wrong, else 1");
 }
 
 std::optional<std::filesystem::path> path_if_given(const std::string& text) {
@@ -316,6 +320,9 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
             "{}: of a scene; --bone alone has none, name one with --scene", options.scene.changes.option));
     if (typed.spindle_rpm > 0.0) options.scene.spindle_rpm = typed.spindle_rpm;
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;
+    if (typed.grip == rails_name) options.grip.reset();
+    if (!options.grip && !device.is_simulated)
+        throw std::invalid_argument(fmt::format("--grip {}: goes with --device simulated", rails_name));
     options.scene.trajectory = path_if_given(typed.trajectory);
     options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
     options.session.coupling = checked_coupling(typed, device);

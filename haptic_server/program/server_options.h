@@ -17,7 +17,7 @@ namespace osteomill {
 struct ServerOptions {
     SceneChoice scene;
     DeviceChoice device;
-    Grip grip = Grip::firm;
+    std::optional<Grip> grip = Grip::firm;  ///< nothing: on rails
     MillingSessionOptions session;
     LogFiles logs;
     std::optional<ListenAddress> listen;  ///< nullopt: nobody is served
@@ -28,7 +28,7 @@ struct ServerOptions {
     bool records_ticks = true;                       ///< not only states
     OutputFiles outputs;
     std::string trainee;
-    std::string case_name;  ///< for people; empty: of no case
+    std::string case_name;        ///< for people; empty: of no case
     bool checks_machine = false;  ///< and does nothing else
 };
 

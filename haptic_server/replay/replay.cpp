@@ -49,16 +49,20 @@ void read(const ReplayOptions& options, const std::atomic<bool>& stop) {
     if (options.csv) csv.emplace(*options.csv, CsvLines::ticks);
     std::optional<RecordingCsv> states_csv;
     if (options.states_csv) states_csv.emplace(*options.states_csv, CsvLines::states);
+    std::optional<RecordingCsv> trajectory;
+    if (options.trajectory) trajectory.emplace(*options.trajectory, CsvLines::trajectory);
     std::optional<RecordingSound> sound;
     if (options.sound) sound.emplace(*options.sound);
     const RecordingSummary summary = summarise(options.recording, [&](const Playhead& playhead) {
         require_going_on(stop);
         if (csv) csv->add(playhead);
         if (states_csv) states_csv->add(playhead);
+        if (trajectory) trajectory->add(playhead);
         if (sound) sound->add(playhead);
     });
     if (csv) csv->close();
     if (states_csv) states_csv->close();
+    if (trajectory) trajectory->close();
     if (sound) sound->close();
     // Names may be what a hostile file holds: bytes that are no UTF-8 must not cost the whole report.
     if (options.json)
@@ -117,7 +121,8 @@ void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, con
         if (options.hdf5)
             error =
                 write_hdf5(options.recording, *options.hdf5, options.layout, [&] { require_going_on(stop); });
-        if (options.info || options.json || options.csv || options.states_csv || options.sound)
+        if (options.info || options.json || options.csv || options.states_csv || options.trajectory ||
+            options.sound)
             read(options, stop);
         if (!error.empty()) throw std::runtime_error(error);
         return;

@@ -40,6 +40,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     std::string json;
     std::string csv;
     std::string states_csv;
+    std::string trajectory;
     std::string surface;
     std::string difference;
     std::string sound;
@@ -72,6 +73,10 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
                    "Write time, pose, force, burr, spindle, removed volume and the nearest structure, a line "
                    "a frame; serve nobody")
         ->type_name("FILE");
+    app.add_option("--trajectory", trajectory,
+                   "Write the hand's motion, for another session that makes it again (haptic_server "
+                   "--grip rails --trajectory FILE); serve nobody")
+        ->type_name("FILE.csv");
     app.add_option("--surface", surface,
                    "Write the surface of the bone as it is at the end, closed, in mm of patient LPS, to this "
                    ".stl, .ply or .obj; serve nobody")
@@ -100,6 +105,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     if (!json.empty()) options.json = json;
     if (!csv.empty()) options.csv = csv;
     if (!states_csv.empty()) options.states_csv = states_csv;
+    if (!trajectory.empty()) options.trajectory = trajectory;
     if (!surface.empty()) options.surface = surface;
     if (!difference.empty()) options.difference = difference;
     if (!sound.empty()) options.sound = sound;
@@ -119,6 +125,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     if (options.json) files.push_back({"--json", *options.json});
     if (options.csv) files.push_back({"--csv", *options.csv});
     if (options.states_csv) files.push_back({"--states-csv", *options.states_csv});
+    if (options.trajectory) files.push_back({"--trajectory", *options.trajectory});
     if (options.surface) files.push_back({"--surface", *options.surface});
     if (options.difference) files.push_back({"--difference", *options.difference});
     if (options.sound) files.push_back({"--sound", *options.sound});
@@ -131,11 +138,10 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     require_distinct(files);
     for (const CLI::Option* serving : {where, speed, from})
         if (options.only_reads() && serving->count() > 0)
-            throw std::invalid_argument(
-                fmt::format("{} is for showing a recording; --info, --json, --csv, --states-csv, --surface, "
-                            "--difference, "
-                            "--sound, --hdf5 and --report read all of it",
-                            serving->get_name()));
+            throw std::invalid_argument(fmt::format(
+                "{} is for showing a recording; --info, --json, --csv, --states-csv, "
+                "--trajectory, --surface, --difference, --sound, --hdf5 and --report read all of it",
+                serving->get_name()));
     try {
         options.listen = parse_listen_address(listen);
     } catch (const std::invalid_argument& error) {

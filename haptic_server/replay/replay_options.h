@@ -21,6 +21,7 @@ struct ReplayOptions {
     std::optional<std::filesystem::path> json;
     std::optional<std::filesystem::path> csv;  ///< of ticks, where the recording holds them
     std::optional<std::filesystem::path> states_csv;
+    std::optional<std::filesystem::path> trajectory;  ///< for haptic_server --trajectory
     std::optional<std::filesystem::path> surface;     ///< of the bone that is left
     std::optional<std::filesystem::path> difference;  ///< what was removed since the recording began
     std::optional<std::filesystem::path> sound;       ///< of the burr, as WAV
@@ -30,7 +31,8 @@ struct ReplayOptions {
 
     /// Whether it is only looked into, and shown to nobody.
     bool only_reads() const {
-        return info || json || csv || states_csv || surface || difference || sound || hdf5 || report;
+        return info || json || csv || states_csv || trajectory || surface || difference || sound || hdf5 ||
+               report;
     }
 };
 

@@ -40,7 +40,7 @@ struct DeviceParts {
 /// What a device is made for.
 struct DeviceContext {
     const Scene& scene;
-    Grip grip;                      ///< of a simulated hand
+    std::optional<Grip> grip;       ///< of a simulated hand; nothing: the simulated one is on rails
     const std::atomic<bool>& stop;  ///< ends a wait for an arm
     /// Hears what is waited for, and what has come.
     std::function<void(const std::string&)> say = [](const std::string&) {};

@@ -15,8 +15,8 @@ const std::vector<DeviceEntry>& devices();
 /// Throws std::invalid_argument for a name that is not there.
 const DeviceEntry& find_device(const std::string& name);
 
-/// Without a command line: an arm in a hand that follows the scene's trajectory.
-DeviceParts simulated_hand(const Scene& scene, Grip grip);
+/// Without a command line: an arm in a hand that follows the scene's trajectory; without a grip on rails.
+DeviceParts simulated_hand(const Scene& scene, std::optional<Grip> grip);
 
 DeviceEntry simulated_entry();
 DeviceEntry client_entry();

@@ -5,15 +5,15 @@
 namespace osteomill {
 
 nlohmann::ordered_json session_settings(const MillingSessionOptions& milling, const SceneChoice& choice,
-                                        const Scene& scene, const std::string& device, Grip grip,
-                                        const std::string& version) {
+                                        const Scene& scene, const std::string& device,
+                                        std::optional<Grip> grip, const std::string& version) {
     const Burr& burr = scene.burrs.at(scene.start_burr);
     nlohmann::ordered_json json{{"version", version},
                                 {"scene", scene.name},
                                 {"force_model", milling.force_model},
                                 {"coupling", milling.coupling},
                                 {"device", device},
-                                {"grip", grip == Grip::light ? "light" : "firm"},
+                                {"grip", name_of(grip)},
                                 {"burr", burr.name},
                                 {"rpm", 60.0 * burr.spindle_rev_per_s},
                                 {"haptic_rate_hz", 1.0 / MillingSession::tick_s},

@@ -12,12 +12,12 @@
 
 namespace osteomill {
 
-/// Keys: version, scene, force_model, coupling, device, grip (of a simulated hand), burr (at the start), rpm,
-/// haptic_rate_hz, milling_rate_hz, clock, vibration; and bone, trajectory where the choice has a file: its
-/// name. A session has no seed: nothing in it is drawn at random.
+/// Keys: version, scene, force_model, coupling, device, grip (of a simulated hand, or rails), burr (at the
+/// start), rpm, haptic_rate_hz, milling_rate_hz, clock, vibration; and bone, trajectory where the choice has
+/// a file: its name. A session has no seed: nothing in it is drawn at random.
 nlohmann::ordered_json session_settings(const MillingSessionOptions& milling, const SceneChoice& choice,
-                                        const Scene& scene, const std::string& device, Grip grip,
-                                        const std::string& version);
+                                        const Scene& scene, const std::string& device,
+                                        std::optional<Grip> grip, const std::string& version);
 
 std::map<std::string, std::string> as_texts(const nlohmann::ordered_json& settings);
 

@@ -11,7 +11,8 @@ DeviceParts make_client_device(const DeviceContext& context) {
     DeviceParts parts;
     parts.operator_channel = std::make_unique<OperatorChannel>();
     parts.device = std::make_unique<ClientDevice>(*parts.operator_channel, context.scene.start_pose,
-                                                  context.scene.device, ArmModel{}, hand_model(context.grip));
+                                                  context.scene.device, ArmModel{},
+                                                  hand_model(context.grip.value_or(Grip::firm)));
     return parts;
 }
 

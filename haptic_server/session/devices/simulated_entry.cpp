@@ -5,10 +5,13 @@
 
 namespace osteomill {
 
-DeviceParts simulated_hand(const Scene& scene, Grip grip) {
-    auto simulated = std::make_unique<SimulatedDevice>(
-        make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, scene.start_burr), scene.device,
-        ArmModel{}, hand_model(grip));
+DeviceParts simulated_hand(const Scene& scene, std::optional<Grip> grip) {
+    Trajectory trajectory =
+        make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, scene.start_burr);
+    auto simulated = grip
+                         ? std::make_unique<SimulatedDevice>(std::move(trajectory), scene.device, ArmModel{},
+                                                             hand_model(*grip))
+                         : std::make_unique<SimulatedDevice>(std::move(trajectory), scene.device, ArmModel{});
     DeviceParts parts;
     parts.simulated = simulated.get();
     parts.device = std::move(simulated);

@@ -14,7 +14,7 @@ DeviceParts make_space_mouse(const DeviceContext& context) {
     DeviceParts parts;
     parts.transport = std::make_unique<HidapiTransport>();
     parts.device = std::make_unique<SpaceMouse>(
-        context.scene, ArmModel{}, hand_model(context.grip), *parts.transport,
+        context.scene, ArmModel{}, hand_model(context.grip.value_or(Grip::firm)), *parts.transport,
         [clock = RealClock()] { return clock.now_s(); }, [] { ask_for_real_time(device_priority); });
     return parts;
 }

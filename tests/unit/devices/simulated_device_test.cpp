@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "common/scene/device_mapping.h"
 
 namespace osteomill::simulated_device_test {
 namespace {
@@ -26,6 +29,21 @@ TEST(SimulatedDevice, FollowsItsTrajectoryInFreeAir) {
     EXPECT_TRUE(device.is_finished());
     EXPECT_FALSE(state.pedal.is_down);
     EXPECT_TRUE(state.connected);
+}
+
+TEST(SimulatedDevice, OnRailsIsWhereTheTrajectoryHasItWhateverTheForce) {
+    const DeviceMapping mapping{.scale = 2.0, .offset_mm = {1.0, 2.0, 3.0}};
+    SimulatedDevice device(line(10.0, 2.0), mapping, ArmModel{});
+    for (int tick = 0; tick <= 2000; ++tick) {
+        const DeviceState state = device.read(0.001 * tick);
+        device.write({-3.0, 1.0, 0.0});
+        const glm::dvec3 in_patient_mm = position_in_patient_mm(mapping, state.position_mm);
+        ASSERT_NEAR(in_patient_mm.x, 0.005 * tick, 1e-5) << tick;
+        ASSERT_NEAR(glm::length(glm::dvec2(in_patient_mm.y, in_patient_mm.z)), 0.0, 1e-9) << tick;
+        ASSERT_EQ(state.pedal.is_down, tick > 0 && tick < 2000) << tick;
+        ASSERT_NEAR(state.velocity_mm_per_s.x, tick > 0 ? 2.5 : 0.0, 1e-2) << "in device space";
+    }
+    EXPECT_TRUE(device.is_finished());
 }
 
 TEST(SimulatedDevice, IsTheSameEachTime) {

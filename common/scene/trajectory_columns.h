@@ -1,0 +1,12 @@
+// The first line of a trajectory in CSV, whoever writes or reads it; see devices/simulated/csv_trajectory.h.
+#pragma once
+
+#include <string_view>
+
+namespace osteomill {
+
+inline constexpr std::string_view trajectory_columns = "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal";
+/// What may follow them.
+inline constexpr std::string_view trajectory_burr_column = ",burr";
+
+}  // namespace osteomill
