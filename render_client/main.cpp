@@ -14,6 +14,7 @@
 #include "common/text/plain_text.h"
 #include "render_client/dataset/dataset_run.h"
 #include "render_client/sound/quiet_sound_libraries.h"
+#include "render_client/ui/film_run.h"
 #include "render_client/ui/offscreen_run.h"
 #include "render_client/ui/options.h"
 #include "render_client/ui/view/transfer_file.h"
@@ -22,7 +23,8 @@
 namespace {
 
 std::unique_ptr<osteomill::SessionSource> make_session(const osteomill::RenderOptions& options) {
-    if (options.replay) return std::make_unique<osteomill::ReplayedSession>(*options.replay, options.speed);
+    if (options.replay)
+        return std::make_unique<osteomill::ReplayedSession>(*options.replay, options.speed, options.from_s);
     return std::make_unique<osteomill::LinkedSession>(options.host, options.port, options.record,
                                                       options.tls);
 }
@@ -42,8 +44,9 @@ void run(osteomill::RenderOptions options) {
     const auto session = make_session(options);
     std::exception_ptr failure;
     try {
-        const RenderReport report = options.offscreen ? run_offscreen(options, *session, stop_asked)
-                                                      : run_in_window(options, *session, stop_asked);
+        const RenderReport report = options.film        ? run_film(options, *session, stop_asked)
+                                    : options.offscreen ? run_offscreen(options, *session, stop_asked)
+                                                        : run_in_window(options, *session, stop_asked);
         if (!options.json.empty()) write_report(report, options.json);
     } catch (const std::exception&) {
         failure = std::current_exception();

@@ -114,21 +114,4 @@ Playhead::Step Playhead::take(RecordedEvent event) {
     return Step::nothing_due;
 }
 
-double recording_duration_s(const std::filesystem::path& file) {
-    PacketReader packets(file);
-    RecordedTime time;
-    try {
-        while (const auto packet = packets.next()) {
-            const auto opened = open_frame(packet->message);
-            const auto* frame = std::get_if<v2::ServerFrame>(&opened);
-            if (frame == nullptr) break;
-            // The time in the frame is sealed, its packet's is not.
-            time.next_s(Stamp(std::chrono::nanoseconds(frame->recorded_unix_ns())), frame->has_hello());
-        }
-    } catch (const RecordingError&) {
-        // Who reads it comes upon this, too, and says it then.
-    }
-    return time.last_s();
-}
-
 }  // namespace osteomill

@@ -111,7 +111,4 @@ class Playhead {
     std::uint64_t checksums_verified_ = 0;
 };
 
-/// From the first packet to the last that can be read. Throws RecordingError for a file that is no recording.
-double recording_duration_s(const std::filesystem::path& file);
-
 }  // namespace osteomill

@@ -16,9 +16,7 @@ constexpr int most_frames_a_poll = 1000;
 }  // namespace
 
 RecordingPlayer::RecordingPlayer(std::filesystem::path file, double speed)
-    : file_(std::move(file)),
-      speed_(std::clamp(speed, slowest, fastest)),
-      duration_s_(recording_duration_s(file_)) {
+    : file_(std::move(file)), speed_(std::clamp(speed, slowest, fastest)), outline_(outline_of(file_)) {
     open();
 }
 
@@ -37,12 +35,12 @@ LinkUpdate RecordingPlayer::poll(Time now) {
     LinkUpdate update;
     const std::chrono::duration<double> elapsed = now - last_poll_.value_or(now);
     last_poll_ = now;
-    if (is_playing_) target_s_ = std::min(target_s_ + speed_ * elapsed.count(), duration_s_);
+    if (is_playing_) target_s_ = std::min(target_s_ + speed_ * elapsed.count(), outline_.duration_s);
     try {
         go_towards_target(update);
     } catch (const RecordingError& error) {
         error_ = error.what();
-        duration_s_ = target_s_ = playhead_->time_s();
+        outline_.duration_s = target_s_ = playhead_->time_s();
     }
     update.changes = playhead_->take_changes();
     if (update.bone_replaced) update.changes.clear();
@@ -53,7 +51,7 @@ LinkUpdate RecordingPlayer::poll(Time now) {
         update.structures.push_back(structures[shown_structures_++]);
     if (std::exchange(tool_is_news_, false) && playhead_->tool() != nullptr) update.tool = *playhead_->tool();
 
-    const bool has_ended = is_at_end_ && target_s_ >= duration_s_;
+    const bool has_ended = is_at_end_ && target_s_ >= outline_.duration_s;
     if (has_ended || !error_.empty()) is_playing_ = false;
     update.status = !error_.empty() ? LinkStatus::refused
                     : has_ended     ? LinkStatus::finished
@@ -69,7 +67,7 @@ LinkUpdate RecordingPlayer::poll(Time now) {
 
 void RecordingPlayer::play() {
     if (!error_.empty()) return;
-    if (is_at_end_ && target_s_ >= duration_s_) seek(begins_s_);
+    if (is_at_end_ && target_s_ >= outline_.duration_s) seek(begins_s_);
     is_playing_ = true;
 }
 
@@ -78,7 +76,12 @@ void RecordingPlayer::set_speed(double speed) {
 }
 
 void RecordingPlayer::seek(double time_s) {
-    target_s_ = std::clamp(time_s, begins_s_, std::max(begins_s_, duration_s_));
+    target_s_ = std::clamp(time_s, begins_s_, std::max(begins_s_, outline_.duration_s));
+}
+
+bool RecordingPlayer::has_arrived() const {
+    const std::optional<double> next_s = playhead_->next_time_s();
+    return !is_fresh_ && target_s_ >= playhead_->time_s() && (!next_s || *next_s > target_s_);
 }
 
 void RecordingPlayer::go_towards_target(LinkUpdate& update) {

@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/recording/playhead.h"
+#include "common/recording/recording_outline.h"
 #include "render_client/link/bone_link.h"
 #include "render_client/link/key_frames.h"
 #include "render_client/link/rate_meter.h"
@@ -44,7 +46,11 @@ class RecordingPlayer {
 
     /// Where it is or, while it seeks, where it is going.
     double time_s() const { return target_s_; }
-    double duration_s() const { return duration_s_; }
+    double duration_s() const { return outline_.duration_s; }
+    /// What there is to look at.
+    const std::vector<RecordedMoment>& moments() const { return outline_.moments; }
+    /// Whether what it shows is that of time_s(), or the last that can be shown.
+    bool has_arrived() const;
     /// Why it is not read further; empty while all is well.
     const std::string& error() const { return error_; }
     std::size_t key_frame_bytes() const { return keys_->memory_bytes(); }
@@ -58,7 +64,7 @@ class RecordingPlayer {
 
     const std::filesystem::path file_;
     double speed_;
-    double duration_s_;
+    RecordingOutline outline_;
     double target_s_ = 0.0;
     bool is_playing_ = true;
     std::optional<Time> last_poll_;

@@ -25,7 +25,6 @@ constexpr auto frame_period =
     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / 30.0));
 constexpr double silent_wait_for_bone_s = 1.0;
 constexpr double said_again_after_s = 10.0;
-constexpr glm::ivec2 default_size_px(960, 600);
 
 double seconds(Clock::duration duration) {
     return std::chrono::duration<double>(duration).count();
@@ -63,7 +62,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     const gl::OffscreenContext context(options.gpu);
     gl::require_opengl_3_3();
     Panels panels;
-    SessionPicture session(source, panels, options.window_size_px.value_or(default_size_px),
+    SessionPicture session(source, panels, options.window_size_px.value_or(default_offscreen_size_px),
                            FrameQuality::full, options.renderer, options.look, options.stereo);
     take_over(session, options);
     session.view().scale = static_cast<float>(options.ui_scale.value_or(1.0));
@@ -89,8 +88,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
 
         // What is written shows the newest figures, too.
         const bool is_written = !going_on || screenshots.is_next_due();
-        if (framebuffer == nullptr || redraw.is_due(start) ||
-            (is_written && news != SessionNews::none)) {
+        if (framebuffer == nullptr || redraw.is_due(start) || (is_written && news != SessionNews::none)) {
             framebuffer = &session.draw(seconds(start - drawn));
             drawn = start;
             // Reading a pixel waits until the frame is finished, as showing it would.

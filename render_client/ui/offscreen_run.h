@@ -12,6 +12,8 @@ namespace osteomill {
 /// How long a run without a display waits for its first bone. A window waits for ever: there a person sees
 /// what it waits for.
 inline constexpr double longest_wait_for_bone_s = 60.0;
+/// Of a picture without a window.
+inline constexpr glm::ivec2 default_offscreen_size_px(960, 600);
 
 /// Frames are counted from the first that shows bone. Ends after options.frames of them, when the session is
 /// finished and its last state drawn, or when `stop_asked` says so; final.png is then written. Throws

@@ -151,7 +151,10 @@ void add_microscope(CLI::App& app, RenderOptions& options) {
 /// What the options together get wrong; empty where they agree.
 std::string contradiction(const RenderOptions& options) {
     if (options.dataset && !options.replay) return "--dataset needs --replay FILE";
-    if (options.gpu && !options.offscreen && !options.dataset)
+    if (options.film && !options.replay) return "--film needs --replay FILE";
+    if (options.film && (options.offscreen || !options.screenshots.empty() || options.dataset))
+        return "--film goes without --offscreen, --screenshots and --dataset: it has its own pictures";
+    if (options.gpu && !options.offscreen && !options.film && !options.dataset)
         return "--gpu needs --offscreen; a window is drawn where its display is";
     if (options.offscreen && options.until_server_ends)
         return "--until-server-ends is for a window; an offscreen run always ends with its session";
@@ -170,6 +173,7 @@ std::string same_files(const RenderOptions& options, const TlsOptions& tls) {
     std::vector<NamedFile> files = tls.files_read();
     if (options.replay) files.push_back({"--replay", *options.replay, false});
     if (options.record) files.push_back({"--record", *options.record});
+    if (options.film) files.push_back({"--film", *options.film});
     if (!options.look_file.empty()) files.push_back({"--look", options.look_file});
     if (!options.json.empty()) files.push_back({"--json", options.json});
     try {
@@ -225,6 +229,14 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
         ->excludes(record);
     auto* speed = app.add_option("--speed", options.speed, "Recorded seconds a second, with --replay (1)")
                       ->check(within(RecordingPlayer::slowest, RecordingPlayer::fastest));
+    auto* from = app.add_option("--from-s", options.from_s,
+                                "With --replay: begin so long after the recording's beginning")
+                     ->check(not_below_zero())
+                     ->type_name("S");
+    app.add_option("--film", options.film,
+                   "With --replay: make a film of it, 30 pictures a second, and end; the program ffmpeg "
+                   "does it, by the ending of the name (.mp4)")
+        ->type_name("FILE");
     app.add_option_function<std::string>(
            "--window-size",
            [&](const std::string& text) {
@@ -303,6 +315,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     if (wrong.empty() && options.tls && options.replay) wrong = "--tls-cert: a --replay needs no TLS";
     if (wrong.empty()) wrong = same_files(options, tls);
     if (wrong.empty() && speed->count() > 0 && !options.replay) wrong = "--speed needs --replay FILE";
+    if (wrong.empty() && from->count() > 0 && !options.replay) wrong = "--from-s needs --replay FILE";
     if (!wrong.empty()) parsed.no_run = wrong_usage(wrong);
     return parsed;
 }

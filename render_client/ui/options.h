@@ -27,6 +27,8 @@ struct RenderOptions {
     std::optional<std::filesystem::path> replay;  ///< a recording in place of a server
     std::optional<DatasetOptions> dataset;        ///< of the recording
     double speed = 1.0;                           ///< of the recording: recorded seconds a second
+    double from_s = 0.0;                          ///< where in the recording it begins
+    std::optional<std::filesystem::path> film;    ///< made of the recording, offscreen
     RendererChoice renderer = RendererChoice::raycast;
     ShadingSettings look;
     std::filesystem::path

@@ -1,6 +1,8 @@
 // Sources of sessions: a server (BoneLink), a recording of one, or a script in its place.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -57,7 +59,14 @@ class LinkedSession final : public SessionSource {
 /// A recorded session. Nobody can drive it.
 class ReplayedSession final : public SessionSource {
   public:
-    ReplayedSession(std::filesystem::path file, double speed) : player_(std::move(file), speed) {}
+    /// Begins at `from_s`. Throws RecordingError.
+    ReplayedSession(std::filesystem::path file, double speed, double from_s = 0.0)
+        : player_(std::move(file), speed) {
+        if (from_s > player_.duration_s())
+            throw RecordingError(
+                fmt::format("--from-s {}: the recording lasts {:.3f} s", from_s, player_.duration_s()));
+        player_.seek(from_s);
+    }
     LinkUpdate poll() override { return player_.poll(std::chrono::steady_clock::now()); }
     const Bone* bone() const override { return player_.bone(); }
     const SessionInfo* session() const override { return player_.session(); }

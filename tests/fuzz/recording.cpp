@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "common/recording/playhead.h"
+#include "common/recording/recording_outline.h"
 #include "tests/fuzz/targets.h"
 
 namespace osteomill::fuzz {
@@ -73,7 +74,7 @@ void recording(Bytes input) {
     const MemoryFile file(input);
     for (const auto& read : {+[](const std::filesystem::path& path) { play(path); },
                              +[](const std::filesystem::path& path) {
-                                 require(recording_duration_s(path) >= 0.0, "a duration below zero");
+                                 require(outline_of(path).duration_s >= 0.0, "a duration below zero");
                              }})
         try {
             read(file.path());

@@ -4,15 +4,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "common/recording/playhead.h"
@@ -135,6 +138,86 @@ TEST_F(Recording, OfTheSameSessionIsTheSameButForItsDate) {
     const std::string table{std::istreambuf_iterator<char>(a), {}};
     EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 2400) << "a line a tick";
     EXPECT_EQ(table, std::string(std::istreambuf_iterator<char>(b), {}));
+}
+
+/// A log's columns, by name.
+using Log = std::map<std::string, std::vector<double>>;
+
+Log log_in(const std::string& file) {
+    std::ifstream in(file);
+    std::string line;
+    std::getline(in, line);
+    std::vector<std::string> names;
+    std::istringstream header(line);
+    for (std::string name; std::getline(header, name, ',');) names.push_back(name);
+    Log log;
+    while (std::getline(in, line)) {
+        std::istringstream cells(line);
+        std::string cell;
+        for (const std::string& name : names)
+            log[name].push_back(std::getline(cells, cell, ',') ? std::stod(cell) : NAN);
+    }
+    return log;
+}
+
+TEST_F(Recording, GivesTheMotionForASessionThatMakesItAgain) {
+    record("a.pcap");
+    Finished finished = run_program({PACKET_REPLAY, file("a.pcap"), "--trajectory", file("again.csv")});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    finished = run_program({HAPTIC_SERVER, "--clock", "virtual", "--bone", file("block.nrrd"), "--grip",
+                            "rails", "--trajectory", file("again.csv"), "--log-csv", file("b.csv")});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    finished = run_program({PACKET_REPLAY, file("a.pcap"), "--csv", file("a.csv")});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    const Log a = log_in(file("a.csv")), b = log_in(file("b.csv"));
+    ASSERT_GT(a.at("t_s").size(), 2400U);
+    ASSERT_NEAR(static_cast<double>(a.at("t_s").size()), static_cast<double>(b.at("t_s").size()), 2.0);
+    // Logs have four decimals, and the motion that was made again was written with as many. The force of the
+    // burr's teeth makes a little more of what was rounded off.
+    const std::vector<std::pair<std::string, double>> bounds{
+        {"t_s", 1e-9},         {"hand_x_mm", 2.1e-4}, {"hand_y_mm", 2.1e-4},
+        {"hand_z_mm", 2.1e-4}, {"burr_x_mm", 0.02},   {"burr_y_mm", 0.02},
+        {"burr_z_mm", 0.02},   {"spindle", 0.0},      {"fault", 0.0}};
+    for (const auto& [name, bound] : bounds)
+        for (std::size_t tick = 0; tick < std::min(a.at("t_s").size(), b.at("t_s").size()); ++tick)
+            ASSERT_NEAR(a.at(name)[tick], b.at(name)[tick], bound) << name << ", tick " << tick;
+    EXPECT_GT(a.at("removed_mm3").back(), 1.0);
+    EXPECT_NEAR(b.at("removed_mm3").back(), a.at("removed_mm3").back(), 2e-3 * a.at("removed_mm3").back());
+}
+
+TEST_F(Recording, GivesTheMotionOfOneSessionOnly) {
+    record("a.pcap");
+    std::ofstream(file("both.pcap"), std::ios::binary) << text_of("a.pcap") << text_of("a.pcap").substr(24);
+    const Finished finished =
+        run_program({PACKET_REPLAY, file("both.pcap"), "--trajectory", file("again.csv")});
+    EXPECT_EQ(finished.status, 1);
+    EXPECT_THAT(finished.err, HasSubstr("holds more than one session"));
+    EXPECT_FALSE(std::filesystem::exists(file("again.csv")));
+}
+
+TEST_F(Recording, BecomesAFilm) {
+    record("a.pcap");
+    const std::string film = file("a.mp4");
+    const Finished made =
+        run_program({"/usr/bin/env", "ASAN_OPTIONS=detect_leaks=0", RENDER_CLIENT, "--replay", file("a.pcap"),
+                     "--film", film, "--window-size", "101x80", "--from-s", "1", "--speed", "2"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const Finished seen = run_program({"/usr/bin/env", "ffprobe", "-v", "error", "-count_frames",
+                                       "-show_entries", "stream=width,height,nb_read_frames,r_frame_rate",
+                                       "-of", "default=nokey=1:noprint_wrappers=1", film});
+    ASSERT_EQ(seen.status, 0) << seen.err;
+    // The recording takes 2.4 s and what is left of its last frame.
+    const double duration_s = info("a.pcap").at("duration_s");
+    const auto frames = static_cast<int>((duration_s - 1.0) / 2.0 * 30.0) + 1;
+    EXPECT_EQ(seen.out, "102\n80\n30/1\n" + std::to_string(frames) + "\n") << "of an even width";
+
+    const Finished without =
+        run_program({"/usr/bin/env", "PATH=/nowhere", "ASAN_OPTIONS=detect_leaks=0", RENDER_CLIENT,
+                     "--replay", file("a.pcap"), "--film", file("b.mp4")});
+    EXPECT_EQ(without.status, 1);
+    EXPECT_THAT(without.err, HasSubstr("install Debian's package ffmpeg"));
+    EXPECT_EQ(std::count(without.err.begin(), without.err.end(), '\n'), 1) << without.err;
+    EXPECT_FALSE(std::filesystem::exists(file("b.mp4")));
 }
 
 TEST_F(Recording, HoldsEveryTickAsTheLogHasIt) {

@@ -31,6 +31,8 @@ struct MadeRecordingOptions {
     std::vector<Structure> structures{};
     /// What is told of them with state i; none: nothing.
     std::function<std::vector<StructureDistance>(int i)> distances{};
+    /// What is done to the session with state i.
+    std::function<std::vector<ControlEvent>(int i)> events{};
 };
 
 struct MadeRecording {
@@ -74,9 +76,11 @@ inline MadeRecording make_recording(const std::filesystem::path& file,
         tool.spindle_on = i % 2 == 1;
         tool.burr = 1;
         if (options.distances) state.distances = options.distances(i);
+        if (options.events) state.events = options.events(i);
         recorder->record(state, i % 20 == 0, true);
         made.checksum_after_state.push_back(mirror.checksum());
     }
+    state.events.clear();
     if (options.ends) recorder->finish(state, "the end");
     recorder.reset();
     if (!options.ends) std::filesystem::rename(part_of(file), file);

@@ -115,7 +115,7 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
         panels.add_text(painter, Anchor::lower_left, operator_text(content), side_width);
     if (content.player != nullptr)
         panels.add(Anchor::lower_left, {playback_panel_size(painter, picture)},
-                   [&](const PanelPlace& place) { draw_playback_panel(*content.player, place); });
+                   [&](const PanelPlace& place) { draw_playback_panel(*content.player, painter, place); });
 }
 
 /// What the user reads.

@@ -14,6 +14,7 @@ namespace {
 /// At scale 1.
 constexpr float widest_px = 600.0f;
 constexpr float widest_part = 0.62f;
+constexpr float tick_width_px = 2.0f;
 // In heights of a letter.
 constexpr float speed_width = 6.0f;
 constexpr float button_width = 4.0f;
@@ -24,6 +25,24 @@ std::string clock_text(double time_s) {
     return fmt::format("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10);
 }
 
+/// Over the slider that was drawn last: marks from above, touches from below.
+void draw_moments(const RecordingPlayer& player, const PanelPainter& painter) {
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    // Where the middle of the grab is at both ends.
+    const float inset = 2.0f + 0.5f * ImGui::GetStyle().GrabMinSize;
+    const float half = 0.5f * (high.y - low.y);
+    for (const auto& [time_s, kind] : player.moments()) {
+        const double part = player.duration_s() > 0.0 ? std::min(1.0, time_s / player.duration_s()) : 0.0;
+        const float x = low.x + inset + static_cast<float>(part) * (high.x - low.x - 2.0f * inset);
+        const bool is_mark = kind == RecordedMoment::Kind::mark;
+        ImGui::GetWindowDrawList()->AddLine({x, is_mark ? low.y : high.y - half},
+                                            {x, is_mark ? low.y + half : high.y},
+                                            colour_of(painter.theme()[is_mark ? Tone::good : Tone::warning]),
+                                            tick_width_px * painter.scale());
+    }
+}
+
 }  // namespace
 
 glm::vec2 playback_panel_size(const PanelPainter& painter, const glm::vec2& picture) {
@@ -31,7 +50,7 @@ glm::vec2 playback_panel_size(const PanelPainter& painter, const glm::vec2& pict
             ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y};
 }
 
-void draw_playback_panel(RecordingPlayer& player, const PanelPlace& place) {
+void draw_playback_panel(RecordingPlayer& player, const PanelPainter& painter, const PanelPlace& place) {
     const InputPanel window("playback", place);
     const float letter = ImGui::GetFontSize();
     if (ImGui::Button(player.is_playing() ? "pause" : "play", {button_width * letter, 0.0f}))
@@ -45,6 +64,7 @@ void draw_playback_panel(RecordingPlayer& player, const PanelPlace& place) {
     if (ImGui::SliderFloat("##time", &time_s, 0.0f, static_cast<float>(player.duration_s()), shown.c_str(),
                            ImGuiSliderFlags_NoInput))
         player.seek(time_s);
+    draw_moments(player, painter);
 
     ImGui::SameLine();
     auto speed = static_cast<float>(player.speed());

@@ -137,6 +137,21 @@ TEST_F(RecordingPlayerTest, GoesBackIntoTheSessionBeforeInAJoinedRecording) {
     EXPECT_EQ(viewer.shown_checksum(), checksum_at(7.0));
 }
 
+TEST_F(RecordingPlayerTest, KnowsWhenASeekHasArrived) {
+    RecordingPlayer player(folder_ / "a.pcap");
+    player.pause();
+    EXPECT_FALSE(player.has_arrived()) << "nothing has been shown yet";
+    Viewer viewer(player);
+    for (const double time_s : {0.0, 29.0, 3.0, player.duration_s()}) {
+        player.seek(time_s);
+        int polls = 0;
+        do viewer.look();
+        while (!player.has_arrived() && ++polls < 100);
+        EXPECT_LT(polls, 100) << time_s;
+        EXPECT_EQ(viewer.shown_checksum(), checksum_at(time_s)) << time_s;
+    }
+}
+
 TEST_F(RecordingPlayerTest, EndsWhereItCannotBeReadFurtherAndSaysWhy) {
     testing::spoil(folder_ / "a.pcap", 50);
     RecordingPlayer player(folder_ / "a.pcap");

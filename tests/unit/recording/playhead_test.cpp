@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/recording/packet_writer.h"
+#include "common/recording/recording_outline.h"
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 #include "tests/support/made_recording.h"
@@ -55,7 +56,7 @@ TEST_F(PlayheadTest, FollowsTheBoneFromTheFirstToTheLast) {
     EXPECT_EQ(playhead.states(), made.checksum_after_state.size() + 1) << "the last again, with the goodbye";
     EXPECT_EQ(playhead.checksums_verified(), 11U);
     EXPECT_NEAR(playhead.time_s(), made.duration_s(), 1e-6);
-    EXPECT_NEAR(recording_duration_s(file_), made.duration_s(), 1e-6);
+    EXPECT_NEAR(outline_of(file_).duration_s, made.duration_s(), 1e-6);
     EXPECT_FALSE(playhead.is_truncated());
 }
 
@@ -82,7 +83,7 @@ TEST_F(PlayheadTest, GoesFromOneSessionToTheNextOfAJoinedRecording) {
     }
     EXPECT_EQ(playhead.bone_checksum(), checksum(second.after));
     EXPECT_NEAR(playhead.time_s(), first.duration_s() + second.duration_s(), 1e-6);
-    EXPECT_NEAR(recording_duration_s(folder_ / "both.pcap"), playhead.time_s(), 1e-6);
+    EXPECT_NEAR(outline_of(folder_ / "both.pcap").duration_s, playhead.time_s(), 1e-6);
 }
 
 TEST_F(PlayheadTest, IsReadableUpToTheLastWholeFrameWhereverItIsTorn) {

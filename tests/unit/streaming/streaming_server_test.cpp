@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/recording/playhead.h"
+#include "common/recording/recording_outline.h"
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/answered_states.h"
@@ -379,7 +380,7 @@ TEST(StreamingServer, ShowsFramesWhenItIsToldToWhereTheSessionKeepsTheTime) {
     ASSERT_TRUE(server.recording());
     EXPECT_EQ(server.recording()->frames, 3U + 10 + 2) << "hello, snapshot without bricks; the end";
     EXPECT_EQ(server.recording()->error, "");
-    EXPECT_EQ(recording_duration_s(folder / "a.pcap"), 9.0);
+    EXPECT_EQ(outline_of(folder / "a.pcap").duration_s, 9.0);
 }
 
 TEST(StreamingServer, IgnoresOperatorsWhenItHasNoUseForThem) {

@@ -151,6 +151,13 @@ TEST(Options, TakeARecordingInPlaceOfAServer) {
     expect_refused({"--replay", "a.pcap", "--connect", "127.0.0.1:7010"}, "--replay");
     expect_refused({"--replay", "a.pcap", "--record", "b.pcap"}, "--record");
     expect_refused({"--replay", "a.pcap", "--speed", "0"}, "--speed");
+    EXPECT_EQ(parsed({"--replay", "a.pcap", "--from-s", "12.5"}).options.from_s, 12.5);
+    expect_refused({"--from-s", "12.5"}, "--from-s needs --replay");
+    expect_refused({"--replay", "a.pcap", "--from-s", "-1"}, "--from-s");
+    EXPECT_EQ(parsed({"--replay", "a.pcap", "--film", "a.mp4"}).options.film, "a.mp4");
+    expect_refused({"--film", "a.mp4"}, "--film needs --replay");
+    expect_refused({"--replay", "a.pcap", "--film", "a.pcap"}, "--film");
+    expect_refused({"--replay", "a.pcap", "--film", "a.mp4", "--screenshots", "a"}, "--screenshots");
     expect_refused({"--speed", "2"}, "--speed");
 }
 

@@ -28,8 +28,9 @@ class PlaybackPanel : public ::testing::Test {
         ImGui::NewFrame();
         const PanelPainter painter(theme_of(ThemeName::dark), 1.0f);
         const glm::vec2 size = playback_panel_size(painter, glm::vec2(size_px_));
-        draw_playback_panel(player_, {{12.0f, static_cast<float>(size_px_.y) - 12.0f - size.y}, size});
-        ImGui::EndFrame();
+        draw_playback_panel(player_, painter,
+                            {{12.0f, static_cast<float>(size_px_.y) - 12.0f - size.y}, size});
+        ImGui::Render();
     }
     /// Presses and lets go of the left button at a part of the picture's width, in the panel's row.
     void click(double part_of_width) {
@@ -44,7 +45,13 @@ class PlaybackPanel : public ::testing::Test {
     }
 
     testing::TemporaryFolder folder_;
-    testing::MadeRecording made_ = testing::make_recording(folder_ / "a.pcap", {.states = 100});
+    testing::MadeRecording made_ =
+        testing::make_recording(folder_ / "a.pcap", {.states = 100, .events = [](int i) {
+                                                         std::vector<ControlEvent> marks;
+                                                         if (i == 40)
+                                                             marks.push_back({.action = SessionAction::mark});
+                                                         return marks;
+                                                     }});
     RecordingPlayer player_{folder_ / "a.pcap"};
     const glm::ivec2 size_px_{1000, 700};
 };
@@ -64,6 +71,20 @@ TEST_F(PlaybackPanel, GoesToAnyTimeInBothDirections) {
     EXPECT_GT(early_s, 0.1 * player_.duration_s());
     EXPECT_GT(late_s, early_s + 0.3 * player_.duration_s());
     EXPECT_LT(late_s, player_.duration_s());
+}
+
+TEST_F(PlaybackPanel, HasATickWhereAClickGoesToTheMark) {
+    draw();
+    const ImU32 colour = colour_of(theme_of(ThemeName::dark)[Tone::good]);
+    double sum_px = 0.0;
+    int corners = 0;
+    const ImDrawData& drawn = *ImGui::GetDrawData();
+    for (int list = 0; list < drawn.CmdListsCount; ++list)
+        for (const ImDrawVert& vertex : drawn.CmdLists[list]->VtxBuffer)
+            if (vertex.col == colour) sum_px += vertex.pos.x, ++corners;
+    ASSERT_GT(corners, 0);
+    click(sum_px / corners / size_px_.x);
+    EXPECT_NEAR(player_.time_s(), 2.0, 0.02) << "a pixel is 0.015 s";
 }
 
 TEST_F(PlaybackPanel, ChangesTheSpeed) {

@@ -1,0 +1,18 @@
+// A recorded session as a film.
+#pragma once
+
+#include <functional>
+
+#include "render_client/ui/options.h"
+#include "render_client/ui/report.h"
+#include "render_client/ui/session_source.h"
+
+namespace osteomill {
+
+/// From options.from_s to the recording's end, options.speed recorded seconds a second, thirty pictures a
+/// second, each whole however long it takes. `source` plays a recording. Throws std::runtime_error where
+/// the film cannot be made, or `stop_asked` says so, and gl::NoOpenGl.
+RenderReport run_film(const RenderOptions& options, SessionSource& source,
+                      const std::function<bool()>& stop_asked);
+
+}  // namespace osteomill
