@@ -54,6 +54,7 @@ DatasetIndex::DatasetIndex(const std::filesystem::path& recording, const std::st
     all_ = {{"osteomill", version},
             {"recording", recording.filename().string()},
             {"gl_renderer", gl::renderer_name()},
+            {"randomised_from", options.randomise ? Json(*options.randomise) : Json()},
             {"conventions", conventions},
             {"cameras", Json::array()},
             {"sessions", Json::array()},

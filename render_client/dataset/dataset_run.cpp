@@ -12,6 +12,7 @@
 
 #include "render_client/dataset/dataset_index.h"
 #include "render_client/dataset/image_files.h"
+#include "render_client/dataset/random_look.h"
 
 namespace osteomill {
 
@@ -83,13 +84,20 @@ class DatasetRun {
         const std::size_t frame = frames_++;
         images_->follow();
         if (!options_.part.has(frame)) return;
-        const bool wants_surface = options_.images.depth || options_.images.ray_depth ||
+        const bool wants_surface = options_.randomise || options_.images.depth || options_.images.ray_depth ||
                                    options_.images.labels || options_.images.normals;
         nlohmann::ordered_json files = nlohmann::ordered_json::array();
-        for (std::size_t i = 0; i < cameras_.size(); ++i)
-            files.push_back(write_images(options_, frame, cameras_[i],
-                                         images_->draw(i, options_.images.colour, wants_surface),
-                                         colours_rgb_));
+        for (std::size_t i = 0; i < cameras_.size(); ++i) {
+            CameraImages images = images_->draw(i, options_.images.colour, wants_surface);
+            nlohmann::ordered_json look;
+            if (options_.randomise && options_.images.colour) {
+                const RandomLook drawn = random_look(*options_.randomise, frame, i, colours_rgb_.size());
+                images.colour = looked_at(images, cameras_[i].pinhole, drawn);
+                look = json_of(drawn);
+            }
+            files.push_back(write_images(options_, frame, cameras_[i], images, colours_rgb_));
+            if (!look.is_null()) files.back()["look"] = std::move(look);
+        }
         index_.add_frame(frame, playhead_, std::move(files));
         frame_times_.add(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
     }

@@ -72,6 +72,12 @@ CLI::Option* add_dataset_options(CLI::App& app, DatasetOptions& dataset) {
            "What is written, of colour, depth, ray-depth, labels, normals (all but ray-depth)")
         ->type_name("KIND,...")
         ->needs(folder);
+    app.add_option(
+           "--randomise", dataset.randomise,
+           "Pictures of the image set under lamps, in colours, of wetness and by cameras that are drawn "
+           "by lot, frame by frame, from this seed")
+        ->type_name("SEED")
+        ->needs(folder);
     app.add_option_function<std::string>(
            "--shard", [&](const std::string& text) { dataset.part = part_named(text); },
            "Only part I of N of the image set's frames, for one process among several")

@@ -36,10 +36,12 @@ struct DatasetOptions {
     std::optional<double> frames_per_s{};  ///< of recorded time; absent: every recorded state
     DatasetImages images{};
     DatasetPart part{};
+    std::optional<std::uint64_t> randomise{};  ///< seed of domain randomisation; absent: as in the window
 };
 
-/// --dataset, --cameras, --dataset-fps, --dataset-images and --shard, into `dataset`, which outlives the
-/// parsing; behind the app's other options. Returns the first, without which the others are refused.
+/// --dataset, --cameras, --dataset-fps, --dataset-images, --randomise and --shard, into `dataset`, which
+/// outlives the parsing; behind the app's other options. Returns the first, without which the others are
+/// refused.
 CLI::Option* add_dataset_options(CLI::App& app, DatasetOptions& dataset);
 
 }  // namespace osteomill

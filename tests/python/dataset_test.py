@@ -204,6 +204,21 @@ class DatasetTest(unittest.TestCase):
         self.assertEqual(parts, whole)
         self.assertEqual(sorted(frames, key=lambda frame: frame["frame"]), self.index["frames"])
 
+    def test_a_seed_repeats_its_looks_and_leaves_the_numbers(self):
+        for name, seed in (("seven", "7"), ("seven_again", "7"), ("eight", "8")):
+            self.make(name, "--randomise", seed, "--shard", "1/5")
+        seven, eight, plain = (hashes(self.folder / name) for name in ("seven", "eight", "set"))
+        self.assertEqual(seven, hashes(self.folder / "seven_again"))
+        for file in seven:
+            if file.endswith("_colour.png"):
+                self.assertEqual(len({seven[file], eight[file], plain[file]}), 3, file)
+            elif not file.endswith(".json"):
+                self.assertEqual(seven[file], plain[file], file)
+        index = json.loads((self.folder / "seven/dataset-1-of-5.json").read_text())
+        left, right, _ = (images["look"] for images in index["frames"][1]["images"])
+        self.assertEqual(left["lamps_xyzw"], right["lamps_xyzw"])
+        self.assertNotEqual(left["exposure"], right["exposure"])
+
     def test_what_cannot_be_is_said_in_one_line(self):
         for arguments, words in ((("--dataset", "x"), "--dataset needs --replay"),
                                  (("--replay", "s.pcap", "--shard", "1/2"), "--dataset"),

@@ -10,7 +10,6 @@
 namespace osteomill {
 
 glm::dvec3 lit(const glm::dvec3& colour, const glm::dvec3& normal, double openness) {
-    constexpr glm::dvec3 key_direction(-0.4364, -0.5455, 0.7155);
     constexpr glm::dvec3 fill_direction(0.8944, -0.2236, 0.3873);
     const double key = std::max(glm::dot(normal, key_direction), 0.0);
     const double fill = std::max(glm::dot(normal, fill_direction), 0.0);

@@ -9,6 +9,9 @@
 
 namespace osteomill {
 
+/// Unit, towards the key light; patient axes.
+inline constexpr glm::dvec3 key_direction(-0.4364, -0.5455, 0.7155);
+
 /// Light that a surface sends back, linear RGB. `normal` is unit, patient axes; `openness` (0 to 1) is how
 /// much of the ambient light gets there.
 glm::dvec3 lit(const glm::dvec3& colour, const glm::dvec3& normal, double openness);
