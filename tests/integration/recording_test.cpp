@@ -452,7 +452,7 @@ TEST_F(Recording, IsNotWhatJustAnyFileIs) {
     }
     EXPECT_EQ(run_program({PACKET_REPLAY}).status, 2);
     EXPECT_EQ(run_program({PACKET_REPLAY, "--help"}).status, 0);
-    EXPECT_THAT(run_program({PACKET_REPLAY, "--version"}).out, HasSubstr("0.2.0"));
+    EXPECT_THAT(run_program({PACKET_REPLAY, "--version"}).out, HasSubstr(OSTEOMILL_VERSION));
     EXPECT_EQ(run_program({RENDER_CLIENT, "--replay", "a.pcap", "--connect", "127.0.0.1:7010"}).status, 2);
     EXPECT_EQ(run_program({RENDER_CLIENT, "--speed", "2"}).status, 2);
 }

@@ -210,7 +210,7 @@ TEST_F(Programs, SayWhatTheyAre) {
         EXPECT_EQ(run_program({program, "--help"}).status, 0);
         const Finished version = run_program({program, "--version"});
         EXPECT_EQ(version.status, 0);
-        EXPECT_THAT(version.out, HasSubstr("0.2.0"));
+        EXPECT_THAT(version.out, HasSubstr(OSTEOMILL_VERSION));
     }
 }
 
