@@ -11,6 +11,7 @@ command -v debootstrap >/dev/null || { echo "debootstrap is not installed (apt-g
 
 tar=${OSTEOMILL_BARE_ROOT:-/var/tmp/osteomill-bare-root.tar}
 root=$(mktemp -d)
+chmod 755 "$root"  # apt fetches as a user of its own
 trap 'umount -q "$root/proc" "$root/dev" 2>/dev/null || true; rm -rf --one-file-system "$root"' EXIT
 say() { printf '\n== %s\n' "$*"; }
 within() { chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }

@@ -22,10 +22,10 @@ std::optional<RecordedEvent> RecordingReader::next() {
     auto event = receiver_.take(std::get<v2::ServerFrame>(std::move(frame)));
     if (const auto* error = std::get_if<WireError>(&event)) throw error_at(packet->place, error->line);
     if (const auto* other = std::get_if<SpeaksOtherProtocol>(&std::get<SessionEvent>(event)))
-        throw error_at(packet->place,
-                       "recorded with protocol " + std::to_string(other->major) + ", this program reads " +
-                           std::to_string(protocol_major) + ": use " +
-                           (other->major > protocol_major ? "a newer" : "an older") + " version of it");
+        throw error_at(packet->place, "recorded with protocol " + std::to_string(other->major) +
+                                          ", this program reads " + std::to_string(protocol_major) +
+                                          ": use Osteomill " + other->program_version +
+                                          (other->major > protocol_major ? " or later" : " or earlier"));
     if (!has_its_time)
         throw error_at(packet->place,
                        "its time stamp is not the one that was recorded: damaged, or moved by a tool");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
+#include "common/files/needed_version.h"
 #include "common/scene/apply_change.h"
 #include "common/scene/phantom_names.h"
 #include "common/scene/plan_table.h"
@@ -195,6 +196,8 @@ TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& f
 }
 
 Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
+    if (const auto needed = reader.text(needed_version_key))
+        if (const auto why_not = why_not_for_this_version(*needed)) reader.fail(needed_version_key, *why_not);
     Scene scene;
     scene.name = required(reader, "name", reader.text("name"));
     scene.description = reader.text("description").value_or("");

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/text/plain_text.h"
 #include "common/wire/packed_changes.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/state_message.h"
@@ -51,7 +52,7 @@ void SessionReceiver::go_on_behind(std::uint64_t sequence) {
 SessionReceiver::Outcome SessionReceiver::take_hello(const v2::Hello& hello) {
     if (hello.protocol_major() != protocol_major) {
         stage_ = Stage::over;
-        return SessionEvent(SpeaksOtherProtocol{hello.protocol_major()});
+        return SessionEvent(SpeaksOtherProtocol{hello.protocol_major(), printable(hello.program_version())});
     }
     auto info = session_info_from(hello);
     if (auto* error = std::get_if<WireError>(&info)) return *error;

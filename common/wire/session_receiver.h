@@ -56,6 +56,7 @@ struct SaidGoodbye {
 /// The server speaks another major version; nothing after this can be understood.
 struct SpeaksOtherProtocol {
     std::uint32_t major = 0;
+    std::string program_version{};  ///< of the program that says so
 };
 
 /// Another piece of the CT; what it makes is the receiver's business.

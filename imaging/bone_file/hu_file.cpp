@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/files/needed_version.h"
 #include "imaging/formats/nrrd_header.h"
 #include "imaging/imaging_error.h"
 
@@ -99,6 +100,9 @@ BoneFile::BoneFile(const std::filesystem::path& path) {
                            std::string("is not a file") + (std::filesystem::is_directory(path) ? hint : ""));
     file_ = std::make_shared<const InputFile>(path);
     NrrdHeader header = parse_nrrd_header(file_->first_bytes(most_nrrd_header_bytes), path);
+    if (const auto needed = header.key_values.find(std::string(own_keys) + needed_version_key);
+        needed != header.key_values.end())
+        if (const auto why_not = why_not_for_this_version(needed->second)) throw ImagingError(path, *why_not);
     const ImageHeader image = nrrd_image(header, path);
     require_form(header, image, path);
     form_.grid = grid_of(image.image, path);

@@ -150,6 +150,7 @@ glm::dvec3 rounded_mm(const glm::dvec3& place_mm) {
 Scene scene_of_bone_file(const std::filesystem::path& file) {
     Scene scene = phantom_scene("tooth");
     scene.name = file.stem().string();
+    scene.description.clear();
     scene.bone = FileSource{.path = file};
     scene.tissues.clear();
     scene.plan.reset();

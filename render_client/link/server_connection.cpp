@@ -316,8 +316,9 @@ void ServerConnection::take_event(const SaidGoodbye& goodbye) {
 }
 
 void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
-    refuse(where_ + " speaks protocol " + std::to_string(other.major) + ", this program " +
-           std::to_string(protocol_major) + ": update the older of the two");
+    refuse(where_ + " speaks protocol " + std::to_string(other.major) + " (Osteomill " +
+           other.program_version + "), this program " + std::to_string(protocol_major) +
+           ": update the older of the two");
 }
 
 void ServerConnection::write_newest() {

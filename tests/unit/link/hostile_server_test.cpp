@@ -114,9 +114,10 @@ TEST_F(HostileServer, IsRefusedIfItSpeaksAnotherMajorVersion) {
     accept();
     v2::ServerFrame frame = hello();
     frame.mutable_hello()->set_protocol_major(protocol_major + 1);
+    frame.mutable_hello()->set_program_version("9.1");
     send(frame);
     EXPECT_TRUE(eventually([this] { return poll().status == LinkStatus::refused; }));
-    EXPECT_THAT(last_.status_line, HasSubstr("speaks protocol 3, this program 2"));
+    EXPECT_THAT(last_.status_line, HasSubstr("speaks protocol 3 (Osteomill 9.1), this program 2"));
     greet_until_live();  // it has been replaced meanwhile
 }
 

@@ -14,6 +14,7 @@ namespace {
 TEST(SceneOnBone, StartsOutsideTheBoneWhereItIsThinnestAndDrillsThere) {
     Scene scene = scene_of_bone_file("/scans/jaw.nrrd");
     EXPECT_EQ(scene.name, "jaw");
+    EXPECT_EQ(scene.description, "") << "it is not the tooth, whose burrs it takes";
     EXPECT_EQ(std::get<FileSource>(scene.bone).path, "/scans/jaw.nrrd");
     EXPECT_TRUE(scene.tissues.empty());
     place_on_bone(scene, testing::make_block({100.0, -50.0, 20.0}, {110.0, -42.0, 25.0}, 0.1));

@@ -15,7 +15,9 @@ TEST(GoldenRecording, OfProtocol1IsRefusedInOneLineThatSaysSo) {
         FAIL() << "it was read";
     } catch (const RecordingError& error) {
         EXPECT_THAT(error.what(), ::testing::HasSubstr("recording_1_1.pcap, packet 1"));
-        EXPECT_THAT(error.what(), ::testing::HasSubstr("recorded with protocol 1, this program reads 2"));
+        EXPECT_THAT(error.what(),
+                    ::testing::HasSubstr(
+                        "recorded with protocol 1, this program reads 2: use Osteomill 0.1.0 or earlier"));
     }
 }
 

@@ -116,6 +116,12 @@ TEST(SceneFile, AnUnknownKeyIsRefusedWithItsLineAndTheChoices) {
                 HasSubstr("my.toml:7: unknown key 'teeth' in [[burrs]]"));
 }
 
+TEST(SceneFile, OfALaterVersionIsRefusedBeforeItsKeysAreLookedAt) {
+    EXPECT_THAT(error_of("name = 'a'\nnew_key = 1\nneeds = '99.1'\n[bone]\nphantom = 'cube'\n"),
+                HasSubstr("my.toml:3: needs Osteomill 99.1 or later, this is "));
+    EXPECT_EQ(parse_scene("name = 'a'\nneeds = '0.3'\n[bone]\nphantom = 'cube'\n", "my.toml").name, "a");
+}
+
 TEST(SceneFile, ATissueTakesItsStrengthFromAMaterialOrItsOwnNumbers) {
     const std::string tissue = smallest + "[[tissues]]\nlabel = 4\nname = \"x\"\ncolour = \"#ffffff\"\n";
     EXPECT_FALSE(parse_scene(tissue, "my.toml").tissues[0].strength) << "as the CT numbers say";
@@ -226,8 +232,9 @@ TEST(SceneFile, AMissingKeyIsNamed) {
 TEST(SceneFile, ValuesOutOfRangeOrOfTheWrongTypeAreRefused) {
     EXPECT_THAT(error_of("name = 3\n[bone]\nphantom = \"tooth\"\n"),
                 HasSubstr("my.toml:1: 'name' must be a text"));
-    EXPECT_THAT(error_of("name = \"a\"\n[bone]\nphantom = \"skull\"\n"),
-                HasSubstr("my.toml:3: 'phantom' is \"skull\"; choose one of: jaw, mastoid, tooth, cube, head"));
+    EXPECT_THAT(
+        error_of("name = \"a\"\n[bone]\nphantom = \"skull\"\n"),
+        HasSubstr("my.toml:3: 'phantom' is \"skull\"; choose one of: jaw, mastoid, tooth, cube, head"));
     const std::string burr = smallest + "[[burrs]]\nname = \"b\"\ndiameter_mm = ";
     EXPECT_THAT(error_of(burr + "0.0\n"), HasSubstr("my.toml:6: 'diameter_mm' is 0"));
     EXPECT_THAT(error_of(burr + "nan\n"), HasSubstr("must be a finite number"));

@@ -56,6 +56,15 @@ TEST(HuFile, StatesPatientSpaceForOtherPrograms) {
     EXPECT_EQ(read_bone_file(folder / "bone.nrrd").threshold_hu, std::nullopt);
 }
 
+TEST(HuFile, OfALaterVersionIsRefusedByTheVersionThatItNeeds) {
+    const testing::TemporaryFolder folder;
+    write_bone_file(folder / "bone.nrrd", small_volume(), {{"osteomill_needs", "99.1"}});
+    EXPECT_THAT(refusal(folder / "bone.nrrd"),
+                HasSubstr("bone.nrrd: needs Osteomill 99.1 or later, this is "));
+    write_bone_file(folder / "bone.nrrd", small_volume(), {{"osteomill_needs", "0.3"}});
+    EXPECT_EQ(refusal(folder / "bone.nrrd"), "accepted");
+}
+
 TEST(HuFile, SendsOtherImagesToBoneImport) {
     const testing::TemporaryFolder folder;
     const auto with = [&](const std::string& type, const std::string& directions) {
