@@ -45,7 +45,10 @@ SessionImages::SessionImages(Playhead& playhead, std::span<const DatasetCamera> 
 void SessionImages::follow() {
     const std::vector<BrickChange> changes = playhead_.take_changes();
     const std::span<const VoxelBox> changed = textures_.update(playhead_.bone(), changes);
-    for (const auto& view : views_) view->picture.mark_dirty(textures_, changed);
+    for (const auto& view : views_) {
+        view->picture.mark_dirty(textures_, changed);
+        view->surface.mark_dirty(changed);
+    }
     take_structures();
     if (playhead_.tool() == nullptr || std::exchange(has_first_view_, true)) return;
     first_view_ = pose_of(first_view(playhead_.bone(), textures_, &playhead_.session(), playhead_.tool()));

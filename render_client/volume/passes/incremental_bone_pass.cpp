@@ -41,6 +41,21 @@ VoxelBox in_whole_blocks(const VoxelBox& box, const glm::ivec3& origin) {
 
 }  // namespace
 
+TileMask tiles_of_changes(std::span<const VoxelBox> changed, const BoneTextures& bone, const Camera& camera,
+                          const glm::ivec2& size_px, int reach_voxels) {
+    TileMask tiles(size_px);
+    const glm::dmat4 to_clip = camera.projection(size_px) * camera.view();
+    const double reach = reach_voxels + 0.5;  // a voxel's faces are half a voxel from its centre
+    const Grid& grid = bone.grid();
+    for (const VoxelBox& box : changed) {
+        const glm::dvec3 low_mm = centre_of_voxel_mm(grid, box.first) - reach * grid.spacing_mm;
+        const glm::dvec3 high_mm =
+            centre_of_voxel_mm(grid, box.first + box.size - 1) + reach * grid.spacing_mm;
+        mark_box(tiles, low_mm, high_mm, to_clip);
+    }
+    return tiles;
+}
+
 IncrementalBonePass::IncrementalBonePass(BoneRenderer& renderer, const glm::ivec2& size_px,
                                          Stopwatch* stopwatch, double frame_s)
     : renderer_(renderer),
@@ -85,8 +100,8 @@ TileMask IncrementalBonePass::update(const BoneTextures& bone, const Camera& cam
         fresh.mark_all();
         misplaced = fresh;
     } else {
-        fresh = tiles_of_changes(bone, camera, shading_reach_voxels);
-        misplaced = tiles_of_changes(bone, camera, surface_reach_voxels);
+        fresh = tiles_of_changes(dirty_, bone, camera, size_px(), shading_reach_voxels);
+        misplaced = tiles_of_changes(dirty_, bone, camera, size_px(), surface_reach_voxels);
     }
     frames_of_calm_ = moved || !dirty_.empty() ? 0 : frames_of_calm_ + 1;
     dirty_.clear();
@@ -139,21 +154,6 @@ void IncrementalBonePass::learn() {
 void IncrementalBonePass::frame_took(double frame_s) {
     if (measures_this_frame_) frame_s_ = frame_s;
     if (drawn_this_frame_px_ == 0) control_.frame_took(frame_s, 0.0);
-}
-
-TileMask IncrementalBonePass::tiles_of_changes(const BoneTextures& bone, const Camera& camera,
-                                               int reach_voxels) const {
-    TileMask tiles(size_px());
-    const glm::dmat4 to_clip = camera.projection(size_px()) * camera.view();
-    const double reach = reach_voxels + 0.5;  // a voxel's faces are half a voxel from its centre
-    const Grid& grid = bone.grid();
-    for (const VoxelBox& box : dirty_) {
-        const glm::dvec3 low_mm = centre_of_voxel_mm(grid, box.first) - reach * grid.spacing_mm;
-        const glm::dvec3 high_mm =
-            centre_of_voxel_mm(grid, box.first + box.size - 1) + reach * grid.spacing_mm;
-        mark_box(tiles, low_mm, high_mm, to_clip);
-    }
-    return tiles;
 }
 
 void IncrementalBonePass::draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,

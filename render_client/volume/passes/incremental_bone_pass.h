@@ -22,6 +22,11 @@
 
 namespace osteomill {
 
+/// Tiles of a picture in which changes of these voxels of the bone's grid() can be seen, by what looks so far
+/// around a voxel (shading_reach.h).
+TileMask tiles_of_changes(std::span<const VoxelBox> changed, const BoneTextures& bone, const Camera& camera,
+                          const glm::ivec2& size_px, int reach_voxels);
+
 class IncrementalBonePass {
   public:
     /// `stopwatch` makes it draw on demand, at whatever quality keeps the rate of frames; null: always in
@@ -58,7 +63,6 @@ class IncrementalBonePass {
     };
 
     void learn();
-    TileMask tiles_of_changes(const BoneTextures& bone, const Camera& camera, int reach_voxels) const;
     void draw_exact(const BoneTextures& bone, const Camera& camera, const TileMask& tiles, Extent extent);
     /// These return the pixels that they drew.
     std::int64_t draw_coarse(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,

@@ -6,8 +6,11 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <stdexcept>
+#include <utility>
 
+#include "render_client/volume/passes/incremental_bone_pass.h"
 #include "render_client/volume/shaders/shader_files.h"
+#include "render_client/volume/shaders/shading_reach.h"
 
 namespace osteomill {
 
@@ -41,7 +44,8 @@ SurfacePass::SurfacePass(const glm::ivec2& size_px)
       bone_program_(bone_surface_files),
       mesh_program_(make_program(mesh_surface_files)),
       head_(burr_head(burr_shape_)),
-      shank_(burr_shank(burr_shape_)) {
+      shank_(burr_shank(burr_shape_)),
+      covered_(size_px) {
     glGenFramebuffers(1, &framebuffer_);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     surface_ = make_buffer(GL_RGBA32F, size_px, GL_COLOR_ATTACHMENT0);
@@ -68,20 +72,34 @@ void SurfacePass::add_structure(const StructureSurface& surface, std::uint8_t th
 SurfaceImage SurfacePass::draw(const BoneTextures& bone, const DrawnTool* tool, const Camera& camera) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     glViewport(0, 0, size_px_.x, size_px_.y);
+    glEnable(GL_DEPTH_TEST);
+    draw_bone(bone, camera);
+    draw_meshes(tool, camera);
+    return read_back();
+}
+
+void SurfacePass::draw_bone(const BoneTextures& bone, const Camera& camera) {
     constexpr float no_surface[]{0.0f, 0.0f, 0.0f, SurfaceImage::no_depth};
     constexpr GLuint no_thing[]{SurfaceImage::nothing, 0, 0, 0};
     constexpr float farthest = 1.0f;
-    glClearBufferfv(GL_COLOR, 0, no_surface);
-    glClearBufferuiv(GL_COLOR, 1, no_thing);
-    glClearBufferfv(GL_DEPTH, 0, &farthest);
-    glEnable(GL_DEPTH_TEST);
+    TileMask stale = std::exchange(covered_, TileMask(size_px_));
+    stale |= tiles_of_changes(dirty_, bone, camera, size_px_, surface_reach_voxels);
+    if (camera_ != camera) stale.mark_all();
+    camera_ = camera;
+    dirty_.clear();
     const gl::Program& program = bone_program_.use(bone, {});
     set_ray_uniforms(program, bone, camera, size_px_, {});
     program.set("to_camera", to_camera(camera));
     program.set("thing_number", SurfaceImage::bone);
-    full_screen_.draw();
-    draw_meshes(tool, camera);
-    return read_back();
+    glEnable(GL_SCISSOR_TEST);
+    for (const PixelBox& box : stale.rectangles()) {
+        glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
+        glClearBufferfv(GL_COLOR, 0, no_surface);
+        glClearBufferuiv(GL_COLOR, 1, no_thing);
+        glClearBufferfv(GL_DEPTH, 0, &farthest);
+        full_screen_.draw();
+    }
+    glDisable(GL_SCISSOR_TEST);
 }
 
 void SurfacePass::draw_meshes(const DrawnTool* tool, const Camera& camera) {
@@ -95,6 +113,7 @@ void SurfacePass::draw_meshes(const DrawnTool* tool, const Camera& camera) {
         mesh_program_.set("to_patient", glm::mat4(to_patient));
         mesh_program_.set("normal_to_patient", glm::mat3(to_patient));  // rigid
         mesh_program_.set("thing_number", thing);
+        mark_box(covered_, mesh.low(), mesh.high(), view_projection * to_patient);
         mesh.draw();
     };
     for (const Structure& structure : structures_)

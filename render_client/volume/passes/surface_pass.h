@@ -14,7 +14,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "render_client/volume/gl/full_screen.h"
@@ -47,7 +47,13 @@ class SurfacePass {
     /// Another soft structure, with the number that it has in pictures, above those of SurfaceImage.
     void add_structure(const StructureSurface& surface, std::uint8_t thing);
 
-    /// `tool` null: there is none yet. Rays end at the camera's near and far planes.
+    /// These voxels of the bone's grid() changed since the last draw: what its update returned.
+    void mark_dirty(std::span<const VoxelBox> changed) {
+        dirty_.insert(dirty_.end(), changed.begin(), changed.end());
+    }
+
+    /// Always of the same bone. Draws only what may have changed, while the camera stays. `tool` null: there
+    /// is none yet. What lies before the camera's near plane or behind its far plane is not seen.
     SurfaceImage draw(const BoneTextures& bone, const DrawnTool* tool, const Camera& camera);
 
   private:
@@ -56,6 +62,7 @@ class SurfacePass {
         glm::dvec3 origin_mm;
         std::uint8_t thing;
     };
+    void draw_bone(const BoneTextures& bone, const Camera& camera);
     void draw_meshes(const DrawnTool* tool, const Camera& camera);
     SurfaceImage read_back() const;
 
@@ -71,6 +78,9 @@ class SurfacePass {
     gl::Mesh head_;
     gl::Mesh shank_;
     std::vector<Structure> structures_;
+    std::optional<Camera> camera_;  ///< of what is drawn
+    std::vector<VoxelBox> dirty_;   ///< since
+    TileMask covered_;              ///< by tool and structures
 };
 
 }  // namespace osteomill

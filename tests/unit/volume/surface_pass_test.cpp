@@ -132,5 +132,26 @@ TEST_F(SurfacePassTest, MeasuresTheBurrWhereItIs) {
     EXPECT_EQ(image.thing[static_cast<std::size_t>(above.y * size_px.x + above.x)], SurfaceImage::shank);
 }
 
+TEST_F(SurfacePassTest, DrawsPartsAsItDrawsTheWhole) {
+    Bone bone = made_bone(grid, [](const glm::dvec3& p) { return 3.3 - glm::length(p); });
+    BoneTextures textures(bone, {});
+    const Camera camera = camera_from_aside();
+    SurfacePass pass(size_px);
+    DrawnTool tool;
+    tool.burr.diameter_mm = 1.0;
+    SurfaceImage before;
+    for (double x = -1.0; x < 1.0; x += 0.5) {
+        tool.state.burr_position_mm = {x, -1.8, 2.4};
+        pass.mark_dirty(textures.update(bone, carve_sphere(bone, tool.state.burr_position_mm, 0.5)));
+        const SurfaceImage parts = pass.draw(textures, &tool, camera);
+        const SurfaceImage whole = SurfacePass(size_px).draw(textures, &tool, camera);
+        EXPECT_EQ(parts.depth_mm, whole.depth_mm);
+        EXPECT_EQ(parts.normal, whole.normal);
+        EXPECT_EQ(parts.thing, whole.thing);
+        EXPECT_NE(parts.depth_mm, before.depth_mm);
+        before = parts;
+    }
+}
+
 }  // namespace
 }  // namespace osteomill::surface_pass_test
