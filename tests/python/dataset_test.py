@@ -1,6 +1,7 @@
 """Image sets of recordings, read by PIL and NumPy: what they hold is of one instant, and the same each time."""
 
 import hashlib
+import importlib.util
 import json
 import pathlib
 import subprocess
@@ -11,6 +12,7 @@ import numpy as np
 from PIL import Image
 from support import program, run_server
 
+EXAMPLES = pathlib.Path(__file__).parents[2] / "python" / "examples"
 CAMERAS = """[[cameras]]
 name = "side"
 eye_mm = [50, -40, 35]
@@ -204,6 +206,20 @@ class DatasetTest(unittest.TestCase):
         self.assertEqual(parts, whole)
         self.assertEqual(sorted(frames, key=lambda frame: frame["frame"]), self.index["frames"])
 
+    def learns(self, training, held_out):
+        spec = importlib.util.spec_from_file_location("segment_tool", EXAMPLES / "segment_tool.py")
+        segment_tool = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(segment_tool)
+        segment_tool.STEPS = 300
+        network, threshold = segment_tool.learn(segment_tool.frames_of(self.folder / training))
+        frames = segment_tool.frames_of(self.folder / held_out)
+        self.assertEqual(len(frames), 15)
+        truth = np.concatenate([is_tool.ravel() for _, is_tool in frames])
+        found = np.concatenate([network.chance(segment_tool.features_of(colour)) > threshold for colour, _ in frames])
+        reached = segment_tool.score(found, truth)["iou"]
+        self.assertGreater(reached, 4 * truth.mean(), "no better than to call every pixel a tool's")
+        self.assertGreater(reached, 0.3)
+
     def test_a_seed_repeats_its_looks_and_leaves_the_numbers(self):
         for name, seed in (("seven", "7"), ("seven_again", "7"), ("eight", "8")):
             self.make(name, "--randomise", seed, "--shard", "1/5")
@@ -214,6 +230,7 @@ class DatasetTest(unittest.TestCase):
                 self.assertEqual(len({seven[file], eight[file], plain[file]}), 3, file)
             elif not file.endswith(".json"):
                 self.assertEqual(seven[file], plain[file], file)
+        self.learns("seven", "eight")
         index = json.loads((self.folder / "seven/dataset-1-of-5.json").read_text())
         left, right, _ = (images["look"] for images in index["frames"][1]["images"])
         self.assertEqual(left["lamps_xyzw"], right["lamps_xyzw"])
