@@ -10,4 +10,18 @@ const StructureDistance* nearest_structure(std::span<const StructureDistance> di
     return nearest;
 }
 
+StructureWarning warning_of(const StructureDistance& now, const Tissue& tissue) {
+    if (now.touches) return StructureWarning::touch;
+    const bool is_near = now.distance_mm && *now.distance_mm < tissue.warn_mm;
+    return is_near ? StructureWarning::near : StructureWarning::none;
+}
+
+StructureWarning gravest_warning(std::span<const StructureDistance> distances,
+                                 std::span<const Tissue> tissues) {
+    StructureWarning gravest = StructureWarning::none;
+    for (const StructureDistance& now : distances)
+        if (now.tissue < tissues.size()) gravest = std::max(gravest, warning_of(now, tissues[now.tissue]));
+    return gravest;
+}
+
 }  // namespace osteomill

@@ -35,6 +35,15 @@ struct StructureDistance {
     bool operator==(const StructureDistance&) const = default;
 };
 
+/// How much a person is to be warned of a protected structure; the graver the greater.
+enum class StructureWarning : std::uint8_t { none, near, touch };
+
+/// Near: closer than the tissue's warn_mm.
+StructureWarning warning_of(const StructureDistance& now, const Tissue& tissue);
+/// Of all of them, whose tissues are the session's.
+StructureWarning gravest_warning(std::span<const StructureDistance> distances,
+                                 std::span<const Tissue> tissues);
+
 /// The one that the burr touches or is nearest to; null where none has a distance.
 const StructureDistance* nearest_structure(std::span<const StructureDistance> distances);
 

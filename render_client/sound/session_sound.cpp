@@ -22,7 +22,8 @@ std::string SessionSound::switch_to(bool on) {
     }
 }
 
-std::string SessionSound::hear(const std::optional<ToolState>& tool, const SessionInfo* session) {
+std::string SessionSound::hear(const std::optional<ToolState>& tool, const SessionInfo* session,
+                               std::span<const StructureDistance> distances, bool warns) {
     if (!speaker_) return {};
     if (speaker_->has_lost_device()) {
         speaker_.reset();
@@ -33,7 +34,8 @@ std::string SessionSound::hear(const std::optional<ToolState>& tool, const Sessi
     const bool is_news = tool && tool->time_s != heard_time_s_;
     if (!is_news || session == nullptr || tool->burr >= session->burrs.size()) return {};
     heard_time_s_ = tool->time_s;
-    speaker_->hear(cue_of(*tool, session->burrs[tool->burr]));
+    speaker_->hear(cue_of(*tool, session->burrs[tool->burr]),
+                   warns ? gravest_warning(distances, session->tissues) : StructureWarning::none);
     return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/scene/tool_state.h"
@@ -20,7 +21,9 @@ class SessionSound {
 
     /// The newest state of the tool, as often as there is one. Returns a line once the loudspeaker is lost,
     /// and is then off; mostly nothing.
-    std::string hear(const std::optional<ToolState>& tool, const SessionInfo* session);
+    /// `warns`: of protected structures at these distances.
+    std::string hear(const std::optional<ToolState>& tool, const SessionInfo* session,
+                     std::span<const StructureDistance> distances, bool warns);
 
   private:
     std::unique_ptr<Speaker> speaker_;

@@ -47,10 +47,11 @@ Speaker::~Speaker() {
     alDeleteBuffers(static_cast<ALsizei>(buffers), buffers_.data());
 }
 
-void Speaker::hear(const SoundCue& cue) {
+void Speaker::hear(const SoundCue& cue, StructureWarning warning) {
     {
         const std::lock_guard lock(mutex_);
         newest_ = cue;
+        warning_ = warning;
     }
     woken_.notify_all();
 }
@@ -62,12 +63,17 @@ bool Speaker::has_lost_device() const {
 
 void Speaker::take_cue() {
     const std::lock_guard lock(mutex_);
-    if (const auto cue = std::exchange(newest_, std::nullopt)) sound_.hear(*cue);
+    const auto cue = std::exchange(newest_, std::nullopt);
+    if (!cue) return;
+    sound_.hear(*cue);
+    tone_.warn(warning_);
 }
 
 bool Speaker::wait_for_sound() {
     std::unique_lock lock(mutex_);
-    woken_.wait(lock, [this] { return is_over_ || (newest_ && newest_->rev_per_s > 0.0); });
+    woken_.wait(lock, [this] {
+        return is_over_ || (newest_ && (newest_->rev_per_s > 0.0 || warning_ != StructureWarning::none));
+    });
     return !is_over_;
 }
 
@@ -75,6 +81,7 @@ void Speaker::fill(ALuint buffer) {
     take_cue();
     std::array<float, samples_a_buffer> samples;
     sound_.render(samples);
+    tone_.add_to(samples);
     std::array<std::int16_t, samples_a_buffer> levels;
     for (std::size_t i = 0; i < samples.size(); ++i)
         levels[i] = static_cast<std::int16_t>(std::lround(full_scale * samples[i]));
@@ -100,7 +107,7 @@ void Speaker::play() {
     while (wait_for_sound()) {
         for (const ALuint buffer : buffers_) fill(buffer);
         alSourcePlay(source_);
-        while (!sound_.is_silent()) {
+        while (!sound_.is_silent() || !tone_.is_silent()) {
             fill_what_was_played();
             ALCint is_connected = ALC_TRUE;
             if (tells_of_loss_) alcGetIntegerv(device_.get(), ALC_CONNECTED, 1, &is_connected);

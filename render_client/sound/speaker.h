@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "common/sound/burr_sound.h"
+#include "common/sound/warning_tone.h"
 
 namespace osteomill {
 
@@ -38,7 +39,7 @@ class Speaker {
 
     // Any thread; none of these waits for the device.
     /// From now on it sounds like this.
-    void hear(const SoundCue& cue);
+    void hear(const SoundCue& cue, StructureWarning warning);
     /// Whether the device has gone, pulled out for instance: nothing is heard any more.
     bool has_lost_device() const;
 
@@ -72,10 +73,12 @@ class Speaker {
     ALuint source_ = 0;
     std::array<ALuint, buffers> buffers_{};
     BurrSound sound_;
+    WarningTone tone_;
 
     mutable std::mutex mutex_;
     std::condition_variable woken_;
-    std::optional<SoundCue> newest_;  // not yet taken
+    std::optional<SoundCue> newest_;                     // not yet taken
+    StructureWarning warning_ = StructureWarning::none;  // that came with it
     bool is_over_ = false;
     bool has_lost_device_ = false;
     std::thread thread_;

@@ -62,10 +62,10 @@ void move_camera(SessionPicture& session, Commands& commands, float wheel_notche
         pan(session.camera(), moved_px, session.size_px());
     else if (right || (left_turns && io.MouseDown[ImGuiMouseButton_Left]))
         orbit(session.camera(), -orbit_rad_per_px * moved_px.x, orbit_rad_per_px * moved_px.y);
-    if (wheel_notches == 0.0f || io.KeyCtrl) return;
+    if (wheel_notches == 0.0f) return;
     if (io.KeyAlt)
         session.view().cuts.move_last(cut_mm_per_notch * wheel_notches);
-    else
+    else if (left_turns || io.KeyCtrl || moves_bone)  // else it is the hand's
         zoom(session.camera(), std::pow(zoom_per_notch, wheel_notches));
 }
 
@@ -163,6 +163,7 @@ class Drawing {
                                                 session_.view().click_places || session_.view().moves_bone,
                            .panels = panels_.input_boxes(),
                            .panels_have_keyboard = has_keyboard(),
+                           .over_bone_mm = over_bone_mm(),
                            .drag_tilts = session_.view().drag_tilts,
                            .is_clutched = commands_.is_clutched(),
                            .holds_still = link.controls.is_paused});
@@ -194,7 +195,9 @@ class Drawing {
     void work_sound(double now_s) {
         bool& wanted = session_.view().sound;
         if (wanted != sound_.is_on()) commands_.say(sound_.switch_to(wanted), now_s);
-        if (const std::string lost = sound_.hear(session_.tool(), session_.session()); !lost.empty())
+        if (const std::string lost = sound_.hear(session_.tool(), session_.session(),
+                                                 session_.link().distances, session_.view().warns);
+            !lost.empty())
             commands_.say(lost, now_s);
         wanted = sound_.is_on();
     }
@@ -218,7 +221,8 @@ class Drawing {
             if (!has_keyboard() || action == Action::end) commands_.take(action);
         if (session_.view().click_places && ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
             !ImGui::GetIO().WantCaptureMouse)
-            commands_.place_at({ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y});
+            commands_.place_at({ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y},
+                               ImGui::GetIO().KeyShift);
         commands_.take(session_.take_requests());
         shared_.is_fullscreen = session_.view().is_fullscreen;
         commands_.work_clutch();
@@ -237,6 +241,14 @@ class Drawing {
         if (has_new_notice) redraw_.note_change(start + took);
         session_.frame_took(took_s);
         frame_times_.add(1e3 * took_s);
+    }
+
+    /// Where a drag would take the burr in air.
+    std::optional<glm::dvec3> over_bone_mm() const {
+        const ImGuiIO& io = ImGui::GetIO();
+        if (!drills_ || !io.MouseDown[ImGuiMouseButton_Left] || io.WantCaptureMouse) return std::nullopt;
+        const auto pose = commands_.over_bone({io.MousePos.x, io.MousePos.y});
+        return pose ? std::optional(pose->position_mm) : std::nullopt;
     }
 
     glm::ivec2 view_motion() const {

@@ -99,6 +99,9 @@ void Commands::take(Action action) {
         case Action::sound:
             view.sound = !view.sound;
             break;
+        case Action::warnings:
+            view.warns = !view.warns;
+            break;
         case Action::inset:
             view.inset = static_cast<InsetKind>((static_cast<int>(view.inset) + 1) % 3);
             break;
@@ -200,19 +203,25 @@ void Commands::take(const SessionRequests& requests) {
     end_wanted_ = end_wanted_ || requests.ends_program;
 }
 
-void Commands::place_at(const glm::dvec2& pixel) {
+std::optional<ToolPose> Commands::over_bone(const glm::dvec2& pixel) const {
     const Bone* bone = source_.bone();
     const auto& tool = session_.tool();
-    if (bone == nullptr || !tool) return;
+    if (bone == nullptr || !tool) return std::nullopt;
     const auto found =
         pick_surface(*bone, session_.camera(), pixel, session_.size_px(), session_.view().cuts.planes());
-    if (!found) return;
-    session_.view().click_places = false;
+    if (!found) return std::nullopt;
     const SessionInfo* scene = source_.session();
     const double radius_mm =
         scene != nullptr && tool->burr < scene->burrs.size() ? scene->burrs[tool->burr].radius_mm() : 0.0;
-    const ToolPose pose{found->position_mm + (radius_mm + gap_mm) * found->normal, found->normal};
-    source_.send_control({.action = SessionAction::place, .pose = pose});
+    return ToolPose{found->position_mm + (radius_mm + gap_mm) * found->normal, found->normal};
+}
+
+void Commands::place_at(const glm::dvec2& pixel, bool upright) {
+    std::optional<ToolPose> pose = over_bone(pixel);
+    if (!pose) return;
+    session_.view().click_places = false;
+    if (!upright) pose->spindle_axis = session_.tool()->spindle_axis;
+    source_.send_control({.action = SessionAction::place, .pose = *pose});
 }
 
 void Commands::work_clutch() {

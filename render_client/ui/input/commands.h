@@ -21,9 +21,11 @@ class Commands {
     void take(Action action);
     /// Passes on what was asked for with buttons.
     void take(const SessionRequests& requests);
-    /// Puts the tool on the bone that is seen at a pixel, the handpiece upright on it; a click beside the
-    /// bone does nothing.
-    void place_at(const glm::dvec2& pixel);
+    /// Where the burr stands clear of the bone that is seen at a pixel, the handpiece upright on it; nothing
+    /// beside the bone, and without a tool.
+    std::optional<ToolPose> over_bone(const glm::dvec2& pixel) const;
+    /// Puts the tool there, the handpiece as it is or upright on the bone; a click beside it does nothing.
+    void place_at(const glm::dvec2& pixel, bool upright);
     /// Before and after each frame: takes hold of the tool while the bone is moved under it, and has it
     /// placed when that is over. Meanwhile the session is paused.
     void work_clutch();

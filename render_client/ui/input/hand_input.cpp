@@ -68,19 +68,29 @@ bool HandInput::panels_have(const WindowInput& input) const {
 
 void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
     if (picture_.holds_still) pedal_switched_down_ = false;
-    if (input.went_down[WindowInput::left]) drags_hand_ = !panels_have(input);
-    const glm::dvec2 moved_px = (input.cursor - cursor_) * input.px_per_unit();
-    if (drags_hand_ && input.is_down[WindowInput::left] && moved_px != glm::dvec2(0.0))
-        picture_.drag_tilts ? hand_.tilt_in_picture(moved_px, picture_.camera)
-                            : hand_.move_in_picture(moved_px, picture_.camera, picture_.size_px);
-    if (!input.is_down[WindowInput::left]) drags_hand_ = false;
-    if (input.ctrl && input.wheel.y != 0.0 && !panels_have(input))
-        hand_.advance(advance_mm_per_notch * input.wheel.y);
+    if (input.went_down[WindowInput::left]) {
+        drags_hand_ = !panels_have(input);
+        deeper_mm_ = 0.0;
+    }
     const auto is_down = [&](int key) {
         return !picture_.panels_have_keyboard && input.keys_down[static_cast<std::size_t>(key)];
     };
-    if (is_down(GLFW_KEY_W)) hand_.advance(advance_mm_per_s * elapsed_s);
-    if (is_down(GLFW_KEY_S)) hand_.advance(-advance_mm_per_s * elapsed_s);
+    double advanced_mm =
+        advance_mm_per_s * elapsed_s * (static_cast<double>(is_down(GLFW_KEY_W)) - is_down(GLFW_KEY_S));
+    if (!input.ctrl && !input.alt && input.wheel.y != 0.0 && !panels_have(input))
+        advanced_mm += advance_mm_per_notch * input.wheel.y;
+    drags_hand_ = drags_hand_ && input.is_down[WindowInput::left];
+    // A burr that turns goes where the hand moves it; one that does not, as in air, where one points.
+    if (drags_hand_ && !picture_.drag_tilts && !hand_.command().pedal && picture_.over_bone_mm) {
+        deeper_mm_ += advanced_mm;
+        hand_.go_to(*picture_.over_bone_mm);
+        advanced_mm = deeper_mm_;
+    } else if (const glm::dvec2 moved_px = (input.cursor - cursor_) * input.px_per_unit();
+               drags_hand_ && moved_px != glm::dvec2(0.0)) {
+        picture_.drag_tilts ? hand_.tilt_in_picture(moved_px, picture_.camera)
+                            : hand_.move_in_picture(moved_px, picture_.camera, picture_.size_px);
+    }
+    if (advanced_mm != 0.0) hand_.advance(advanced_mm);
     const double turned_px = tilt_px_per_s * elapsed_s;
     const glm::dvec2 tilt_px(static_cast<double>(is_down(GLFW_KEY_RIGHT)) - is_down(GLFW_KEY_LEFT),
                              static_cast<double>(is_down(GLFW_KEY_DOWN)) - is_down(GLFW_KEY_UP));

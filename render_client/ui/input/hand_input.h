@@ -32,9 +32,12 @@ struct HandInputPicture {
     bool panels_have_mouse = false;
     std::vector<PixelBox> panels{};     ///< y down
     bool panels_have_keyboard = false;  ///< a text is being written
-    bool drag_tilts = false;            ///< the mouse tilts the handpiece instead of moving it
-    bool is_clutched = false;           ///< mouse and keys move the bone: the hand lets go
-    bool holds_still = false;           ///< the session is paused: a pedal that was left down comes up
+    /// Where the burr stands clear of the bone that is under the cursor, patient LPS; nothing beside the
+    /// bone.
+    std::optional<glm::dvec3> over_bone_mm{};
+    bool drag_tilts = false;   ///< the mouse tilts the handpiece instead of moving it
+    bool is_clutched = false;  ///< mouse and keys move the bone: the hand lets go
+    bool holds_still = false;  ///< the session is paused: a pedal that was left down comes up
 };
 
 class HandInput {
@@ -71,6 +74,7 @@ class HandInput {
     OperatorHand hand_;
     bool pedal_switched_down_ = false;
     bool drags_hand_ = false;
+    double deeper_mm_ = 0.0;  ///< than over the bone, since the drag began
 
     // Thread of the window.
     glm::dvec2 cursor_{0.0};

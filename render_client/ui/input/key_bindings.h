@@ -31,6 +31,7 @@ enum class Action {
     light_field,
     inset,
     sound,
+    warnings,
     screenshot,
     export_frames,
     details,

@@ -33,6 +33,11 @@ void OperatorHand::move_in_picture(const glm::dvec2& moved_px, const Camera& cam
     command_.hand_target_mm += mm_per_px * (moved_px.x * camera.right() - moved_px.y * camera.up());
 }
 
+void OperatorHand::go_to(const glm::dvec3& place_mm) {
+    taken_up_ = true;
+    command_.hand_target_mm = place_mm;
+}
+
 void OperatorHand::advance(double distance_mm) {
     taken_up_ = true;
     command_.hand_target_mm -= distance_mm * command_.spindle_axis;

@@ -21,6 +21,8 @@ class OperatorHand {
 
     /// Moves the target in the plane that faces the camera by what the pointer moved (pixels, y down).
     void move_in_picture(const glm::dvec2& moved_px, const Camera& camera, const glm::ivec2& size_px);
+    /// Moves the target there: patient LPS.
+    void go_to(const glm::dvec3& place_mm);
     /// Moves the target along the spindle; positive is towards the tip, into the bone.
     void advance(double distance_mm);
     /// Tilts the handpiece as if its shank followed the pointer.

@@ -218,6 +218,9 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         add_readings(panels, content, painter, size_px, side_width);
     }
     const auto places = panels.draw_in(picture, margin, burr_in(content, size_px));
+    if (content.tool && content.has_bone && content.bone && content.operator_command)
+        draw_touch_ring(painter, *content.bone, *content.tool, burr_radius_mm(content), *content.camera,
+                        size_px);
     if (content.tool && content.has_bone && content.view->panels_shown)
         draw_force_label(painter, *content.tool, burr_radius_mm(content), *content.camera, size_px, places);
 }

@@ -111,12 +111,12 @@ PanelText operator_text(const OverlayContent& content) {
     text.push_back(content.operator_command->pedal ? line(Tone::good, "pedal down")
                                                    : line(Tone::dim, "pedal up (SPACE)"));
     if (content.tool && content.tool->removed_mm3 == 0.0) {
-        text.push_back(line(Tone::plain, "1. Drag with the left mouse button: the burr goes with it."));
+        text.push_back(line(Tone::plain, "1. Drag with the left mouse button: the burr goes over the bone."));
         text.push_back(line(Tone::plain, "2. Hold SPACE: the burr turns."));
-        text.push_back(line(Tone::plain, "3. W, or ctrl + wheel, pushes it into the bone; S pulls it out."));
-        text.push_back(line(Tone::plain, "Right drag turns the view, the wheel zooms. F1: all keys."));
+        text.push_back(line(Tone::plain, "3. The wheel, or W, pushes it into the bone; S pulls it out."));
+        text.push_back(line(Tone::plain, "Right drag turns the view, ctrl + wheel zooms. F1: all keys."));
     } else {
-        text.push_back(line(Tone::dim, "left drag: hand   W/S: in/out   1-9 [ ]: burr"));
+        text.push_back(line(Tone::dim, "left drag: hand   wheel, W/S: in/out   1-9 [ ]: burr"));
     }
     return text;
 }

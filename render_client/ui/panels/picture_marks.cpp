@@ -7,7 +7,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
 
+#include "common/bone/bone_ray.h"
 #include "render_client/volume/tool/tool_renderer.h"
 
 namespace osteomill {
@@ -56,6 +59,36 @@ void draw_force_label(const PanelPainter& painter, const ToolState& tool, double
                             middle + along,          middle + across - along, middle + across + along,
                             middle - across - along, middle - across + along};
     if (const auto place = free_place(places, size, panels, size_px)) painter.draw_on_picture(*place, text);
+}
+
+void draw_touch_ring(const PanelPainter& painter, const Bone& bone, const ToolState& tool,
+                     double burr_radius_mm, const Camera& camera, const glm::ivec2& size_px) {
+    constexpr double farthest_mm = 20.0;
+    constexpr int corners = 32;
+    const Grid& grid = bone.grid();
+    const BoneRay ray{to_voxel_coordinates(grid, tool.burr_position_mm), -tool.spindle_axis};
+    RaySpan span = span_within(ray, grid);
+    span.from = std::max(span.from, burr_radius_mm / grid.spacing_mm);
+    span.to = std::min(span.to, farthest_mm / grid.spacing_mm);
+    if (span.is_empty()) return;
+    const auto met = BoneSampler(bone).first_surface(ray, span, [](double) { return true; });
+    if (!met || *met <= span.from + 1.0) return;
+    const glm::dvec3 middle_mm = grid.origin_mm + grid.spacing_mm * ray.at(*met);
+    const glm::dvec3 beside = std::abs(tool.spindle_axis.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(tool.spindle_axis, beside));
+    const glm::dvec3 v = glm::cross(tool.spindle_axis, u);
+    std::array<ImVec2, corners> points;
+    for (int i = 0; i < corners; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / corners;
+        const glm::dvec3 at_mm = middle_mm + burr_radius_mm * (std::cos(angle) * u + std::sin(angle) * v);
+        if (glm::dot(at_mm - camera.eye_mm(), camera.forward()) < camera.near_mm) return;
+        points[static_cast<std::size_t>(i)] = to_imgui(glm::vec2(pixel_of(camera, at_mm, size_px)));
+    }
+    painter.canvas().AddDrawCmd();
+    for (const auto& [colour, width_px] :
+         {std::pair{painter.theme().behind_letter, 4.0f}, std::pair{painter.theme()[Tone::back], 2.0f}})
+        painter.canvas().AddPolyline(points.data(), corners, colour_of(colour), ImDrawFlags_Closed,
+                                     width_px * painter.scale());
 }
 
 void draw_alarm_frame(const PanelPainter& painter, const glm::ivec2& size_px) {

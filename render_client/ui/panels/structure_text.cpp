@@ -8,10 +8,6 @@ namespace osteomill {
 
 namespace {
 
-bool is_to_be_warned_of(const StructureDistance& now, const Tissue& tissue) {
-    return now.touches || (now.distance_mm && *now.distance_mm < tissue.warn_mm);
-}
-
 /// Two lines, so that none is too long for a panel.
 void add_touches(PanelText& text, const StructureDistance& now, const Tissue& tissue) {
     const bool is_one = now.touches_so_far == 1;
@@ -34,7 +30,7 @@ PanelText structure_text(const OverlayContent& content) {
     if (std::ranges::none_of(tissues, &Tissue::is_protected)) return text;
     if (const StructureDistance* nearest = nearest_structure(content.link.distances)) {
         const Tissue& tissue = tissues[nearest->tissue];
-        text.push_back({{is_to_be_warned_of(*nearest, tissue) ? Tone::warning : Tone::plain,
+        text.push_back({{warning_of(*nearest, tissue) != StructureWarning::none ? Tone::warning : Tone::plain,
                          *nearest->distance_mm <= 0.0
                              ? fmt::format("{}: touching", tissue.name)
                              : fmt::format("{}: {:.2f} mm away", tissue.name, *nearest->distance_mm)}});
@@ -53,7 +49,7 @@ PanelText structure_warnings(const OverlayContent& content) {
         const Tissue& tissue = content.session->tissues[now.tissue];
         if (now.touches)
             text.push_back({{Tone::warning, fmt::format("PROTECTED: the burr touches {}", tissue.name)}});
-        else if (is_to_be_warned_of(now, tissue))
+        else if (warning_of(now, tissue) == StructureWarning::near)
             text.push_back({{Tone::warning,
                              fmt::format("CAREFUL: {} is {:.1f} mm away", tissue.name, *now.distance_mm)}});
     }

@@ -86,12 +86,13 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
                            .is_enabled = may,
                            .is_on = content.view->drag_tilts});
     }
-    buttons.push_back({.tool = Tool::place,
-                       .sign = "\u25C9",
-                       .word = "Place",
-                       .tip = "then click on bone: there the tool goes, the handpiece upright on it (L)",
-                       .is_enabled = may,
-                       .is_on = content.view->click_places});
+    buttons.push_back(
+        {.tool = Tool::place,
+         .sign = "\u25C9",
+         .word = "Place",
+         .tip = "then click on bone: there the tool goes; with shift the handpiece is upright on it (L)",
+         .is_enabled = may,
+         .is_on = content.view->click_places});
     buttons.push_back(
         {.tool = Tool::bone,
          .sign = "\u21C4",

@@ -38,7 +38,8 @@ struct ViewSettings {
     bool slices_shown = false;
     bool ambient_occlusion = true;
     float specular = 0.0f;     ///< highlights on bone, see SceneAppearance
-    bool sound = false;        ///< the burr is to be heard
+    bool sound = false;        ///< the burr is to be heard,
+    bool warns = true;         ///< and a tone where it is near a protected structure
     bool light_field = false;  ///< a microscope's round field
     InsetKind inset = InsetKind::off;
     SessionQuestion question = SessionQuestion::none;

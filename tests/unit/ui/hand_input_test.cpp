@@ -111,6 +111,41 @@ TEST(HandInput, DragsTheHandButNotWithAMouseThatAPanelHas) {
     EXPECT_TRUE(other.source.sent.empty());
 }
 
+TEST(HandInput, DragsABurrInAirOverTheBoneUnderThePointerAndTheWheelIsDepth) {
+    Desk desk;
+    desk.picture.over_bone_mm = glm::dvec3(1.0, 2.0, 3.0);
+    desk.desk.show(desk.picture);
+    desk.step();
+    desk.input.is_down[WindowInput::left] = desk.input.went_down[WindowInput::left] = true;
+    desk.step();
+    EXPECT_EQ(desk.source.sent.back().hand_target_mm, glm::dvec3(1.0, 2.0, 3.0))
+        << "though nothing has moved";
+    // Along the spindle, which points up: the tool's.
+    desk.input.wheel.y = 2.0;
+    desk.step();
+    EXPECT_NEAR(desk.source.sent.back().hand_target_mm.z, 2.8, 1e-9);
+    desk.step();
+    EXPECT_NEAR(desk.source.sent.back().hand_target_mm.z, 2.8, 1e-9) << "kept while the drag goes on";
+    for (bool WindowInput::*key : {&WindowInput::ctrl, &WindowInput::alt}) {
+        desk.input.*key = true;
+        desk.input.wheel.y = 2.0;
+        desk.step();
+        desk.input.*key = false;
+        EXPECT_NEAR(desk.source.sent.back().hand_target_mm.z, 2.8, 1e-9) << "zoom, cuts";
+    }
+
+    desk.input.keys_down[GLFW_KEY_SPACE] = true;
+    desk.step();
+    desk.picture.over_bone_mm = glm::dvec3(9.0, 9.0, 9.0);
+    desk.desk.show(desk.picture);
+    desk.step();
+    EXPECT_NEAR(desk.source.sent.back().hand_target_mm.z, 2.8, 1e-9) << "in bone nothing jumps";
+    desk.input.cursor.x += 10.0;
+    desk.step();
+    EXPECT_GT(glm::distance(desk.source.sent.back().hand_target_mm, {1.0, 2.0, 2.8}), 1e-3);
+    EXPECT_LT(glm::distance(desk.source.sent.back().hand_target_mm, {1.0, 2.0, 2.8}), 3.0);
+}
+
 TEST(HandInput, AsksForAToolThatAnotherHasButDoesNotHoldOnToIt) {
     Desk desk;
     desk.source.tool->driver = ToolDriver::another;
