@@ -19,6 +19,7 @@ git archive HEAD | tar -x -C "$work/osteomill-$version"
     { tail -40 "$work/build.log" >&2; exit 1; }
 lintian --allow-root --fail-on error,warning --tag-display-limit 0 "$work"/*.changes
 mkdir -p "$out"
-rm -f "$out"/*osteomill*
+rm -f "$out"/*osteomill* "$out/commit"
 mv "$work"/*.deb "$work"/*.dsc "$work"/*.tar.* "$work"/*.changes "$work"/*.buildinfo "$out"
+git rev-parse HEAD >"$out/commit"  # of which scripts/release.sh takes them
 (cd "$out" && ls -sh --block-size=1k ./*.deb)

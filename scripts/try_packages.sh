@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the project's packages into a bare Debian 12, uses them, installs them anew, and removes them: nothing is to be left.
+# Has a bare Debian 12 install the project's packages from a signed repository of them (apt_repository.sh), use them, install them anew,
+# and remove them: nothing is to be left.
 #   scripts/try_packages.sh [FOLDER [MIRROR]]      FOLDER as of scripts/package.sh: out/packages
 # As root. The bare root is made once by debootstrap and kept in OSTEOMILL_BARE_ROOT (/var/tmp/osteomill-bare-root.tar).
 set -euo pipefail
@@ -11,7 +12,6 @@ command -v debootstrap >/dev/null || { echo "debootstrap is not installed (apt-g
 
 tar=${OSTEOMILL_BARE_ROOT:-/var/tmp/osteomill-bare-root.tar}
 root=$(mktemp -d)
-chmod 755 "$root"  # apt fetches as a user of its own
 trap 'umount -q "$root/proc" "$root/dev" 2>/dev/null || true; rm -rf --one-file-system "$root"' EXIT
 say() { printf '\n== %s\n' "$*"; }
 within() { chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
@@ -23,18 +23,32 @@ if [ ! -e "$tar" ]; then
 else
     tar -C "$root" -xf "$tar"
 fi
+chmod 755 "$root"  # apt fetches as a user of its own
 cp /etc/resolv.conf "$root/etc/"
 printf '#!/bin/sh\nexit 101\n' >"$root/usr/sbin/policy-rc.d" && chmod +x "$root/usr/sbin/policy-rc.d"  # no daemon starts
 mount --bind /dev "$root/dev"
 mount -t proc proc "$root/proc"
-cp "$packages"/*.deb "$root/root/"
+
+say "a repository, signed by a key of today"
+export GNUPGHOME=$root.keys
+trap 'gpgconf --kill all; umount -q "$root/proc" "$root/dev" 2>/dev/null || true; rm -rf --one-file-system "$root" "$GNUPGHOME"' EXIT
+mkdir -m 700 "$GNUPGHOME"
+gpg --batch --quiet --passphrase '' --quick-generate-key try@osteomill.example ed25519 sign 1d
+scripts/apt_repository.sh "$root/srv/packages" try@osteomill.example "$packages" >/dev/null
+cp "$root/srv/packages/osteomill.gpg" "$root/usr/share/keyrings/lab.gpg"
+echo "deb [signed-by=/usr/share/keyrings/lab.gpg] file:/srv/packages bookworm main" >"$root/etc/apt/sources.list.d/lab.list"
+named=(osteomill-server osteomill-client osteomill-tools python3-osteomill osteomill-bridge-dev osteomill-doc)
 
 # Libraries that came with the packages may stay: they are not ours.
 ours() { (cd "$root" && find etc usr var -xdev \( -path var/cache -o -path var/lib/apt -o -path var/lib/dpkg \) -prune -o -name '*osteomill*' -print); }
 
 say "install"
+sed -i.as_signed 's/^Label: Osteomill$/Label: Osteomi11/' "$root/srv/packages/dists/bookworm/InRelease"
+! within apt-get update -qq 2>/dev/null || { echo "apt takes a repository that somebody changed" >&2; exit 1; }
+mv "$root/srv/packages/dists/bookworm/InRelease"{.as_signed,}
 within apt-get update -qq
-within sh -c 'apt-get install -y -qq --no-install-recommends /root/*.deb >/root/apt.log 2>&1' || { tail -20 "$root/root/apt.log" >&2; exit 1; }
+apt() { within apt-get -y -qq --no-install-recommends "$@" "${named[@]}" >"$root/root/apt.log" 2>&1 || { tail -20 "$root/root/apt.log" >&2; exit 1; }; }
+apt install
 within getent passwd osteomill
 [ ! -e "$root/etc/systemd/system/multi-user.target.wants/osteomill.service" ] || { echo "the unit starts by itself" >&2; exit 1; }
 
@@ -45,10 +59,10 @@ within test -s /usr/share/man/man1/haptic_server.1.gz
 within sh -c 'haptic_server --check --listen 127.0.0.1:0 || true' | tail -3
 
 say "install anew, as an upgrade does"
-within sh -c 'dpkg -i /root/*.deb >/dev/null'
+apt install --reinstall
 
 say "remove"
-within sh -c 'dpkg --purge $(dpkg-query -W -f "\${Package}\n" | grep osteomill) >/dev/null'
+apt purge
 left=$(ours)
 [ -z "$left" ] || { echo "left behind: $left" >&2; exit 1; }
 say "nothing is left"

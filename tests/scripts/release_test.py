@@ -1,0 +1,104 @@
+"""scripts/release.sh in a small repository of its own, with a package that is there already: what it makes and what it refuses."""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(sys.argv.pop())
+
+
+def run(*command, cwd):
+    return subprocess.run(command, cwd=cwd, capture_output=True, text=True)
+
+
+class Release(unittest.TestCase):
+    def setUp(self):
+        self.keep = tempfile.TemporaryDirectory()
+        self.addCleanup(self.keep.cleanup)
+        self.key = pathlib.Path(self.keep.name) / "release.key"
+        self.tree = pathlib.Path(self.keep.name) / "tree"
+        (self.tree / "scripts").mkdir(parents=True)
+        for script in ("release.sh", "bill_of_materials.py"):
+            shutil.copy(SOURCE / "scripts" / script, self.tree / "scripts")
+        (self.tree / "CMakeLists.txt").write_text("project(osteomill VERSION 1.2.3 LANGUAGES CXX)\n")
+        (self.tree / "CHANGELOG.md").write_text("# Changelog\n\n## 1.2.3\n\n- It mills.\n\n## 1.2.2\n\n- It hums.\n")
+        (self.tree / ".gitignore").write_text("/out/\n")
+        self.git("init", "--quiet")
+        self.commit()
+
+    def git(self, *words):
+        said = run("git", "-c", "user.name=a", "-c", "user.email=a@b.example", *words, cwd=self.tree)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        return said.stdout.strip()
+
+    def commit(self):
+        """And a package of what is committed, as scripts/package.sh leaves one."""
+        self.git("add", "--all")
+        self.git("commit", "--quiet", "--allow-empty", "-m", "a change")
+        made = self.tree / "out" / "made"
+        (made / "DEBIAN").mkdir(parents=True, exist_ok=True)
+        (made / "usr/bin").mkdir(parents=True, exist_ok=True)
+        shutil.copy("/bin/true", made / "usr/bin/haptic_server")
+        (made / "DEBIAN/control").write_text("Package: osteomill-server\nVersion: 1.2.3\nArchitecture: all\n"
+                                             "Maintainer: a <a@b.example>\nDescription: a\n")
+        packages = self.tree / "out/packages"
+        packages.mkdir(exist_ok=True)
+        built = run("dpkg-deb", "--build", str(made), str(packages / "osteomill-server_1.2.3_all.deb"), cwd=self.tree)
+        self.assertEqual(built.returncode, 0, built.stderr)
+        (packages / "commit").write_text(self.git("rev-parse", "HEAD") + "\n")
+
+    def release(self, *options):
+        return run("scripts/release.sh", "--dry-run", *options, cwd=self.tree)
+
+    def refusal(self, *options):
+        said = self.release(*options)
+        self.assertEqual(said.returncode, 1, said.stdout)
+        self.assertEqual(said.stderr.count("\n"), 1, said.stderr)
+        return said.stderr
+
+    def test_has_checksums_that_the_key_signs_and_no_tag(self):
+        public = self.key.with_suffix(".pub")
+        run("minisign", "-G", "-W", "-s", str(self.key), "-p", str(public), cwd=self.tree)
+        said = self.release("--minisign", str(self.key))
+        self.assertEqual(said.returncode, 0, said.stderr)
+        out = self.tree / "out/release/1.2.3"
+        self.assertEqual({file.name for file in out.iterdir()},
+                         {"osteomill-server_1.2.3_all.deb", "osteomill-1.2.3.spdx.json", "SHA256SUMS", "SHA256SUMS.minisig"})
+        self.assertEqual(run("sha256sum", "--check", "--strict", "SHA256SUMS", cwd=out).returncode, 0)
+        self.assertEqual(len((out / "SHA256SUMS").read_text().splitlines()), 2)
+        check = ("minisign", "-V", "-p", str(public), "-m", "SHA256SUMS")
+        self.assertIn(self.git("rev-parse", "HEAD"), run(*check, cwd=out).stdout)
+        self.assertEqual(self.git("tag"), "")
+        with open(out / "SHA256SUMS", "a") as sums:
+            sums.write("more\n")
+        self.assertNotEqual(run(*check, cwd=out).returncode, 0)
+
+    def test_says_that_it_is_not_signed_without_a_key(self):
+        said = self.release()
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn("not signed", said.stdout)
+        self.assertIn("is not tagged", said.stdout)
+
+    def test_refuses_a_dirty_tree(self):
+        (self.tree / "forgotten.cpp").write_text("")
+        self.assertIn("not committed", self.refusal())
+
+    def test_refuses_a_version_that_the_changelog_does_not_have(self):
+        for text in ("## 1.2.2\n\n- It hums.\n", "## 1.2.3\n\n## 1.2.2\n\n- It hums.\n", "## 1.2.30\n\n- It mills.\n"):
+            (self.tree / "CHANGELOG.md").write_text(text)
+            self.commit()
+            self.assertIn("says nothing of version 1.2.3", self.refusal(), text)
+
+    def test_refuses_a_version_that_is_tagged(self):
+        self.git("tag", "v1.2.3")
+        self.assertIn("tagged already", self.refusal())
+
+    def test_refuses_a_key_that_is_not_there(self):
+        self.assertIn("there is no key", self.refusal("--minisign", str(self.key)))
+
+
+if __name__ == "__main__":
+    unittest.main()
