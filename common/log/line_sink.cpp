@@ -28,6 +28,9 @@ class LineSink final : public spdlog::sinks::base_sink<std::mutex> {
   private:
     void sink_it_(const spdlog::details::log_msg& message) override {
         // A message is one line, whatever names and reasons are in it.
+        if (stream_->is_json())
+            return stream_->say({message.payload.data(), message.payload.size()},
+                                spdlog::level::to_string_view(message.level).data());
         const std::string payload =
             printable(std::string_view(message.payload.data(), message.payload.size()));
         spdlog::details::log_msg printed = message;

@@ -23,24 +23,33 @@ class LineStream {
 
     explicit LineStream(int descriptor, std::size_t capacity_bytes = default_capacity_bytes);
 
+    /// From now on each line is a JSON object with time (UTC), level and message. Before there are other
+    /// threads.
+    void use_json() { is_json_ = true; }
+    bool is_json() const { return is_json_; }
+
     // Any thread; none of these waits for the descriptor but finish().
 
     /// `text`: one or more whole lines, or one that is to be overwritten; of this program's own words.
     void write(std::string text);
-    /// One line, whatever is in it: printable (plain_text.h), and a line break behind it.
-    void say(std::string_view line);
+    /// One line, whatever is in it: printable (plain_text.h), and a line break behind it. `level`, as of a
+    /// log, is for JSON.
+    void say(std::string_view line, const char* level = "info");
     /// Whether all is written that was, or never will be: what is worth saying only now is best not said
     /// while older lines wait.
     bool has_caught_up() const { return writer_.is_idle(); }
-    bool is_terminal() const { return is_terminal_; }
+    /// Whether a line can be overwritten.
+    bool is_terminal() const { return is_terminal_ && !is_json_; }
     /// Waits as BackgroundWriter::finish does; what comes later is forgotten.
     void finish();
 
   private:
+    void push(std::string text);
     void say_dropped();
 
     BackgroundWriter writer_;
     const bool is_terminal_;
+    bool is_json_ = false;
     std::mutex mutex_;
     std::uint64_t dropped_ = 0;
 };

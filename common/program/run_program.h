@@ -42,7 +42,7 @@ int run_program(const char* name, const Parse& parse, const Run& run) {
         log_to(output.err, name);
         run(*asked.options, output);
     } catch (const std::exception& error) {
-        output.err->say(fmt::format("{}: {}", name, error.what()));
+        output.err->say(fmt::format("{}: {}", name, error.what()), "error");
         exit_code = exit_failure;
     }
     output.finish();

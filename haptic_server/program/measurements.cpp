@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/files/atomic_file.h"
+#include "simulation/safety/fault_name.h"
 
 namespace osteomill {
 
@@ -40,11 +41,11 @@ bool has_any(const RemovedByTissue& removed_mm3) {
 }
 
 nlohmann::ordered_json faults(const MillingSessionReport& report) {
-    const auto count = [&](Fault fault) { return report.fault_counts[static_cast<std::size_t>(fault)]; };
-    return {{"device_lost", count(Fault::device_lost)},      {"model_stalled", count(Fault::model_stalled)},
-            {"not_a_number", count(Fault::not_a_number)},    {"overrun", count(Fault::overrun)},
-            {"device_jumped", count(Fault::device_jumped)},  {"in_bone", count(Fault::in_bone)},
-            {"energy_to_hand", count(Fault::energy_to_hand)}};
+    nlohmann::ordered_json json;
+    for (const Fault fault : all_faults)
+        if (fault != Fault::paused)
+            json[name_of(fault)] = report.fault_counts[static_cast<std::size_t>(fault)];
+    return json;
 }
 
 nlohmann::ordered_json cost(const BoneCost& bone, std::uint64_t peak_resident_bytes) {

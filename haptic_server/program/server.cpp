@@ -14,6 +14,8 @@
 #include "devices/hid/hidapi_transport.h"
 #include "haptic_server/check/machine_check.h"
 #include "haptic_server/check/session_check.h"
+#include "haptic_server/metrics/metrics_page.h"
+#include "haptic_server/metrics/metrics_text.h"
 #include "haptic_server/program/report_folder.h"
 #include "haptic_server/program/resident_memory.h"
 #include "haptic_server/program/status_line.h"
@@ -121,6 +123,7 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
         return;
     }
     if (options.checks_machine) return check(options, output);
+    if (options.logs_json) output.err->use_json();
     const auto began = std::chrono::steady_clock::now();
     if (options.outputs.report) prepare_report_folder(*options.outputs.report);
     for (const auto& file : {options.outputs.save_bone, options.outputs.json, options.outputs.json_histograms,
@@ -148,8 +151,21 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
                                            .began = std::chrono::system_clock::now(),
                                            .with_ticks = options.records_ticks};
 
+    TickMeter meter;
     SessionAssembly assembly(std::move(scene), std::move(device),
-                             {.milling = options.session, .logs = options.logs, .shown = std::move(shown)});
+                             {.milling = options.session,
+                              .logs = options.logs,
+                              .more_ticks = options.metrics ? &meter : nullptr,
+                              .shown = std::move(shown)});
+    std::optional<MetricsPage> metrics;
+    if (options.metrics) {
+        metrics.emplace(*options.metrics, [&meter, &assembly, &version] {
+            return metrics_text(meter.read(),
+                                assembly.shown() ? assembly.shown()->server().traffic() : StreamingTraffic{},
+                                version);
+        });
+        output.out->write(fmt::format("metrics on {}:{}\n", options.metrics->address, metrics->port()));
+    }
     if (options.listen)
         output.out->write(
             fmt::format("listening on {}:{}\n", options.listen->address, assembly.shown()->server().port()));

@@ -42,6 +42,8 @@ struct Typed {
     int milling_cpu = -1;
     double duration_s = std::numeric_limits<double>::infinity();
     std::string listen;
+    std::string metrics;
+    bool log_json = false;
     std::string operators;
     std::string controls;
     std::string record;
@@ -150,6 +152,12 @@ void declare(CLI::App& app, Typed& typed) {
                    "Where clients connect, port 0: any free one; \"none\": nobody does (127.0.0.1:7010; none "
                    "with --clock virtual)")
         ->type_name("ADDRESS:PORT");
+    app.add_option("--metrics", typed.metrics,
+                   "Where Prometheus or curl may ask how the session goes, at /metrics; an address of this "
+                   "machine alone, such as 127.0.0.1:9464")
+        ->type_name("ADDRESS:PORT");
+    app.add_flag("--log-json", typed.log_json,
+                 "Standard error, with the log, as one JSON object a line: time, level, message");
     app.add_option("--operators", typed.operators,
                    "With --device client and TLS: who may move the tool, others watch; a certificate's "
                    "subject a line, "
@@ -295,6 +303,19 @@ void require_distinct_files(const ServerOptions& options, const AccessOptions& a
     }
 }
 
+std::optional<ListenAddress> metrics_address(const Typed& typed) {
+    if (typed.metrics.empty()) return std::nullopt;
+    try {
+        const ListenAddress where = parse_listen_address(typed.metrics);
+        if (!is_loopback(where))
+            throw std::invalid_argument(fmt::format("'{}' can be reached from elsewhere; take 127.0.0.1:{}",
+                                                    typed.metrics, where.port));
+        return where;
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(fmt::format("--metrics: {}", error.what()));
+    }
+}
+
 ServerOptions checked(const Typed& typed, const AccessOptions& access) {
     const bool is_virtual = typed.clock == "virtual";
     ServerOptions options;
@@ -341,6 +362,8 @@ ServerOptions checked(const Typed& typed, const AccessOptions& access) {
         throw std::invalid_argument(fmt::format("--listen: {}", error.what()));
     }
     if (options.listen) options.access = access.access_to(*options.listen);
+    options.metrics = metrics_address(typed);
+    options.logs_json = typed.log_json;
     if (is_client && !options.listen) {
         throw std::invalid_argument("--device client: the operator connects over --listen, which is none");
     }

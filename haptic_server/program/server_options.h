@@ -22,6 +22,8 @@ struct ServerOptions {
     LogFiles logs;
     std::optional<ListenAddress> listen;  ///< nullopt: nobody is served
     Access access;
+    std::optional<ListenAddress> metrics;  ///< where Prometheus may ask; of this machine
+    bool logs_json = false;
     std::optional<std::filesystem::path> operators;  ///< who of the clients may move the tool; nullopt: any
     std::optional<std::filesystem::path> controls;   ///< a script of them
     std::optional<std::filesystem::path> record;     ///< of a report, too: recording_in() its folder

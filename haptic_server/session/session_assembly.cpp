@@ -50,6 +50,7 @@ SessionAssembly::SessionAssembly(SessionScene scene, DeviceParts device, Session
     if (RecordTo* record = record_to(options); record != nullptr && record->with_ticks)
         tick_logs_.add(record->ticks = &recorded_ticks_.emplace());
     tick_logs_.add(logs_.force());
+    tick_logs_.add(options.more_ticks);
     session_ = std::make_unique<MillingSession>(scene_.scene, std::move(scene_.bone), *device_.device,
                                                 options_, &tick_logs_, logs_.milling());
     if (!options.shown) return;

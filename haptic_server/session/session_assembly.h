@@ -26,7 +26,8 @@ struct SessionOptions {
     /// other parts.
     MillingSessionOptions milling{};
     LogFiles logs{};
-    std::optional<ShownOptions> shown{};  ///< absent: nobody looks on, and nothing is recorded
+    SampleLog<TickSample>* more_ticks = nullptr;  ///< where every tick goes besides; outlives the session
+    std::optional<ShownOptions> shown{};          ///< absent: nobody looks on, and nothing is recorded
 };
 
 class SessionAssembly {

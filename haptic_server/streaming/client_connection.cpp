@@ -85,6 +85,7 @@ void ClientConnection::pump() {
     const auto began = std::chrono::steady_clock::now();
     stream_->write(std::move(*frame), [self = shared_from_this(), bytes, began](error_code error) {
         if (error) return self->close("left: " + describe_stream_error(error), false);
+        if (self->callbacks_.on_sent) self->callbacks_.on_sent(bytes);
         // The next one is not made before this one is on its way: it would be old when its turn comes.
         self->stream_->wait_until_taken([self, bytes, began] {
             const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;

@@ -58,6 +58,7 @@ void ConnectedClients::admit(std::shared_ptr<Stream> stream) {
     unidentified_.add(id, origin, std::chrono::steady_clock::now());
     connection->start(
         {.on_message = [this, id](const v2::ClientFrame& frame) { return take(id, frame); },
+         .on_sent = [this](std::size_t bytes) { sent_bytes_ += bytes; },
          .on_closed = [this, id, peer = connection->peer()](
                           const std::string& line, bool is_fault) { dismiss(id, peer, line, is_fault); }});
 }

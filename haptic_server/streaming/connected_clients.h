@@ -66,6 +66,8 @@ class ConnectedClients {
     void log_unidentified(const std::string& line);
 
     std::size_t count() const { return connections_.size(); }
+    /// Of frames, to all who are connected or were.
+    std::uint64_t sent_bytes() const { return sent_bytes_; }
 
   private:
     using Id = ControlLease::ClientId;
@@ -96,6 +98,7 @@ class ConnectedClients {
     std::set<Id> watchers_;                 // those of the connections who may not move the tool
     std::set<Id> refused_input_;            // and of these, who have been named in the log for it
     Id last_client_ = 0;
+    std::uint64_t sent_bytes_ = 0;
     std::function<void()> when_gone_;  // says that goodbye has been said, too
 
     // Each with its share of the log.

@@ -114,6 +114,7 @@ class StreamingServer::Impl {
         thread_.join();
     }
 
+    StreamingTraffic traffic() const { return {traffic_clients_, traffic_sent_bytes_}; }
     std::uint16_t port() const { return port_; }
     std::uint64_t mirror_checksum() const { return mirror_.checksum(); }
     std::optional<RecordingReport> recording() const {
@@ -166,6 +167,8 @@ class StreamingServer::Impl {
         if (recorder_) recorder_->record(state_, with_checksum, options_.paced_by_session);
         clients_.show_ct([this] { return source_.ct(); });
         clients_.show(state_, with_checksum);
+        traffic_clients_ = clients_.count();
+        traffic_sent_bytes_ = clients_.sent_bytes();
         if (options_.listens && !is_accepting_) accept();
     }
 
@@ -250,6 +253,8 @@ class StreamingServer::Impl {
     bool has_ended_ = false;               // the owner's
     bool has_finished_recording_ = false;  // the owner's
     std::atomic<bool> has_failed_{false};
+    std::atomic<std::size_t> traffic_clients_{0};
+    std::atomic<std::uint64_t> traffic_sent_bytes_{0};
     std::uint16_t port_ = 0;
     std::thread thread_;
 };
@@ -275,6 +280,9 @@ void StreamingServer::finish_recording() {
 }
 void StreamingServer::stop() {
     impl_->stop();
+}
+StreamingTraffic StreamingServer::traffic() const {
+    return impl_->traffic();
 }
 std::uint16_t StreamingServer::port() const {
     return impl_->port();

@@ -25,6 +25,12 @@
 
 namespace osteomill {
 
+/// Between a server and its clients, as of the last frame.
+struct StreamingTraffic {
+    std::size_t clients = 0;       ///< that are connected
+    std::uint64_t sent_bytes = 0;  ///< of frames, to all clients since the start
+};
+
 class StreamingServer {
   public:
     /// `mirror` equals the bone of `shown` before the first update(). The server is the one writer of
@@ -57,6 +63,8 @@ class StreamingServer {
     /// Waits up to about 5 s for clients that are slow to read the end, closes, joins.
     void stop();
 
+    /// Any thread.
+    StreamingTraffic traffic() const;
     /// The port that is listened on, after start().
     std::uint16_t port() const;
     /// Checksum of the mirror, after end().

@@ -1,0 +1,104 @@
+// --metrics and --log-json of the real server: a session on the real clock is asked over a socket while it
+// runs.
+#include <gmock/gmock.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+#include <csignal>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/child_process.h"
+
+namespace osteomill::testing {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using ::testing::HasSubstr;
+
+tcp::socket connected(asio::io_context& io, const std::string& port) {
+    tcp::socket socket(io);
+    socket.connect({asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(std::stoi(port))});
+    return socket;
+}
+
+/// By name with labels.
+std::map<std::string, double> scraped(const std::string& port) {
+    asio::io_context io;
+    tcp::socket socket = connected(io, port);
+    asio::write(socket, asio::buffer(std::string("GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n")));
+    std::string answer;
+    boost::system::error_code end;
+    asio::read(socket, asio::dynamic_buffer(answer), end);
+    std::map<std::string, double> values;
+    std::istringstream lines(answer.substr(answer.find("\r\n\r\n") + 4));
+    for (std::string line; std::getline(lines, line);)
+        if (!line.starts_with("#"))
+            values[line.substr(0, line.rfind(' '))] = std::stod(line.substr(line.rfind(' ')));
+    return values;
+}
+
+TEST(Metrics, AreOfTheSessionThatRuns) {
+    ChildProcess server(
+        {HAPTIC_SERVER, "--case", "cube", "--listen", "127.0.0.1:0", "--metrics", "127.0.0.1:0"});
+    const std::string metrics = server.line_after("metrics on 127.0.0.1:").value_or("");
+    const std::string port = server.line_after("listening on 127.0.0.1:").value_or("");
+    ASSERT_FALSE(metrics.empty() || port.empty()) << server.err();
+    std::map<std::string, double> values;
+    ASSERT_TRUE(eventually([&] { return (values = scraped(metrics))["osteomill_ticks_total"] > 100.0; }));
+    EXPECT_EQ(values.at("osteomill_clients"), 0.0);
+    EXPECT_EQ(values.at("osteomill_sent_bytes_total"), 0.0);
+    EXPECT_EQ(values.count("osteomill_faults_total{fault=\"overrun\"}"), 1U);
+    EXPECT_EQ(values.at("osteomill_tick_lateness_seconds_bucket{le=\"+Inf\"}"),
+              values.at("osteomill_tick_lateness_seconds_count"));
+
+    asio::io_context io;
+    std::optional<tcp::socket> client = connected(io, port);
+    EXPECT_TRUE(eventually([&] {
+        values = scraped(metrics);
+        return values.at("osteomill_clients") == 1.0 && values.at("osteomill_sent_bytes_total") > 0.0;
+    })) << "the hello was sent to it";
+    client.reset();
+    EXPECT_TRUE(eventually([&] { return scraped(metrics).at("osteomill_clients") == 0.0; }));
+
+    server.send_signal(SIGTERM);
+    EXPECT_EQ(server.wait(), 0) << server.err();
+}
+
+TEST(Metrics, AreRefusedWhereOthersCouldAsk) {
+    for (const char* address : {"0.0.0.0:9464", "[::]:9464", "192.0.2.1:0"}) {
+        const Finished refused = run_program({HAPTIC_SERVER, "--metrics", address});
+        EXPECT_EQ(refused.status, 2);
+        EXPECT_THAT(refused.err,
+                    HasSubstr("--metrics: '" + std::string(address) + "' can be reached from elsewhere"));
+    }
+}
+
+TEST(LogJson, IsAnObjectALineAlsoForTheStatusAndTheError) {
+    const Finished run =
+        run_program({HAPTIC_SERVER, "--case", "cube", "--clock", "virtual", "--duration-s", "0.2", "--listen",
+                     "127.0.0.1:0", "--log-json", "--save-bone", "/proc/a \"b\".nrrd"});
+    EXPECT_EQ(run.status, 1);
+    std::istringstream lines(run.err);
+    std::map<std::string, int> levels;
+    std::string all;
+    for (std::string line; std::getline(lines, line);) {
+        const nlohmann::json object = nlohmann::json::parse(line, nullptr, false);
+        ASSERT_TRUE(object.is_object() && object.size() == 3) << line;
+        EXPECT_THAT(object.at("time"), ::testing::MatchesRegex("20..-..-..T..:..:..\\....Z"));
+        ++levels[object.at("level")];
+        all += object.at("message").get<std::string>() + "\n";
+    }
+    EXPECT_THAT(all, HasSubstr("spindle"));
+    EXPECT_THAT(all, HasSubstr("listening on 127.0.0.1:"));
+    EXPECT_THAT(all, HasSubstr("/proc/a \"b\".nrrd"));
+    EXPECT_EQ(levels["error"], 1) << run.err;
+    EXPECT_GT(levels["info"], 1);
+}
+
+}  // namespace
+}  // namespace osteomill::testing
