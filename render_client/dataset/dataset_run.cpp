@@ -59,7 +59,9 @@ class DatasetRun {
             const Playhead::Step step = playhead_.step(std::numeric_limits<double>::infinity());
             if (step == Playhead::Step::end) break;
             if (step == Playhead::Step::new_bone) begin_session();
-            if (step == Playhead::Step::state && schedule_.is_due(playhead_.time_s())) take_frame();
+            if (step == Playhead::Step::state && !has_more_of_this_instant() &&
+                schedule_.is_due(playhead_.time_s()))
+                take_frame();
         }
         if (frames_ == 0)
             throw std::runtime_error(options_.folder.string() + ": no frame: the recording holds no state");
@@ -77,6 +79,11 @@ class DatasetRun {
         images_.emplace(playhead_, cameras_, look_, limits_);
         index_.begin_session(playhead_.session(), playhead_.bone().grid());
         colours_rgb_ = colours_of(label_table(playhead_.session().tissues));
+    }
+
+    /// The changes of one instant may come in several states.
+    bool has_more_of_this_instant() const {
+        return playhead_.next_state() != nullptr && playhead_.next_time_s() == playhead_.time_s();
     }
 
     void take_frame() {
