@@ -113,9 +113,9 @@ void SurfacePass::draw_meshes(const DrawnTool* tool, const Camera& camera) {
         mesh_program_.set("to_patient", glm::mat4(to_patient));
         mesh_program_.set("normal_to_patient", glm::mat3(to_patient));  // rigid
         mesh_program_.set("thing_number", thing);
-        mark_box(covered_, mesh.low(), mesh.high(), view_projection * to_patient);
         mesh.draw();
     };
+    // They stay where they are: what is drawn of them already is drawn again to no effect.
     for (const Structure& structure : structures_)
         draw(structure.mesh, glm::translate(glm::dmat4(1.0), structure.origin_mm), structure.thing);
     if (tool == nullptr) return;
@@ -124,8 +124,11 @@ void SurfacePass::draw_meshes(const DrawnTool* tool, const Camera& camera) {
         head_ = gl::Mesh(burr_head(burr_shape_));
         shank_ = gl::Mesh(burr_shank(burr_shape_));
     }
-    draw(head_, pose_of(*tool), SurfaceImage::burr);
-    draw(shank_, pose_of(*tool), SurfaceImage::shank);
+    const glm::dmat4 at_burr = pose_of(*tool);
+    for (const gl::Mesh* mesh : {&head_, &shank_}) {
+        mark_box(covered_, mesh->low(), mesh->high(), view_projection * at_burr);
+        draw(*mesh, at_burr, mesh == &head_ ? SurfaceImage::burr : SurfaceImage::shank);
+    }
 }
 
 SurfaceImage SurfacePass::read_back() const {

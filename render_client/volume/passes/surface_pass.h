@@ -80,7 +80,7 @@ class SurfacePass {
     std::vector<Structure> structures_;
     std::optional<Camera> camera_;  ///< of what is drawn
     std::vector<VoxelBox> dirty_;   ///< since
-    TileMask covered_;              ///< by tool and structures
+    TileMask covered_;              ///< by the tool
 };
 
 }  // namespace osteomill

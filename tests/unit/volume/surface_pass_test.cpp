@@ -4,6 +4,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "studies/render/made_bone.h"
+#include "tests/support/ball_structure.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::surface_pass_test {
@@ -151,6 +152,27 @@ TEST_F(SurfacePassTest, DrawsPartsAsItDrawsTheWhole) {
         EXPECT_NE(parts.depth_mm, before.depth_mm);
         before = parts;
     }
+}
+
+// As its picture, it is within a voxel of the ball.
+TEST_F(SurfacePassTest, MeasuresASoftStructureInFrontOfBoneAndNoneBehind) {
+    const Bone bone = made_bone(grid, [](const glm::dvec3& p) { return 2.8 - glm::length(p); });
+    const BoneTextures textures(bone, {});
+    const Camera camera = camera_from_aside();
+    const auto at = [&](const glm::dvec3& place_mm) {
+        const glm::ivec2 pixel(pixel_of(camera, place_mm, size_px));
+        return static_cast<std::size_t>(pixel.y * size_px.x + pixel.x);
+    };
+    const glm::dvec3 before_mm = -3.0 * camera.forward(), behind_mm = 3.75 * camera.forward();
+    SurfacePass pass(size_px);
+    pass.draw(textures, nullptr, camera);
+    pass.add_structure(surface_of(testing::ball_mask(grid, before_mm, 0.9), glm::vec3(1.0f)), 9);
+    pass.add_structure(surface_of(testing::ball_mask(grid, behind_mm, 0.9), glm::vec3(1.0f)), 10);
+    const SurfaceImage image = pass.draw(textures, nullptr, camera);
+    EXPECT_EQ(image.thing[at(before_mm)], 9);
+    EXPECT_NEAR(image.depth_mm[at(before_mm)], camera.distance_mm - 3.9, grid.spacing_mm);
+    EXPECT_LT(image.normal[at(before_mm)].z, -0.9f);
+    EXPECT_EQ(std::ranges::count(image.thing, 10), 0);
 }
 
 }  // namespace
