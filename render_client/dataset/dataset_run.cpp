@@ -13,6 +13,7 @@
 #include "render_client/dataset/dataset_index.h"
 #include "render_client/dataset/image_files.h"
 #include "render_client/dataset/random_look.h"
+#include "render_client/volume/gl/offscreen_context.h"
 
 namespace osteomill {
 
@@ -20,11 +21,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Every state, or the first at or behind the beginning of each period.
+/// From a time on every state, or the first at or behind the beginning of each period.
 class Schedule {
   public:
-    explicit Schedule(std::optional<double> frames_per_s) : frames_per_s_(frames_per_s) {}
+    Schedule(double from_s, std::optional<double> frames_per_s)
+        : from_s_(from_s), frames_per_s_(frames_per_s) {}
     bool is_due(double time_s) {
+        if (time_s < from_s_) return false;
         if (!frames_per_s_) return true;
         // On the virtual clock a state lies on a period's beginning, but for rounding.
         const double period = std::floor(time_s * *frames_per_s_ + 1e-6);
@@ -32,6 +35,7 @@ class Schedule {
     }
 
   private:
+    double from_s_;
     std::optional<double> frames_per_s_;
     double period_ = -std::numeric_limits<double>::infinity();
 };
@@ -39,15 +43,17 @@ class Schedule {
 class DatasetRun {
   public:
     DatasetRun(const RenderOptions& options, const std::string& version)
-        : options_(*options.dataset),
+        : recording_(*options.replay),
+          from_s_(options.from_s),
+          options_(*options.dataset),
           cameras_(options_.cameras.empty() ? default_cameras() : read_cameras(options_.cameras)),
           look_{.ambient_occlusion = options.ambient_occlusion,
                 .specular = static_cast<float>(options.specular)},
           limits_{.budget_bytes = options.texture_budget_bytes},
-          playhead_(*options.replay),
+          playhead_(recording_),
           context_(options.gpu),
-          index_(*options.replay, version, cameras_, options_),
-          schedule_(options_.frames_per_s) {
+          index_(recording_, version, cameras_, options_),
+          schedule_(from_s_, options_.frames_per_s) {
         gl::require_opengl_3_3();
         for (const DatasetCamera& camera : cameras_)
             std::filesystem::create_directories(options_.folder / camera.name);
@@ -55,16 +61,15 @@ class DatasetRun {
     }
 
     RenderReport run(const std::function<bool()>& stop_asked) {
-        while (!stop_asked()) {
-            const Playhead::Step step = playhead_.step(std::numeric_limits<double>::infinity());
-            if (step == Playhead::Step::end) break;
-            if (step == Playhead::Step::new_bone) begin_session();
-            if (step == Playhead::Step::state && !has_more_of_this_instant() &&
-                schedule_.is_due(playhead_.time_s()))
-                take_frame();
+        try {
+            take_frames(stop_asked);
+        } catch (const RecordingError&) {
+            if (frames_ > 0) index_.write();  // of what could be read
+            throw;
         }
         if (frames_ == 0)
-            throw std::runtime_error(options_.folder.string() + ": no frame: the recording holds no state");
+            throw std::runtime_error(
+                fmt::format("{}: holds no state from {} s on", recording_.string(), from_s_));
         index_.write();
         RenderReport report;
         report.frame_times = frame_times_;
@@ -75,6 +80,17 @@ class DatasetRun {
     }
 
   private:
+    void take_frames(const std::function<bool()>& stop_asked) {
+        while (!stop_asked()) {
+            const Playhead::Step step = playhead_.step(std::numeric_limits<double>::infinity());
+            if (step == Playhead::Step::end) return;
+            if (step == Playhead::Step::new_bone) begin_session();
+            if (step == Playhead::Step::state && !has_more_of_this_instant() &&
+                schedule_.is_due(playhead_.time_s()))
+                take_frame();
+        }
+    }
+
     void begin_session() {
         images_.emplace(playhead_, cameras_, look_, limits_);
         index_.begin_session(playhead_.session(), playhead_.bone().grid());
@@ -109,6 +125,8 @@ class DatasetRun {
         frame_times_.add(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
     }
 
+    const std::filesystem::path recording_;
+    const double from_s_;
     const DatasetOptions options_;
     const std::vector<DatasetCamera> cameras_;
     const SceneAppearance look_;

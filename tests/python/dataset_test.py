@@ -206,6 +206,19 @@ class DatasetTest(unittest.TestCase):
         self.assertEqual(parts, whole)
         self.assertEqual(sorted(frames, key=lambda frame: frame["frame"]), self.index["frames"])
 
+    def test_begins_where_it_is_told_and_ends_where_the_recording_does(self):
+        plain = ("--dataset-fps", "5", "--dataset-images", "labels")
+        ran = render(self.folder, "--replay", "s.pcap", "--dataset", "late", "--from-s", "1.5", *plain)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        late = json.loads((self.folder / "late/dataset.json").read_text())["frames"]
+        self.assertEqual([round(5 * frame["recorded_s"]) for frame in late], [8, 8, 9, 10, 11, 12])
+        (self.folder / "torn.pcap").write_bytes((self.folder / "s.pcap").read_bytes()[:-40_000])
+        ran = render(self.folder, "--replay", "torn.pcap", "--dataset", "torn", *plain)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        torn = json.loads((self.folder / "torn/dataset.json").read_text())["frames"]
+        self.assertTrue(0 < len(torn) < 13, len(torn))
+        self.assertEqual(len(list((self.folder / "torn/view").iterdir())), len(torn))
+
     def learns(self, training, held_out):
         spec = importlib.util.spec_from_file_location("segment_tool", EXAMPLES / "segment_tool.py")
         segment_tool = importlib.util.module_from_spec(spec)
@@ -243,6 +256,7 @@ class DatasetTest(unittest.TestCase):
                                  (("--replay", "s.pcap", "--dataset", "x", "--dataset-images", "depht"), "'depht'"),
                                  (("--replay", "s.pcap", "--dataset", "x", "--cameras", "trainee"), "trainee's view"),
                                  (("--replay", "s.pcap", "--dataset", "x", "--cameras", "none.toml"), "none.toml"),
+                                 (("--replay", "s.pcap", "--dataset", "x", "--from-s", "9"), "no state from 9 s on"),
                                  (("--replay", "hand.csv", "--dataset", "x"), "hand.csv")):
             ran = render(self.folder, *arguments)
             self.assertNotEqual(ran.returncode, 0, arguments)
