@@ -94,6 +94,25 @@ TEST_F(ScenePictureTest, ShowsTheBurrThroughAShankBeforeIt) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(mixed[i], burr[i], 0.22 * 255 + 1) << i;
 }
 
+TEST_F(ScenePictureTest, ShowsAThingWithoutItsForceAndWithNothingSeenThrough) {
+    const BoneTextures textures(ball(), {});
+    RaycastRenderer renderer;
+    ScenePicture scene(renderer, size_px);
+    Camera camera = camera_on({0.0, 0.0, 3.2}, 6.0);
+    DrawnTool tool = burr_at({0.0, 0.0, 3.2});
+    const auto drawn = [&](double elevation_rad, double force_n, bool is_only_a_thing) {
+        camera.elevation_rad = elevation_rad;
+        tool.state.force_n = {force_n, 0.0, 0.0};
+        tool.is_only_a_thing = is_only_a_thing;
+        return scene.draw(&textures, &tool, camera).read_back();
+    };
+    // From aside nothing is in the way of the burr.
+    EXPECT_EQ(drawn(0.0, 5.0, true), drawn(0.0, 0.0, false));
+    EXPECT_NE(drawn(0.0, 5.0, false), drawn(0.0, 0.0, false));
+    // From above the shank is.
+    EXPECT_NE(drawn(1.5, 0.0, true), drawn(1.5, 0.0, false));
+}
+
 TEST_F(ScenePictureTest, ChangesThePictureOfAShankOnlyWhereItHides) {
     const BoneTextures textures(ball(), {});
     RaycastRenderer renderer;
