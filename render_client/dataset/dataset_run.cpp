@@ -99,7 +99,9 @@ class DatasetRun {
 
     /// The changes of one instant may come in several states.
     bool has_more_of_this_instant() const {
-        return playhead_.next_state() != nullptr && playhead_.next_time_s() == playhead_.time_s();
+        const StateArrived* next = playhead_.next_state();
+        return next != nullptr && next->state.tool.time_s == playhead_.tool()->time_s &&
+               playhead_.next_time_s() == playhead_.time_s();
     }
 
     void take_frame() {

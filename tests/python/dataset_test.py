@@ -219,6 +219,21 @@ class DatasetTest(unittest.TestCase):
         self.assertTrue(0 < len(torn) < 13, len(torn))
         self.assertEqual(len(list((self.folder / "torn/view").iterdir())), len(torn))
 
+    def test_sessions_that_were_joined_follow_each_other(self):
+        run_server(self.folder, "--scene", "tooth", "--record", self.folder / "short.pcap", "--duration-s", "0.3")
+        one = (self.folder / "short.pcap").read_bytes()
+        (self.folder / "joined.pcap").write_bytes(one + one[24:])  # as mergecap -a: without the second's header
+        for name in ("short", "joined"):
+            ran = render(self.folder, "--replay", f"{name}.pcap", "--dataset", name, "--dataset-images", "depth")
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+        short, joined = (json.loads((self.folder / name / "dataset.json").read_text()) for name in ("short", "joined"))
+        count = len(short["frames"])
+        self.assertGreater(count, 3)
+        self.assertEqual([frame["session"] for frame in joined["frames"]], [0] * count + [1] * count)
+        self.assertEqual(joined["sessions"], 2 * short["sessions"])
+        depths = [(self.folder / "joined" / frame["images"][0]["depth"]).read_bytes() for frame in joined["frames"]]
+        self.assertEqual(depths[:count], depths[count:])
+
     def learns(self, training, held_out):
         spec = importlib.util.spec_from_file_location("segment_tool", EXAMPLES / "segment_tool.py")
         segment_tool = importlib.util.module_from_spec(spec)
