@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "analysis/calibration/calibration_options.h"
+#include "analysis/output/repeated/manifest.h"
 #include "analysis/sessions/sessions_options.h"
+#include "common/program/commit.h"
 #include "common/program/option_checks.h"
 #include "common/text/plain_text.h"
 #include "studies/bridge/bridge_options.h"
@@ -18,6 +20,7 @@
 #include "studies/polishing/polishing_options.h"
 #include "studies/realtime/realtime_options.h"
 #include "studies/render/render_options.h"
+#include "studies/repeat/repeat.h"
 #include "studies/stability/map/stability_options.h"
 
 int main(int argc, char** argv) {
@@ -30,6 +33,7 @@ int main(int argc, char** argv) {
     const std::vector<StudyCommand> studies{
         add_force(app),    add_stability(app), add_polishing(app),   add_render(app),
         add_realtime(app), add_bridge(app),    add_calibration(app), add_sessions(app, OSTEOMILL_VERSION)};
+    const auto repeats_alike = add_repeat(app);
     StudyParts parts;
     for (const StudyCommand& study : studies) add_parts(*study.subcommand, parts, study.jobs);
     try {
@@ -39,8 +43,8 @@ int main(int argc, char** argv) {
         parse_arguments(app, static_cast<int>(arguments.size()), arguments.data());
         if (app.get_subcommands().empty())
             throw CLI::RequiredError(
-                "a study to run: force, stability, polishing, render, realtime, bridge, calibrate or "
-                "sessions");
+                "a study to run: force, stability, polishing, render, realtime, bridge, calibrate, "
+                "sessions or repeat");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << printable(error.what()) << " (see --help)\n";
@@ -60,8 +64,11 @@ int main(int argc, char** argv) {
                        .progress = std::cerr,
                        .is_terminal = ::isatty(STDERR_FILENO) != 0,
                        .parts = parts});
+            if (parts.shard.of == 1)
+                write_manifest({parts.command, OSTEOMILL_VERSION, std::string(built_from_commit())},
+                               *study.subcommand, study.subcommand->get_option("--out")->as<std::string>());
         }
-        return 0;
+        return repeats_alike(std::cout) ? 0 : exit_failure;
     } catch (const std::exception& error) {
         std::cerr << "osteomill_study: " << printable(error.what()) << '\n';
         return exit_failure;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/support/temporary_folder.h"
 
@@ -244,6 +245,25 @@ TEST_F(StudyProgram, JoinsTheBytesOfOneProcessFromParts) {
     }
 }
 
+TEST_F(StudyProgram, IsRepeatedFromTheManifestOfItsFolder) {
+    ASSERT_EQ(run("stability --rails 2 --seed 3 --out " + out_).exit_code, 0);
+    const auto manifest = nlohmann::json::parse(text_of(out_ + "/manifest.json"));
+    EXPECT_EQ(manifest.at("command"), (std::vector<std::string>{"stability", "--rails", "2", "--seed", "3"}));
+    EXPECT_EQ(manifest.at("settings").at("--seed"), "3");
+    EXPECT_FALSE(manifest.at("settings").at("--jobs").get<std::string>().empty()) << "not given";
+    const Outcome repeated = run("repeat " + out_);
+    EXPECT_EQ(repeated.exit_code, 0) << repeated.out << repeated.err;
+    EXPECT_THAT(repeated.out, HasSubstr("columns are as they were"));
+
+    auto kept = nlohmann::json::parse(text_of(out_ + "/rails.json"));
+    kept.at("implicit").at("cases") = 3;
+    std::ofstream(out_ + "/rails.json") << kept;
+    const Outcome of_another = run("repeat " + out_);
+    EXPECT_EQ(of_another.exit_code, 1);
+    EXPECT_THAT(of_another.out, HasSubstr("rails.json: /implicit/cases: cells that differ: 1, by up to 1; "));
+    expect_refused("repeat " + (folder_ / "nowhere").string(), 1, "manifest.json: cannot be read");
+}
+
 TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     expect_refused("force --cases nowhere.json --out " + out_, 1, "nowhere.json: cannot be read");
     std::ofstream(folder_ / "bad.json") << "[{\"name\": \"half a case\"}]";
@@ -252,9 +272,9 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     std::ofstream(folder_ / "file") << "in the way";
     expect_refused(std::string("force --cases ") + case_file + " --out " + (folder_ / "file/out").string(), 1,
                    "file/out: cannot be made a folder");
-    expect_refused(
-        "", 2,
-        "a study to run: force, stability, polishing, render, realtime, bridge, calibrate or sessions");
+    expect_refused("", 2,
+                   "a study to run: force, stability, polishing, render, realtime, bridge, calibrate, "
+                   "sessions or repeat");
     expect_refused("farce", 2, "farce");
     expect_refused("realtime --quick --duration-s 60", 2, "--duration-s");
     expect_refused(std::string("force --cases ") + case_file + " --voxel-mm 0", 2, "--voxel-mm");
