@@ -116,7 +116,7 @@ class BurrProxy {
 
     // Energies are the hand's, at the arm.
     static constexpr double apart_memory_s = 0.05;
-    static constexpr double allowed_apart_mj = 0.1;
+    static constexpr double allowed_apart_mj = 0.05;
     static constexpr double most_apart_mj = 1.0;
     /// Hidden damping for what drives the burr, both in N s/mm; 1 would only just do.
     static constexpr double drive_to_damping = 2.0;
