@@ -24,6 +24,8 @@ StudyCommand add_sessions(CLI::App& app, const std::string& version) {
         ->check(CLI::ExistingFile);
     sessions->add_option("--compare", options.compare, "two groups to compare, if there are more")
         ->expected(2);
+    sessions->add_option("--database", options.database,
+                         "add the sessions to this PostgreSQL database, too: postgresql://USER@HOST/NAME");
     add_out(*sessions, options.out);
     return {sessions,
             [shared](const StudySurroundings& surroundings) { run_sessions_study(*shared, surroundings); },

@@ -13,6 +13,7 @@
 #include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
 #include "analysis/report/trainee_groups.h"
+#include "analysis/sessions/department_database.h"
 #include "analysis/sessions/overview.h"
 #include "analysis/sessions/session_store.h"
 #include "common/text/plain_text.h"
@@ -144,6 +145,7 @@ void run_sessions_study(const SessionsStudyOptions& options, const StudySurround
     }
     if (sessions.empty()) throw std::runtime_error("no recording can be read to its end");
     std::ranges::stable_sort(sessions, {}, &SessionRecord::began_unix_ns);
+    if (!options.database.empty()) add_to_database(options.database, sessions);
     write_text(sessions_csv(sessions), options.out / "sessions.csv");
     const Overview overview(sessions, options.compare);
     for (const LearningCurve& curve : overview.learning_curves())

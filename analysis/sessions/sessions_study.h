@@ -15,13 +15,14 @@ struct SessionsStudyOptions {
     std::filesystem::path out = "study/sessions";
     std::filesystem::path groups{};      ///< of the trainees (trainee_groups.h); empty: see groups_file
     std::vector<std::string> compare{};  ///< two groups; empty: those that there are, if they are two
+    std::string database{};              ///< a department's (department_database.h); empty: none
     std::string version;
 };
 
 /// Writes OUT/sessions.sqlite, sessions.csv, sessions.html and a learning curve OUT/KEY.svg for each
 /// metric that is drawn (KEY_2.svg for the second case, ...). A recording that cannot be read to its end is
-/// named and left out. Throws std::runtime_error where none is left, a file cannot be read or written, or a
-/// group to compare has no session.
+/// named and left out. With a database, the sessions are added to that, too. Throws std::runtime_error where
+/// none is left, a file cannot be read or written, or a group to compare has no session.
 void run_sessions_study(const SessionsStudyOptions& options, const StudySurroundings& surroundings);
 
 /// The groups.csv in the first of the folders that holds one; empty where none does.

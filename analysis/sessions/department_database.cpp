@@ -1,0 +1,64 @@
+#include "analysis/sessions/department_database.h"
+
+#include <fmt/format.h>
+
+#include <pqxx/pqxx>
+#include <regex>
+#include <stdexcept>
+
+#include "common/text/plain_text.h"
+
+namespace osteomill::study {
+
+namespace {
+
+constexpr const char* tables = R"(
+CREATE TABLE IF NOT EXISTS session(digest TEXT PRIMARY KEY, file TEXT NOT NULL, trainee TEXT NOT NULL,
+    case_name TEXT NOT NULL, began_unix_ns BIGINT NOT NULL);
+CREATE TABLE IF NOT EXISTS metric(digest TEXT NOT NULL REFERENCES session ON DELETE CASCADE, place INTEGER NOT NULL,
+    key TEXT NOT NULL, of TEXT NOT NULL, value DOUBLE PRECISION, unit TEXT NOT NULL, text TEXT NOT NULL,
+    PRIMARY KEY(digest, place));
+)";
+
+/// Whoever adds sessions has this lock until its transaction ends; any number that is always the same.
+constexpr const char* one_at_a_time = "SELECT pg_advisory_xact_lock(0x6f73746d)";
+
+void refuse_password(const std::string& url) {
+    static const std::regex password("://[^/@]*:[^/@]*@|password=");
+    if (std::regex_search(url, password))
+        throw std::invalid_argument(
+            "--database: holds a password, which everybody on this machine could read; write it into "
+            "~/.pgpass");
+}
+
+void add(pqxx::work& work, const SessionRecord& session) {
+    work.exec_params("DELETE FROM session WHERE digest = $1", session.digest);
+    work.exec_params("INSERT INTO session VALUES($1, $2, $3, $4, $5)", session.digest, session.file,
+                     session.trainee, session.case_name, session.began_unix_ns);
+    int place = 0;
+    for (const KeptMetric& metric : session.metrics) {
+        const std::string value = metric.value ? fmt::format("{}", *metric.value) : "";
+        work.exec_params("INSERT INTO metric VALUES($1, $2, $3, $4, $5, $6, $7)", session.digest, place++,
+                         metric.key, metric.of, metric.value ? value.c_str() : nullptr, metric.unit,
+                         metric.text);
+    }
+}
+
+}  // namespace
+
+void add_to_database(const std::string& url, std::span<const SessionRecord> sessions) {
+    refuse_password(url);
+    try {
+        pqxx::connection connection(url);
+        pqxx::work work(connection);
+        work.exec(one_at_a_time);
+        work.exec(tables);
+        for (const SessionRecord& session : sessions) add(work, session);
+        work.commit();
+    } catch (const pqxx::failure& error) {
+        // PostgreSQL's messages have several lines.
+        throw std::runtime_error(fmt::format("{}: {}", url, printable(error.what())));
+    }
+}
+
+}  // namespace osteomill::study

@@ -1,0 +1,106 @@
+"""Sessions of several stations in one PostgreSQL database: a real server, started here, that two stations fill at once.
+
+    fleet_test.py HAPTIC_SERVER OSTEOMILL_STUDY     exits 77 where PostgreSQL is not installed"""
+
+import csv
+import glob
+import os
+import pathlib
+import pwd
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SERVER, STUDY = sys.argv[1:]
+POSTGRES = sorted(glob.glob("/usr/lib/postgresql/*/bin"))
+
+
+def run(*command, **options):
+    return subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True, **options).stdout
+
+
+class Database:
+    """A PostgreSQL of its own, reached by a socket in its folder."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.user = pwd.getpwuid(os.getuid()).pw_name
+        # It refuses to run as root.
+        self.as_owner = []
+        if os.getuid() == 0:
+            self.user = "postgres"
+            self.as_owner = ["setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups"]
+            os.chmod(folder, 0o755)
+        self.cluster = folder / "cluster"
+        self.cluster.mkdir()
+        if os.getuid() == 0:
+            run("chown", "postgres:postgres", self.cluster)
+        run(*self.as_owner, POSTGRES[-1] + "/initdb", "-D", self.cluster, "-A", "trust", "-E", "UTF8", "--no-sync", cwd="/")
+        run(*self.as_owner, POSTGRES[-1] + "/pg_ctl", "-D", self.cluster, "-w", "-l", self.cluster / "log",
+            "-o", f"-c listen_addresses='' -c unix_socket_directories='{self.cluster}' -c fsync=off", "start", cwd="/")
+        self.url = f"postgresql://{self.user}@/postgres?host={self.cluster}"
+
+    def stop(self):
+        run(*self.as_owner, POSTGRES[-1] + "/pg_ctl", "-D", self.cluster, "-m", "immediate", "stop", cwd="/")
+
+    def rows(self, query):
+        return [line.split("|") for line in run(POSTGRES[-1] + "/psql", "-At", "-c", query, self.url).splitlines()]
+
+
+class Fleet(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.scratch.name)
+        cls.database = Database(cls.folder)
+        for station in ("a", "b"):
+            (cls.folder / station).mkdir()
+            for number in range(2):
+                run(SERVER, "--scene", "cube", "--clock", "virtual", "--duration-s", f"{1 + number}",
+                    "--trainee", f"Zoë {station}", "--record", cls.folder / station / f"{number}.pcap")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.database.stop()
+        cls.scratch.cleanup()
+
+    def study(self, station):
+        return subprocess.Popen([STUDY, "sessions", self.folder / station, "--out", self.folder / f"out_{station}",
+                                 "--database", self.database.url], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def test_two_stations_that_finish_at_once_lose_nothing(self):
+        for _ in range(3):  # sessions that are there already are the same afterwards
+            for station in [self.study(name) for name in ("a", "b")]:
+                error = station.communicate(timeout=120)[1]
+                self.assertEqual(station.returncode, 0, error)
+        sessions = self.database.rows("SELECT trainee, count(*) FROM session GROUP BY trainee ORDER BY trainee")
+        self.assertEqual(sessions, [["Zoë a", "2"], ["Zoë b", "2"]])
+        # What the table of a station says is what the database says.
+        said = {}
+        for station in ("a", "b"):
+            with open(self.folder / f"out_{station}" / "sessions.csv", newline="", encoding="utf-8") as file:
+                for row in csv.DictReader(file):
+                    if row["metric"] == "removed_mm3" and not row.get("of"):
+                        said[pathlib.Path(row["file"]).name + station] = float(row["value"])
+        kept = {pathlib.Path(file).name + pathlib.Path(file).parent.name: float(value) for file, value in self.database.rows(
+            "SELECT file, value FROM session JOIN metric USING (digest) WHERE key = 'removed_mm3' AND of = ''")}
+        self.assertEqual(kept.keys(), said.keys())
+        for name, value in kept.items():
+            self.assertAlmostEqual(value, said[name], delta=1e-5 * abs(said[name]), msg=name)
+
+    def test_says_in_one_line_what_is_wrong(self):
+        for url, reason in (("postgresql://me:secret@localhost/x", "holds a password"),
+                            (f"postgresql://nobody@/nowhere?host={self.folder}", "nowhere")):
+            outcome = subprocess.run([STUDY, "sessions", self.folder / "a", "--out", self.folder / "refused", "--database", url],
+                                     capture_output=True, text=True)
+            self.assertEqual(outcome.returncode, 1)
+            last = outcome.stderr.splitlines()[-1]
+            self.assertIn(reason, last)
+            self.assertNotIn("secret", outcome.stderr)
+
+
+if not POSTGRES:
+    print("skipped: PostgreSQL is not installed (package postgresql-15)")
+    sys.exit(77)
+unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,275 @@
+// A long session of the real programs: eight clients come and go behind bad cables drawn from a seed, the
+// server records, sessions on the virtual clock run beside it.
+//
+//     soak HAPTIC_SERVER PACKET_REPLAY MINUTES [SEED]
+//
+// Exits 0 where every bone is the server's at the end, the recording's too, where every session on the
+// virtual clock left the same bone, and where the server's memory has not grown: its median over the last
+// tenth of the time against that over the second tenth. A long run allows a hundredth; one of minutes, in
+// which buffers reach their size, most_growth_mib. Missed deadlines are printed, and judged by who reads
+// them: they are the machine's.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/bone/checksum.h"
+#include "render_client/link/bone_link.h"
+#include "tests/support/block_file.h"
+#include "tests/support/child_process.h"
+#include "tests/support/eventually.h"
+#include "tests/support/link_proxy.h"
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t clients = 8;
+constexpr double most_growth_share = 0.01;
+constexpr double most_growth_mib = 4.0;
+constexpr double long_run_minutes = 30.0;
+
+/// Strokes over all of the block, each two seconds long and lifted clear of it, ever deeper; enough of them
+/// for `minutes`.
+void write_motion(const std::filesystem::path& csv, double minutes) {
+    std::ofstream out(csv);
+    out << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n";
+    const int strokes = static_cast<int>(30.0 * minutes) + 30;
+    for (int stroke = 0; stroke < strokes; ++stroke) {
+        const double share = static_cast<double>(stroke) / strokes;
+        const double x_mm = -4.0 + 8.0 * ((stroke * 37) % 100) / 100.0;
+        const double y_mm = -3.0 + 6.0 * ((stroke * 61) % 100) / 100.0;
+        const auto put = [&](double after_s, double z_mm, int pedal) {
+            out << fmt::format("{},{},{},{},0,0,1,{}\n", 2.0 * stroke + after_s, x_mm, y_mm, z_mm, pedal);
+        };
+        put(0.0, 5.5, 0);
+        put(0.3, 5.5, 0);
+        put(0.6, 2.9, 1);
+        put(1.2, 2.4 - 4.0 * share, 1);
+        put(1.5, 2.9, 1);
+    }
+}
+
+/// What is resident now.
+double resident_mib(pid_t pid) {
+    std::ifstream statm("/proc/" + std::to_string(pid) + "/statm");
+    double all = 0.0;
+    double resident_pages = 0.0;
+    statm >> all >> resident_pages;
+    return resident_pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) throw std::runtime_error("the session was too short to say anything of");
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+    return values[values.size() / 2];
+}
+
+/// A client behind a cable of its own.
+class Station {
+  public:
+    explicit Station(std::uint16_t server_port) : cable_(server_port) {}
+
+    void poll() {
+        if (link_) last_ = link_->poll();
+    }
+    /// One fault, or the end of one.
+    const char* suffer(std::mt19937& random) {
+        switch (random() % 6) {
+            case 0:
+                if (link_) return link_.reset(), "leaves";
+                [[fallthrough]];
+            case 1:
+                if (!link_) link_ = std::make_unique<BoneLink>("127.0.0.1", cable_.port());
+                return "comes";
+            case 2:
+                return cable_.cut(), "cable cut";
+            case 3:
+                return cable_.drop(), "hung up on";
+            case 4: {
+                const std::chrono::milliseconds late(random() % 300);
+                return cable_.delay(late, late), "cable late";
+            }
+            default:
+                return cable_.heal(), cable_.delay(0ms, 0ms), "cable mended";
+        }
+    }
+    void join() {
+        cable_.heal();
+        cable_.delay(0ms, 0ms);
+        if (!link_) link_ = std::make_unique<BoneLink>("127.0.0.1", cable_.port());
+    }
+    bool is_live() const { return last_.status == LinkStatus::live; }
+    bool is_finished() const { return last_.status == LinkStatus::finished; }
+    bool has(const std::string& served) const {
+        return link_->bone() != nullptr && fmt::format("{:016x}", checksum(*link_->bone())) == served;
+    }
+    std::uint64_t mismatches() const { return last_.checksum_mismatches; }
+
+  private:
+    LinkProxy cable_;
+    std::unique_ptr<BoneLink> link_;
+    LinkUpdate last_;
+};
+
+class Soak {
+  public:
+    Soak(std::string server, std::string replay, double minutes, unsigned seed)
+        : server_program_(std::move(server)), replay_(std::move(replay)), minutes_(minutes), random_(seed) {
+        write_block(file("block.nrrd"), 300);
+        write_motion(file("motion.csv"), minutes);
+    }
+
+    bool run() {
+        server_ = std::make_unique<ChildProcess>(std::vector<std::string>{
+            server_program_, "--bone", file("block.nrrd"), "--trajectory", file("motion.csv"), "--listen",
+            "127.0.0.1:0", "--record", file("session.pcap"), "--json", file("server.json")});
+        const auto address = server_->line_after("listening on ", 60s);
+        if (!address) throw std::runtime_error("the server did not begin: " + server_->err());
+        const auto port = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
+        for (std::size_t i = 0; i < clients; ++i) stations_.push_back(std::make_unique<Station>(port));
+        let_them_come_and_go();
+        const bool bones_are_equal = end_and_compare();
+        const bool memory_is_steady = judge_memory();
+        return bones_are_equal && memory_is_steady && virtual_sessions_are_equal_;
+    }
+
+  private:
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    nlohmann::json json(const std::string& name) const {
+        std::ifstream in(file(name));
+        return nlohmann::json::parse(in);
+    }
+
+    void let_them_come_and_go() {
+        const auto began = Clock::now();
+        const std::chrono::duration<double> lasts = std::chrono::duration<double, std::ratio<60>>(minutes_);
+        auto next_fault = began;
+        auto next_sample = began;
+        std::size_t faults = 0;
+        while (Clock::now() < began + lasts) {
+            for (const auto& station : stations_) station->poll();
+            if (Clock::now() >= next_fault) {
+                stations_[random_() % clients]->suffer(random_);
+                next_fault += std::chrono::milliseconds(200 + random_() % 1800);
+                ++faults;
+            }
+            if (Clock::now() >= next_sample) {
+                memory_mib_.push_back(resident_mib(server_->pid()));
+                server_->read_output();
+                next_sample += 1s;
+                run_beside();
+            }
+            std::this_thread::sleep_for(20ms);
+        }
+        fmt::print("{} faults of {} clients in {} minutes\n", faults, clients, minutes_);
+    }
+
+    /// Ten seconds of the tooth on the virtual clock, one session after another.
+    void run_beside() {
+        if (virtual_) {
+            const auto status = virtual_->wait(0s);
+            if (!status) return;  // it runs
+            if (*status != 0) throw std::runtime_error("on the virtual clock: " + virtual_->err());
+            const std::string bone = json("virtual.json").at("bone_checksum");
+            if (virtual_sessions_++ == 0) virtual_bone_ = bone;
+            virtual_sessions_are_equal_ = virtual_sessions_are_equal_ && bone == virtual_bone_;
+        }
+        virtual_ = std::make_unique<ChildProcess>(
+            std::vector<std::string>{server_program_, "--scene", "tooth", "--clock", "virtual",
+                                     "--duration-s", "10", "--json", file("virtual.json")});
+    }
+
+    bool end_and_compare() {
+        for (const auto& station : stations_) station->join();
+        const auto all = [this](bool (Station::*are)() const) {
+            return eventually([&] {
+                for (const auto& station : stations_) station->poll();
+                std::this_thread::sleep_for(20ms);
+                return std::ranges::all_of(stations_,
+                                           [are](const auto& station) { return (*station.*are)(); });
+            });
+        };
+        const bool live = all(&Station::is_live);
+        server_->send_signal(SIGINT);
+        const bool finished = all(&Station::is_finished);
+        const auto status = server_->wait(60s);
+        if (status != 0) throw std::runtime_error("the server failed: " + server_->err());
+        const std::string served = json("server.json").at("bone_checksum");
+        const auto equal = std::ranges::count_if(stations_, [&](const auto& s) { return s->has(served); });
+        std::uint64_t mismatches = 0;
+        for (const auto& station : stations_) mismatches += station->mismatches();
+
+        ChildProcess replay({replay_, file("session.pcap"), "--json", file("replay.json")});
+        const bool is_whole = replay.wait(600s) == 0;
+        const bool recorded = is_whole && json("replay.json").dump().find(served) != std::string::npos;
+        fmt::print("bone {}: {} of {} clients have it, {} mismatches on the way; the recording ({} MB) {}\n",
+                   served, equal, clients, mismatches,
+                   std::filesystem::file_size(file("session.pcap")) / 1000000,
+                   recorded ? "has it" : "DIFFERS");
+        fmt::print("missed deadlines of the haptic loop: {}\n",
+                   json("server.json").at("missed_deadlines").dump());
+        fmt::print("{} sessions of 10 s on the virtual clock, {}\n", virtual_sessions_,
+                   virtual_sessions_are_equal_ ? "one bone" : "DIFFERENT BONES");
+        return live && finished && static_cast<std::size_t>(equal) == clients && recorded;
+    }
+
+    bool judge_memory() const {
+        const std::size_t tenth = memory_mib_.size() / 10;
+        const auto of_tenth = [&](std::size_t n) {
+            const auto from = memory_mib_.begin() + static_cast<std::ptrdiff_t>(n * tenth);
+            return median({from, from + static_cast<std::ptrdiff_t>(tenth)});
+        };
+        const double before_mib = of_tenth(1);
+        const double after_mib = of_tenth(9);
+        const double most_mib =
+            minutes_ >= long_run_minutes ? most_growth_share * before_mib : most_growth_mib;
+        fmt::print("memory of the server: {:.2f} MiB, {:.2f} MiB at the end, may grow by {:.2f}\n",
+                   before_mib, after_mib, most_mib);
+        return after_mib - before_mib <= most_mib;
+    }
+
+    TemporaryFolder folder_;
+    std::string server_program_, replay_;
+    double minutes_;
+    std::mt19937 random_;
+    std::unique_ptr<ChildProcess> server_;
+    std::unique_ptr<ChildProcess> virtual_;
+    std::vector<std::unique_ptr<Station>> stations_;
+    std::vector<double> memory_mib_;
+    std::string virtual_bone_;
+    int virtual_sessions_ = 0;
+    bool virtual_sessions_are_equal_ = true;
+};
+
+}  // namespace
+}  // namespace osteomill::testing
+
+int main(int argc, char** argv) {
+    if (argc < 4) {
+        std::fputs("soak HAPTIC_SERVER PACKET_REPLAY MINUTES [SEED]\n", stderr);
+        return 2;
+    }
+    try {
+        const unsigned seed = argc > 4 ? static_cast<unsigned>(std::stoul(argv[4])) : 1U;
+        return osteomill::testing::Soak(argv[1], argv[2], std::stod(argv[3]), seed).run() ? 0 : 1;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "soak: {}\n", error.what());
+        return 1;
+    }
+}
