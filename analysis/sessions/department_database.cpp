@@ -12,7 +12,7 @@ namespace osteomill::study {
 
 namespace {
 
-constexpr const char* tables = R"(
+constexpr const char* department_tables = R"(
 CREATE TABLE IF NOT EXISTS session(digest TEXT PRIMARY KEY, file TEXT NOT NULL, trainee TEXT NOT NULL,
     case_name TEXT NOT NULL, began_unix_ns BIGINT NOT NULL);
 CREATE TABLE IF NOT EXISTS metric(digest TEXT NOT NULL REFERENCES session ON DELETE CASCADE, place INTEGER NOT NULL,
@@ -21,15 +21,7 @@ CREATE TABLE IF NOT EXISTS metric(digest TEXT NOT NULL REFERENCES session ON DEL
 )";
 
 /// Whoever adds sessions has this lock until its transaction ends; any number that is always the same.
-constexpr const char* one_at_a_time = "SELECT pg_advisory_xact_lock(0x6f73746d)";
-
-void refuse_password(const std::string& url) {
-    static const std::regex password("://[^/@]*:[^/@]*@|password=");
-    if (std::regex_search(url, password))
-        throw std::invalid_argument(
-            "--database: holds a password, which everybody on this machine could read; write it into "
-            "~/.pgpass");
-}
+constexpr const char* one_at_a_time = "SELECT pg_advisory_xact_lock(1869836397)";
 
 void add(pqxx::work& work, const SessionRecord& session) {
     work.exec_params("DELETE FROM session WHERE digest = $1", session.digest);
@@ -46,18 +38,23 @@ void add(pqxx::work& work, const SessionRecord& session) {
 
 }  // namespace
 
+bool holds_password(const std::string& url) {
+    static const std::regex password("://[^/@]*:[^/@]*@|password=");
+    return std::regex_search(url, password);
+}
+
 void add_to_database(const std::string& url, std::span<const SessionRecord> sessions) {
-    refuse_password(url);
     try {
         pqxx::connection connection(url);
         pqxx::work work(connection);
         work.exec(one_at_a_time);
-        work.exec(tables);
+        work.exec(department_tables);
         for (const SessionRecord& session : sessions) add(work, session);
         work.commit();
     } catch (const pqxx::failure& error) {
-        // PostgreSQL's messages have several lines.
-        throw std::runtime_error(fmt::format("{}: {}", url, printable(error.what())));
+        // The first line says what is wrong.
+        const std::string why = error.what();
+        throw std::runtime_error(fmt::format("{}: {}", url, printable(why.substr(0, why.find('\n')))));
     }
 }
 

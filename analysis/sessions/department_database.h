@@ -10,9 +10,11 @@ namespace osteomill::study {
 
 /// Adds the sessions to the tables of session_store.h, which are made where they are not there; one that is
 /// there already, by its digest, is replaced. All of them or none: several stations may do so at once, and
-/// lose nothing. `url` is libpq's (postgresql://user@host/name). Throws std::invalid_argument where it holds
-/// a password, which everybody on this machine could read (~/.pgpass is for that), and std::runtime_error in
-/// one line where the database cannot be reached or written.
+/// lose nothing. `url` is libpq's (postgresql://user@host/name). Throws std::runtime_error in one line where
+/// the database cannot be reached or written.
 void add_to_database(const std::string& url, std::span<const SessionRecord> sessions);
+
+/// Everybody on this machine could read it in a command line; ~/.pgpass is the place for it.
+bool holds_password(const std::string& url);
 
 }  // namespace osteomill::study

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "analysis/sessions/department_database.h"
 #include "analysis/sessions/sessions_study.h"
 
 namespace osteomill::study {
@@ -24,8 +25,15 @@ StudyCommand add_sessions(CLI::App& app, const std::string& version) {
         ->check(CLI::ExistingFile);
     sessions->add_option("--compare", options.compare, "two groups to compare, if there are more")
         ->expected(2);
-    sessions->add_option("--database", options.database,
-                         "add the sessions to this PostgreSQL database, too: postgresql://USER@HOST/NAME");
+    sessions
+        ->add_option("--database", options.database,
+                     "add the sessions to this PostgreSQL database, too: postgresql://USER@HOST/NAME")
+        ->check([](const std::string& url) {
+            return holds_password(url) ? std::string(
+                                             "holds a password, which everybody on this machine "
+                                             "could read; write it into ~/.pgpass")
+                                       : std::string();
+        });
     add_out(*sessions, options.out);
     return {sessions,
             [shared](const StudySurroundings& surroundings) { run_sessions_study(*shared, surroundings); },

@@ -82,7 +82,7 @@ class Fleet(unittest.TestCase):
             with open(self.folder / f"out_{station}" / "sessions.csv", newline="", encoding="utf-8") as file:
                 for row in csv.DictReader(file):
                     if row["metric"] == "removed_mm3" and not row.get("of"):
-                        said[pathlib.Path(row["file"]).name + station] = float(row["value"])
+                        said[pathlib.Path(row["session"]).name + station] = float(row["value"])
         kept = {pathlib.Path(file).name + pathlib.Path(file).parent.name: float(value) for file, value in self.database.rows(
             "SELECT file, value FROM session JOIN metric USING (digest) WHERE key = 'removed_mm3' AND of = ''")}
         self.assertEqual(kept.keys(), said.keys())
@@ -90,11 +90,11 @@ class Fleet(unittest.TestCase):
             self.assertAlmostEqual(value, said[name], delta=1e-5 * abs(said[name]), msg=name)
 
     def test_says_in_one_line_what_is_wrong(self):
-        for url, reason in (("postgresql://me:secret@localhost/x", "holds a password"),
-                            (f"postgresql://nobody@/nowhere?host={self.folder}", "nowhere")):
+        for url, code, reason in (("postgresql://me:secret@localhost/x", 2, "holds a password"),
+                                  (f"postgresql://nobody@/x?host={self.folder}", 1, "failed: No such file or directory")):
             outcome = subprocess.run([STUDY, "sessions", self.folder / "a", "--out", self.folder / "refused", "--database", url],
                                      capture_output=True, text=True)
-            self.assertEqual(outcome.returncode, 1)
+            self.assertEqual(outcome.returncode, code)
             last = outcome.stderr.splitlines()[-1]
             self.assertIn(reason, last)
             self.assertNotIn("secret", outcome.stderr)

@@ -25,7 +25,7 @@
 #include <thread>
 #include <vector>
 
-#include "common/bone/checksum.h"
+#include "common/bone/bone.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
