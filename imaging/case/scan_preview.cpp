@@ -102,8 +102,9 @@ CtVolume whole_ct(const std::filesystem::path& bone_file) {
 
 std::string summary_of(const CtVolume& ct) {
     const auto [least, most] = std::ranges::minmax(ct.hu);
-    return fmt::format("covers {} (mm, patient LPS: x0,y0,z0,x1,y1,z1)\nHU from {} to {}\n",
-                       to_text(box_of(ct)), least, most);
+    return fmt::format(
+        "covers {} (mm, patient LPS: x0,y0,z0,x1,y1,z1)\nHU from {} to {}\ngrey from {} to {} HU\n",
+        to_text(box_of(ct)), least, most, black_hu, white_hu);
 }
 
 void write_preview(const CtVolume& ct, const std::optional<Region>& region,

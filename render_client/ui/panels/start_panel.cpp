@@ -135,10 +135,28 @@ void draw_browser(StartPage& page) {
 }
 
 void upload(const StartPage& page, StartPicture& picture) {
-    if (picture.number == page.picture_number() && picture.texture) return;
+    const std::optional<double> threshold_hu =
+        page.form.are_labels ? std::nullopt : std::optional(page.form.threshold_hu);
+    if (picture.number == page.picture_number() && picture.threshold_hu == threshold_hu && picture.texture)
+        return;
     if (!picture.texture) picture.texture.emplace();
-    picture.texture->upload(*page.picture());
+    picture.texture->upload(
+        threshold_hu ? with_contour(*page.picture(), *page.look(), preview_mm_per_px, *threshold_hu)
+                     : *page.picture());
     picture.number = page.picture_number();
+    picture.threshold_hu = threshold_hu;
+}
+
+void draw_letters(ImDrawList& canvas, const PreviewSlice& slice, const ImVec2& low, const ImVec2& high) {
+    const float letter = ImGui::GetFontSize();
+    const ImVec2 middle{0.5f * (low.x + high.x) - 0.3f * letter, 0.5f * (low.y + high.y) - 0.5f * letter};
+    const std::array places{ImVec2{low.x + 0.2f * letter, middle.y}, ImVec2{high.x - 0.8f * letter, middle.y},
+                            ImVec2{middle.x, low.y}, ImVec2{middle.x, high.y - letter}};
+    const auto letters = letters_of(slice);
+    for (std::size_t edge = 0; edge < letters.size(); ++edge) {
+        canvas.AddText({places[edge].x + 1.0f, places[edge].y + 1.0f}, IM_COL32_BLACK, letters[edge]);
+        canvas.AddText(places[edge], IM_COL32_WHITE, letters[edge]);
+    }
 }
 
 /// The scan's slices; a drag in one of them sets two sides of the region.
@@ -160,6 +178,7 @@ void draw_slices(StartPage& page, StartPicture& picture, const ImVec2& room) {
             return ImVec2{first.x + static_cast<float>(scale * px.x),
                           first.y + static_cast<float>(scale * px.y)};
         };
+        draw_letters(canvas, slice, on_screen(slice.first_px), on_screen(slice.first_px + slice.size_px));
         canvas.AddRect(on_screen(corners[0]), on_screen(corners[1]), IM_COL32(255, 150, 0, 255), 0.0f, 0,
                        2.0f);
     }
@@ -253,7 +272,8 @@ void draw_import(StartPage& page, StartPicture& picture) {
         if (button("Colour table ...", !form.segments.empty() && !page.is_working()))
             page.show(StartPage::View::colours_browser);
         ImGui::SameLine();
-        ImGui::TextDisabled("%.0f million voxels", 1e-6 * voxels_of(form));
+        ImGui::TextDisabled("%.0f million voxels, %.0f MB at most", 1e-6 * voxels_of(form),
+                            1e-6 * most_memory_bytes(form));
         draw_segments(form);
         ImGui::EndChild();
         text_field("name of the case", form.name, 14.0f * ImGui::GetFontSize());

@@ -17,8 +17,9 @@ namespace osteomill {
 /// PictureTexture does.
 struct StartPicture {
     std::optional<gl::PictureTexture> texture{};
-    std::uint64_t number = 0;          ///< of the page's picture that it has
-    std::optional<glm::dvec2> drag{};  ///< where a drag began, pixels of the picture
+    std::uint64_t number = 0;              ///< of the page's picture that it has,
+    std::optional<double> threshold_hu{};  ///< and of the contour in it
+    std::optional<glm::dvec2> drag{};      ///< where a drag began, pixels of the picture
     CardPictures of_cases{};
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace osteomill {
 
@@ -32,6 +33,11 @@ double voxels_of(const ImportForm& form) {
     return edges.x * edges.y * edges.z;
 }
 
+double most_memory_bytes(const ImportForm& form) {
+    constexpr double bytes_per_voxel = 3.0;  // what is left, stiffness, tissue
+    return bytes_per_voxel * voxels_of(form);
+}
+
 std::vector<std::string> look_command(const std::string& bone_import, const ImportForm& form,
                                       const std::filesystem::path& picture, bool at_region) {
     std::vector<std::string> command = command_with_files(bone_import, form);
@@ -57,7 +63,15 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
 }
 
 void take_look(ImportForm& form, const ScanPreview& look, bool is_another_scan) {
-    if (is_another_scan) form.region = look.covers;
+    if (is_another_scan) {
+        form.region = look.covers;
+        const glm::dvec3 size_mm = look.covers.high_mm - look.covers.low_mm;
+        constexpr double steps_per_mm = 20.0;
+        form.spacing_mm =
+            std::max(form.spacing_mm,
+                     std::ceil(steps_per_mm * std::cbrt(size_mm.x * size_mm.y * size_mm.z / usual_voxels)) /
+                         steps_per_mm);
+    }
     std::vector<SegmentChoice> segments;
     for (const std::string& name : look.segments) {
         const auto known = std::find_if(form.segments.begin(), form.segments.end(),

@@ -36,7 +36,12 @@ inline constexpr double most_imported_voxels = 1.5e9;
 /// Of the preview's picture.
 inline constexpr double preview_mm_per_px = 0.5;
 
+/// Of a default.
+inline constexpr double usual_voxels = 2e8;
+
 double voxels_of(const ImportForm& form);
+/// Of the bone, if all of the region were bone.
+double most_memory_bytes(const ImportForm& form);
 
 /// bone_import, as a path, with what it takes to look at the scan and at the segmentations; at the slices
 /// through the middle of the region, or of the scan.
@@ -47,7 +52,7 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
                                         const std::filesystem::path& folder);
 
 /// Takes what a look brought: its segments, of which those that were there keep what was chosen; and, where
-/// the scan is another, the region: all of it.
+/// the scan is another, the region, all of it, in voxels of 0.1 mm or as many as are usual.
 void take_look(ImportForm& form, const ScanPreview& look, bool is_another_scan);
 
 }  // namespace osteomill

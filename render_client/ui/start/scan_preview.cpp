@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <glm/common.hpp>
 #include <sstream>
@@ -12,6 +13,7 @@ namespace osteomill {
 namespace {
 
 constexpr double gap_px = 4.0;  // between the slices of the picture
+constexpr std::array<std::uint8_t, 3> contour_rgb{86, 180, 233};
 
 double row_mm(const ScanBox& covers, double mm_per_px, const PreviewSlice& slice, double row_px) {
     const double down_mm = (row_px - 0.5) * mm_per_px;
@@ -39,6 +41,7 @@ std::optional<ScanPreview> read_scan_preview(const std::string& preview_output) 
             has_box = true;
         }
         std::sscanf(line.c_str(), "HU from %lf to %lf", &look.least_hu, &look.most_hu);
+        std::sscanf(line.c_str(), "grey from %lf to %lf", &look.black_hu, &look.white_hu);
         constexpr std::string_view segment = "segment ";
         if (line.starts_with(segment)) look.segments.push_back(line.substr(segment.size()));
     }
@@ -56,6 +59,37 @@ std::array<PreviewSlice, 3> preview_slices(const ScanBox& covers, double mm_per_
         left_px += slice.size_px.x + gap_px;
     }
     return slices;
+}
+
+std::array<const char*, 4> letters_of(const PreviewSlice& slice) {
+    constexpr std::array<const char*, 3> low{"R", "A", "I"};  // of patient LPS
+    constexpr std::array<const char*, 3> high{"L", "P", "S"};
+    const auto right = static_cast<std::size_t>(slice.right_axis);
+    const auto down = static_cast<std::size_t>(slice.down_axis);
+    return {low[right], high[right], slice.is_down_reversed ? high[down] : low[down],
+            slice.is_down_reversed ? low[down] : high[down]};
+}
+
+Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_per_px, double threshold_hu) {
+    Picture result = picture;
+    if (!(look.white_hu > look.black_hu)) return result;
+    const double grey = 255.0 * (threshold_hu - look.black_hu) / (look.white_hu - look.black_hu);
+    const auto is_bone = [&](int x, int y) { return *picture.at(x, y) >= grey; };
+    for (const PreviewSlice& slice : preview_slices(look.covers, mm_per_px)) {
+        const glm::ivec2 first(slice.first_px);
+        const glm::ivec2 last = glm::min(first + glm::ivec2(slice.size_px), picture.size_px) - 1;
+        for (int y = first.y; y <= last.y; ++y)
+            for (int x = first.x; x <= last.x; ++x) {
+                const bool is_edge =
+                    is_bone(x, y) &&
+                    ((x > first.x && !is_bone(x - 1, y)) || (x < last.x && !is_bone(x + 1, y)) ||
+                     (y > first.y && !is_bone(x, y - 1)) || (y < last.y && !is_bone(x, y + 1)));
+                if (is_edge)
+                    std::ranges::copy(contour_rgb,
+                                      result.rgb.begin() + (picture.at(x, y) - picture.rgb.data()));
+            }
+    }
+    return result;
 }
 
 std::optional<ScanBox> dragged_box(const ScanBox& covers, const ScanBox& before, double mm_per_px,

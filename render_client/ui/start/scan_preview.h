@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "render_client/volume/picture.h"
+
 namespace osteomill {
 
 /// A box, patient LPS.
@@ -23,6 +25,8 @@ struct ScanPreview {
     ScanBox covers;  ///< centres of the outermost voxels
     double least_hu = 0.0;
     double most_hu = 0.0;
+    double black_hu = 0.0;  ///< of the picture's greys
+    double white_hu = 0.0;
     std::vector<std::string> segments{};  ///< names, as segmentations have them
 };
 
@@ -39,6 +43,13 @@ struct PreviewSlice {
 
 /// Of a picture with a pixel for each `mm_per_px`.
 std::array<PreviewSlice, 3> preview_slices(const ScanBox& covers, double mm_per_px);
+
+/// The patient's directions at a slice's edges: left, right, above, below.
+std::array<const char*, 4> letters_of(const PreviewSlice& slice);
+
+/// The picture with the edge of what has so many HU or more drawn into its slices, a pixel thick; nothing is
+/// drawn where the picture does not say its HU.
+Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_per_px, double threshold_hu);
 
 /// The box with two of its sides as they were dragged in a slice, from one pixel of the picture to another;
 /// kept within the scan. Nothing where the first lies in no slice.

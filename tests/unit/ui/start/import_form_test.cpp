@@ -34,6 +34,16 @@ TEST(ImportForm, OfAScanLeavesMaterialsToItsNumbers) {
         IsSupersetOf({"ct", "--segmentation=s.seg.nrrd", "--threshold-hu=300", "--keep-soft-tissue"}));
 }
 
+TEST(ImportForm, OfAWholeHeadBeginsWithAsManyVoxelsAsAMachineHolds) {
+    ImportForm form;
+    take_look(form, {.covers = {.high_mm = {40.0, 40.0, 30.0}}}, true);
+    EXPECT_EQ(form.spacing_mm, 0.1) << "of a jaw, 48 million";
+    take_look(form, {.covers = {.high_mm = {200.0, 240.0, 220.0}}}, true);
+    EXPECT_EQ(form.spacing_mm, 0.4);
+    EXPECT_LT(voxels_of(form), usual_voxels);
+    EXPECT_NEAR(most_memory_bytes(form), 3.0 * 501 * 601 * 551, 1.0);
+}
+
 TEST(ImportForm, KeepsWhatWasChosenOfSegmentsThatAreThereAgain) {
     ImportForm form{.segments = {{.name = "Tooth", .material = "dentine"}, {.name = "Gone"}}};
     take_look(form, {.covers = {.high_mm = {1.0, 1.0, 1.0}}, .segments = {"New", "Tooth"}}, false);

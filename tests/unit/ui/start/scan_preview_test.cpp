@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "render_client/ui/start/import_form.h"
@@ -14,11 +15,14 @@ const ScanBox covers{{-10.0, 20.0, 700.0}, {9.5, 39.5, 729.5}};
 TEST(ScanPreview, ReadsWhatAPreviewSays) {
     const auto look = read_scan_preview(
         "reading slices\ncovers -10,20,700,9.5,39.5,729.5 (mm, patient LPS: x0,y0,z0,x1,y1,z1)\n"
-        "HU from -1024 to 3071\nsegment Facial nerve\nsegment Dura\npreview: x.png\n");
+        "HU from -1024 to 3071\ngrey from -200 to 1800 HU\nsegment Facial nerve\nsegment Dura\npreview: "
+        "x.png\n");
     ASSERT_TRUE(look);
     EXPECT_EQ(look->covers, covers);
     EXPECT_EQ(look->least_hu, -1024.0);
     EXPECT_EQ(look->most_hu, 3071.0);
+    EXPECT_EQ(look->black_hu, -200.0);
+    EXPECT_EQ(look->white_hu, 1800.0);
     EXPECT_EQ(look->segments, (std::vector<std::string>{"Facial nerve", "Dura"}));
     EXPECT_FALSE(read_scan_preview("bone_import: cannot be read\n"));
     EXPECT_FALSE(read_scan_preview("covers 1,2,3 (mm)\n"));
@@ -30,6 +34,44 @@ TEST(ScanPreview, KnowsWhereTheSlicesAreInThePicture) {
     EXPECT_EQ(slices[1].size_px, glm::dvec2(40, 60));
     EXPECT_EQ(slices[1].first_px, glm::dvec2(44, 0));
     EXPECT_EQ(slices[2].first_px, glm::dvec2(88, 0));
+}
+
+TEST(ScanPreview, SaysThePatientsDirectionsAtTheEdges) {
+    using Letters = std::array<const char*, 4>;
+    const auto texts = [](const Letters& letters) {
+        return std::vector<std::string>(letters.begin(), letters.end());
+    };
+    const auto slices = preview_slices(covers, 0.5);
+    // As radiologists see them: the patient's right on the left, the face and the crown above.
+    EXPECT_EQ(texts(letters_of(slices[0])), (std::vector<std::string>{"R", "L", "A", "P"}));
+    EXPECT_EQ(texts(letters_of(slices[1])), (std::vector<std::string>{"R", "L", "S", "I"}));
+    EXPECT_EQ(texts(letters_of(slices[2])), (std::vector<std::string>{"A", "P", "S", "I"}));
+}
+
+TEST(ScanPreview, OutlinesWhatReachesTheThreshold) {
+    const ScanPreview look{.covers = covers, .black_hu = -200.0, .white_hu = 1800.0};
+    Picture picture({132, 60});
+    // A square of 302 HU in the axial slice.
+    const auto set = [&](int x, int y, std::uint8_t grey) {
+        std::fill_n(picture.rgb.begin() + (picture.at(x, y) - picture.rgb.data()), 3, grey);
+    };
+    for (int y = 10; y < 20; ++y)
+        for (int x = 10; x < 20; ++x) set(x, y, 64);
+    const auto changed = [&](double threshold_hu) {
+        const Picture outlined = with_contour(picture, look, 0.5, threshold_hu);
+        int count = 0;
+        for (int y = 0; y < 60; ++y)
+            for (int x = 0; x < 132; ++x)
+                if (!std::equal(outlined.at(x, y), outlined.at(x, y) + 3, picture.at(x, y))) {
+                    ++count;
+                    EXPECT_TRUE(x == 10 || x == 19 || y == 10 || y == 19) << x << ", " << y;
+                }
+        return count;
+    };
+    EXPECT_EQ(changed(300.0), 36) << "its edge, a pixel thick";
+    EXPECT_EQ(changed(310.0), 0) << "64 of 255 is 302 HU";
+    EXPECT_EQ(changed(-250.0), 0) << "all is above";
+    EXPECT_EQ(with_contour(picture, {.covers = covers}, 0.5, 300.0), picture) << "HU are not known";
 }
 
 TEST(ScanPreview, ADragSetsTheTwoSidesThatItsSliceShows) {
@@ -74,8 +116,8 @@ TEST(ImportForm, BecomesACommand) {
     EXPECT_EQ(import_command("bone_import", form, "/c/head 1"), expected);
     EXPECT_NEAR(voxels_of(form), 401.0 * 401.0 * 401.0, 1.0);
     EXPECT_EQ(look_command("bone_import", form, "/t/look.png", false),
-              (std::vector<std::string>{"bone_import", "/s/head", "--segmentation=/s/a b.seg.nrrd", "--preview",
-                                        "/t/look.png"}));
+              (std::vector<std::string>{"bone_import", "/s/head", "--segmentation=/s/a b.seg.nrrd",
+                                        "--preview", "/t/look.png"}));
     EXPECT_EQ(look_command("bone_import", form, "/t/look.png", true).at(5), expected.at(5));
     form.are_labels = true;  // which have no HU
     form.segmentations.clear();
