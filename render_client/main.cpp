@@ -19,6 +19,7 @@
 #include "render_client/ui/options.h"
 #include "render_client/ui/view/transfer_file.h"
 #include "render_client/ui/windowed_run.h"
+#include "render_client/ui/words/translation.h"
 
 namespace {
 
@@ -35,6 +36,7 @@ void run(osteomill::RenderOptions options) {
     std::error_code failed;
     if (!options.look_file.empty() && std::filesystem::exists(options.look_file, failed))
         options.look.transfer = read_look(options.look_file);
+    speak(options.language);
     const auto stop_asked = [&stop = stop_on_signals()] { return stop.load(); };
     if (options.dataset) {
         const RenderReport report = run_dataset(options, OSTEOMILL_VERSION, stop_asked);

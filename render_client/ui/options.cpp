@@ -17,6 +17,7 @@
 #include "common/program/option_checks.h"
 #include "common/text/words.h"
 #include "render_client/link/recording_player.h"
+#include "render_client/ui/words/translation.h"
 #include "render_client/volume/magnification.h"
 
 namespace osteomill {
@@ -252,6 +253,11 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     add_microscope(app, options);
     app.add_option("--theme", options.theme, "Colours: dark or light (dark)")
         ->transform(CLI::CheckedTransformer(theme_names).description(""))
+        ->type_name("NAME");
+    options.language = language_of_environment();
+    app.add_option("--language", options.language,
+                   "Of the window; unless given, that of LANG where it is there")
+        ->check(one_of(languages()))
         ->type_name("NAME");
     app.add_option(
            "--ui-scale", options.ui_scale,

@@ -49,6 +49,7 @@ struct RenderOptions {
     std::optional<glm::ivec2> window_size_px;
     ThemeName theme = ThemeName::dark;
     std::optional<double> ui_scale;  ///< of panels and letters; absent: the display's, 1 offscreen
+    std::string language = "en";     ///< of translation.h
     bool panels = true;
     bool sound = false;                         ///< the burr can be heard
     std::optional<std::filesystem::path> home;  ///< cases and reports of sessions started from the window

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render_client/ui/words/translation.h"
 #include "render_client/volume/magnification.h"
 #include "render_client/volume/surface_pick.h"
 
@@ -21,29 +22,29 @@ constexpr double gap_mm = 1.0;
 const char* words_for(SessionAction done) {
     switch (done) {
         case SessionAction::mark:
-            return "marked";
+            return tr("marked");
         case SessionAction::pause:
-            return "paused";
+            return tr("paused");
         case SessionAction::resume:
-            return "the session goes on";
+            return tr("the session goes on");
         case SessionAction::undo:
-            return "a stroke was undone";
+            return tr("a stroke was undone");
         case SessionAction::redo:
-            return "a stroke was redone";
+            return tr("a stroke was redone");
         case SessionAction::reset:
-            return "all strokes were undone";
+            return tr("all strokes were undone");
         case SessionAction::save:
-            return "the server saves the bone";
+            return tr("the server saves the bone");
         case SessionAction::finish:
-            return "the session ends;";
+            return tr("the session ends;");
         case SessionAction::place:
-            return "the tool is";
+            return tr("the tool is");
         case SessionAction::speed:
-            return "the spindle's speed:";
+            return tr("the spindle's speed:");
         case SessionAction::none:
             break;
     }
-    return "the server did what this program does not know";
+    return tr("the server did what this program does not know");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "render_client/ui/words/translation.h"
+
 namespace osteomill {
 
 namespace {
@@ -185,6 +187,7 @@ std::vector<HelpLine> help_lines(Situation situation) {
         default:
             break;
     }
+    for (HelpLine& line : lines) line = {tr(line.name), tr(line.meaning), line.is_heading};
     return lines;
 }
 

@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "render_client/ui/start/case_pictures.h"
+#include "render_client/ui/words/translation.h"
 #include "render_client/volume/png_file.h"
 
 namespace osteomill {
@@ -68,8 +69,7 @@ void draw_case_card(StartPage& page, CardPictures& pictures, std::size_t index, 
     y = write_in_card(shelved.description.c_str(), {left, y}, width, end_y,
                       ImGui::GetColorU32(ImGuiCol_TextDisabled));
     if (!shelved.protected_names.empty())
-        write_in_card(fmt::format("protected: {}", shelved.protected_names).c_str(), {left, y}, width, end_y,
-                      plain);
+        write_in_card(trf("protected: {}", shelved.protected_names).c_str(), {left, y}, width, end_y, plain);
 }
 
 const gl::PictureTexture* CardPictures::of(const ShelvedCase& shelved) {

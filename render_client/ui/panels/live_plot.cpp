@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "render_client/ui/panels/plot_lines.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
@@ -111,7 +112,7 @@ class PlotColumn {
         };
         write_at(ToolHistory::kept_s, 0.0f, fmt::format("-{:.0f} s", ToolHistory::kept_s));
         write_at(0.5 * ToolHistory::kept_s, 0.5f, fmt::format("-{:.0f} s", 0.5 * ToolHistory::kept_s));
-        write_at(0.0, 1.0f, "now");
+        write_at(0.0, 1.0f, tr("now"));
         pen_y_ += painter_.line_height();
     }
 
@@ -143,23 +144,23 @@ float small_plot_height() {
 
 TextLine force_line(const ToolState& tool) {
     const double force_n = glm::length(tool.force_n);
-    if (!tool.shank_torque_n_mm) return {{Tone::plain, fmt::format("force on the hand {:.2f} N", force_n)}};
-    return {{Tone::plain, fmt::format("force {:.2f} N, shank torque {:.1f} N mm", force_n,
-                                      glm::length(*tool.shank_torque_n_mm))}};
+    if (!tool.shank_torque_n_mm) return {{Tone::plain, trf("force on the hand {:.2f} N", force_n)}};
+    return {{Tone::plain,
+             trf("force {:.2f} N, shank torque {:.1f} N mm", force_n, glm::length(*tool.shank_torque_n_mm))}};
 }
 
 std::string depth_text(const ToolState& tool) {
-    if (!tool.depth_mm) return "depth: this server does not say";
-    return *tool.depth_mm > 0.0 ? fmt::format("depth {:.2f} mm", *tool.depth_mm) : "depth: not in bone";
+    if (!tool.depth_mm) return tr("depth: this server does not say");
+    return *tool.depth_mm > 0.0 ? trf("depth {:.2f} mm", *tool.depth_mm) : tr("depth: not in bone");
 }
 
 TextLine solve_line(const ToolState& tool) {
-    if (!tool.solve) return {{Tone::dim, "solve: this server does not say"}};
+    if (!tool.solve) return {{Tone::dim, tr("solve: this server does not say")}};
     const SolveCounts& solve = *tool.solve;
     const bool is_poor = solve.max_residual_n > 1e-3 || solve.relaxed > 0;
     return {{is_poor ? Tone::warning : Tone::dim,
-             fmt::format("solve {:.1f} mN, {} damped, {} fallbacks", 1e3 * solve.max_residual_n, solve.damped,
-                         solve.fallbacks)}};
+             trf("solve {:.1f} mN, {} damped, {} fallbacks", 1e3 * solve.max_residual_n, solve.damped,
+                 solve.fallbacks)}};
 }
 
 }  // namespace
@@ -183,7 +184,7 @@ void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, con
     for (int axis = 0; axis < 3; ++axis) {
         const auto index = static_cast<std::size_t>(axis);
         components.push_back(
-            {axis_tones[index], fmt::format("{} {:+.2f}   ", axis_names[index], tool.force_n[axis])});
+            {axis_tones[index], fmt::format("{} {:+.2f}   ", tr(axis_names[index]), tool.force_n[axis])});
     }
     column.write(components);
     if (detail == PlotDetail::numbers) return;
@@ -195,7 +196,7 @@ void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, con
         const std::vector<Line> depth{
             line_of(history, Tone::depth, [](const auto& sample) { return sample.depth_mm; })};
         column.plot(depth, range_of(depth, smallest_depth_mm), small_plot_height());
-        column.write({{Tone::removed, fmt::format("removed {:.2f} mm\u00b3", tool.removed_mm3)}});
+        column.write({{Tone::removed, trf("removed {:.2f} mm\u00b3", tool.removed_mm3)}});
         const std::vector<Line> removed{line_of(
             history, Tone::removed, [](const auto& sample) { return std::optional(sample.removed_mm3); })};
         column.plot(removed, range_of(removed, smallest_volume_mm3), small_plot_height());

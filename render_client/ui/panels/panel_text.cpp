@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "render_client/ui/panels/structure_text.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
@@ -15,7 +16,7 @@ TextLine line(Tone tone, std::string text) {
 std::string quality_in_words(const PictureQuality& quality) {
     if (quality.refined) return "full quality";
     if (quality.scale == 1.0) return "refining";
-    return fmt::format("coarse, {:.0f} %", 100.0 * quality.scale);
+    return trf("coarse, {:.0f} %", 100.0 * quality.scale);
 }
 
 bool has_problem(LinkStatus status) {
@@ -47,18 +48,17 @@ PanelText session_text(const OverlayContent& content) {
         text.push_back(line(Tone::plain, content.session->scene_name));
         const auto scale = content.session->settings.find("force_scale");
         if (scale != content.session->settings.end())
-            text.push_back(line(Tone::warning, "forces of cutting times " + scale->second));
+            text.push_back(line(Tone::warning, tr("forces of cutting times ") + scale->second));
     }
     text.push_back(line(has_problem(content.link.status) ? Tone::warning : Tone::plain,
                         content.link.status_line + received_part(content.link)));
     if (content.preparation_percent)
-        text.push_back(
-            line(Tone::plain, fmt::format("preparing the bone: {} %", *content.preparation_percent)));
+        text.push_back(line(Tone::plain, trf("preparing the bone: {} %", *content.preparation_percent)));
     if (content.view->details_shown) add_details(content, text);
     if (const std::uint64_t bad = content.link.checksum_mismatches + content.link.rejected_frames; bad > 0)
-        text.push_back(line(Tone::warning, fmt::format("{} bad frames; {} bricks were repaired", bad,
-                                                       content.link.bricks_repaired)));
-    if (!content.view->help_shown) text.push_back(line(Tone::dim, "F1 help"));
+        text.push_back(line(
+            Tone::warning, trf("{} bad frames; {} bricks were repaired", bad, content.link.bricks_repaired)));
+    if (!content.view->help_shown) text.push_back(line(Tone::dim, tr("F1 help")));
     return text;
 }
 
@@ -68,15 +68,13 @@ PanelText tool_text(const OverlayContent& content) {
     if (content.session && tool.burr < content.session->burrs.size()) {
         const Burr& burr = content.session->burrs[tool.burr];
         const std::string_view head =
-            burr.is_ball() ? "burr" : head_shape_names[static_cast<std::size_t>(burr.head.shape)];
-        text.push_back(
-            line(Tone::plain, fmt::format("{} {:.1f} mm, {} edges", head, burr.diameter_mm, burr.edges)));
-        text.push_back(tool.spindle_on
-                           ? line(Tone::good, fmt::format("spindle {:.0f} rpm", spindle_rpm(tool, burr)))
-                           : line(Tone::dim, "spindle off"));
+            burr.is_ball() ? tr("burr") : head_shape_names[static_cast<std::size_t>(burr.head.shape)];
+        text.push_back(line(Tone::plain, trf("{} {:.1f} mm, {} edges", head, burr.diameter_mm, burr.edges)));
+        text.push_back(tool.spindle_on ? line(Tone::good, trf("spindle {:.0f} rpm", spindle_rpm(tool, burr)))
+                                       : line(Tone::dim, tr("spindle off")));
     }
-    text.push_back(line(Tone::plain, fmt::format("removed {:.2f} mm\u00b3", tool.removed_mm3)));
-    text.push_back(line(Tone::dim, fmt::format("time {:.1f} s", tool.time_s)));
+    text.push_back(line(Tone::plain, trf("removed {:.2f} mm\u00b3", tool.removed_mm3)));
+    text.push_back(line(Tone::dim, trf("time {:.1f} s", tool.time_s)));
     return text;
 }
 
@@ -86,13 +84,14 @@ PanelText warning_text(const OverlayContent& content) {
     if (!content.link.recording_error.empty())
         text.push_back(line(Tone::warning, content.link.recording_error));
     if (content.link.controls.is_paused)
-        text.push_back(line(Tone::plain, "paused: force and spindle off"));
+        text.push_back(line(Tone::plain, tr("paused: force and spindle off")));
     else if (content.tool && !content.tool->fault.empty())
-        text.push_back(line(Tone::warning, fmt::format("FAULT: {}", content.tool->fault.text())));
+        text.push_back(line(Tone::warning, trf("FAULT: {}", content.tool->fault.text())));
     if (content.tool && !content.tool->notice.empty())
         text.push_back(line(Tone::plain, std::string(content.tool->notice.text())));
     if (content.tool && content.tool->driver == ToolDriver::others_only)
-        text.push_back(line(Tone::plain, "you watch: the server does not list this client as an operator"));
+        text.push_back(
+            line(Tone::plain, tr("you watch: the server does not list this client as an operator")));
     const PanelText structures = structure_warnings(content);
     text.insert(text.end(), structures.begin(), structures.end());
     if (!content.view->notice.empty()) text.push_back(line(Tone::plain, content.view->notice));
@@ -107,16 +106,18 @@ bool is_alarm(const OverlayContent& content) {
 PanelText operator_text(const OverlayContent& content) {
     PanelText text;
     if (content.tool && content.tool->driver == ToolDriver::another)
-        text.push_back(line(Tone::warning, "another client moves the tool; ask again when it has let go"));
-    text.push_back(content.operator_command->pedal ? line(Tone::good, "pedal down")
-                                                   : line(Tone::dim, "pedal up (SPACE)"));
+        text.push_back(
+            line(Tone::warning, tr("another client moves the tool; ask again when it has let go")));
+    text.push_back(content.operator_command->pedal ? line(Tone::good, tr("pedal down"))
+                                                   : line(Tone::dim, tr("pedal up (SPACE)")));
     if (content.tool && content.tool->removed_mm3 == 0.0) {
-        text.push_back(line(Tone::plain, "1. Drag with the left mouse button: the burr goes over the bone."));
-        text.push_back(line(Tone::plain, "2. Hold SPACE: the burr turns."));
-        text.push_back(line(Tone::plain, "3. The wheel, or W, pushes it into the bone; S pulls it out."));
-        text.push_back(line(Tone::plain, "Right drag turns the view, ctrl + wheel zooms. F1: all keys."));
+        text.push_back(
+            line(Tone::plain, tr("1. Drag with the left mouse button: the burr goes over the bone.")));
+        text.push_back(line(Tone::plain, tr("2. Hold SPACE: the burr turns.")));
+        text.push_back(line(Tone::plain, tr("3. The wheel, or W, pushes it into the bone; S pulls it out.")));
+        text.push_back(line(Tone::plain, tr("Right drag turns the view, ctrl + wheel zooms. F1: all keys.")));
     } else {
-        text.push_back(line(Tone::dim, "left drag: hand   wheel, W/S: in/out   1-9 [ ]: burr"));
+        text.push_back(line(Tone::dim, tr("left drag: hand   wheel, W/S: in/out   1-9 [ ]: burr")));
     }
     return text;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "render_client/ui/panels/input_panel.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
@@ -53,7 +54,7 @@ glm::vec2 playback_panel_size(const PanelPainter& painter, const glm::vec2& pict
 void draw_playback_panel(RecordingPlayer& player, const PanelPainter& painter, const PanelPlace& place) {
     const InputPanel window("playback", place);
     const float letter = ImGui::GetFontSize();
-    if (ImGui::Button(player.is_playing() ? "pause" : "play", {button_width * letter, 0.0f}))
+    if (ImGui::Button(player.is_playing() ? tr("pause") : tr("play"), {button_width * letter, 0.0f}))
         player.is_playing() ? player.pause() : player.play();
 
     ImGui::SameLine();

@@ -6,6 +6,7 @@
 
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/panels/start_panel.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
@@ -19,17 +20,17 @@ struct Question {
 Question question_of(const OverlayContent& content) {
     switch (content.view->question) {
         case SessionQuestion::mark:
-            return {"Mark this moment. A note, if you like:", "Mark"};
+            return {tr("Mark this moment. A note, if you like:"), tr("Mark")};
         case SessionQuestion::reset:
-            return {"Undo every stroke? Each can be redone.", "Reset"};
+            return {tr("Undo every stroke? Each can be redone."), tr("Reset")};
         case SessionQuestion::finish:
-            return {"Finish the session, for everybody? All is saved.", "Finish"};
+            return {tr("Finish the session, for everybody? All is saved."), tr("Finish")};
         case SessionQuestion::surface:
-            return {"Save the surface of the bone as it is, beside the server's --save-bone, as:", "STL"};
+            return {tr("Save the surface of the bone as it is, beside the server's --save-bone, as:"), "STL"};
         case SessionQuestion::end:
             if (content.start != nullptr && content.start->page.is_session_running())
-                return {"End this program, and the session that it started? All is saved.", "End"};
-            return {"End this program? The session goes on without it.", "End"};
+                return {tr("End this program, and the session that it started? All is saved."), tr("End")};
+            return {tr("End this program? The session goes on without it."), tr("End")};
         case SessionQuestion::none:
             break;
     }
@@ -94,7 +95,7 @@ void draw_session_dialog(const OverlayContent& content, const PanelPlace& place)
             }
             ImGui::SameLine();
         }
-    const bool is_given_up = ImGui::Button("Go on");
+    const bool is_given_up = ImGui::Button(tr("Go on"));
     if (is_answered)
         answer(content);
     else if (is_given_up)

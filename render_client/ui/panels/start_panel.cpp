@@ -12,6 +12,7 @@
 #include "common/scene/material.h"
 #include "render_client/ui/panels/case_card.h"
 #include "render_client/ui/panels/input_panel.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
@@ -56,10 +57,10 @@ void draw_sessions(StartPage& page) {
         const std::filesystem::path session = page.sessions()[i];
         ImGui::PushID(static_cast<int>(i));
         std::error_code ignored;
-        if (button("Report", std::filesystem::exists(session / "report.html", ignored)))
+        if (button(tr("Report"), std::filesystem::exists(session / "report.html", ignored)))
             page.open_report_of(session);
         ImGui::SameLine();
-        if (ImGui::Button("Replay")) page.replay(session / "session.pcap");
+        if (ImGui::Button(tr("Replay"))) page.replay(session / "session.pcap");
         ImGui::SameLine();
         ImGui::TextUnformatted(session.filename().c_str());
         ImGui::PopID();
@@ -68,8 +69,8 @@ void draw_sessions(StartPage& page) {
 
 void draw_cases(StartPage& page, StartPicture& pictures) {
     const float letter = ImGui::GetFontSize();
-    ImGui::TextUnformatted("Choose a case: drill it with the mouse, for as long as you like.");
-    ImGui::TextDisabled("Forces are those of milling bone; at the end there is a report.");
+    ImGui::TextUnformatted(tr("Choose a case: drill it with the mouse, for as long as you like."));
+    ImGui::TextDisabled("%s", tr("Forces are those of milling bone; at the end there is a report."));
     ImGui::BeginChild("cases", list_size(page.sessions().empty() ? 4.0f : 8.0f), true,
                       ImGuiWindowFlags_NavFlattened);
     const float room = ImGui::GetContentRegionAvail().x;
@@ -83,25 +84,26 @@ void draw_cases(StartPage& page, StartPicture& pictures) {
     }
     ImGui::EndChild();
     if (!page.sessions().empty()) {
-        ImGui::TextUnformatted("Sessions so far");
+        ImGui::TextUnformatted(tr("Sessions so far"));
         ImGui::BeginChild("sessions", list_size(4.0f), true, ImGuiWindowFlags_NavFlattened);
         draw_sessions(page);
         ImGui::EndChild();
     }
-    if (button("Start", !page.is_session_running())) page.start();
+    if (button(tr("Start"), !page.is_session_running())) page.start();
     ImGui::SameLine();
-    text_field("trainee", page.trainee, 14.0f * letter);
-    if (button("Import a scan ...", !page.is_session_running())) page.show(StartPage::View::scan_browser);
+    text_field(tr("trainee"), page.trainee, 14.0f * letter);
+    if (button(tr("Import a scan ..."), !page.is_session_running())) page.show(StartPage::View::scan_browser);
     ImGui::SameLine();
-    if (button("Import labels ...", !page.is_session_running())) page.show(StartPage::View::labels_browser);
+    if (button(tr("Import labels ..."), !page.is_session_running()))
+        page.show(StartPage::View::labels_browser);
     ImGui::SameLine();
-    if (ImGui::Button("Open a recording ...")) page.show(StartPage::View::recording_browser);
-    if (button("Compare all sessions", !page.is_working() && !page.sessions().empty()))
+    if (ImGui::Button(tr("Open a recording ..."))) page.show(StartPage::View::recording_browser);
+    if (button(tr("Compare all sessions"), !page.is_working() && !page.sessions().empty()))
         page.compare_sessions();
     ImGui::SameLine();
-    if (button("Open its report", page.report().has_value())) page.open_report();
+    if (button(tr("Open its report"), page.report().has_value())) page.open_report();
     ImGui::SameLine();
-    if (ImGui::Button("Hide this")) page.is_hidden = true;
+    if (ImGui::Button(tr("Hide this"))) page.is_hidden = true;
     draw_message(page);
 }
 
@@ -109,16 +111,17 @@ void draw_browser(StartPage& page) {
     const bool is_for_scan =
         page.view() == StartPage::View::scan_browser || page.view() == StartPage::View::labels_browser;
     ImGui::TextUnformatted(
-        is_for_scan ? "A DICOM folder, a NRRD, NIfTI or MetaImage file, or a folder of PNG or TIFF pictures"
+        is_for_scan
+            ? tr("A DICOM folder, a NRRD, NIfTI or MetaImage file, or a folder of PNG or TIFF pictures")
         : page.view() == StartPage::View::colours_browser
-            ? "Names and colours of labels: a table of 3D Slicer (.ctbl, .csv) or ITK-SNAP"
+            ? tr("Names and colours of labels: a table of 3D Slicer (.ctbl, .csv) or ITK-SNAP")
         : page.view() == StartPage::View::recording_browser
-            ? "A recording of a session (.pcap)"
-            : "A segmentation (.seg.nrrd, DICOM), or a label map");
+            ? tr("A recording of a session (.pcap)")
+            : tr("A segmentation (.seg.nrrd, DICOM), or a label map"));
     ImGui::TextDisabled("%s", page.listing().folder.c_str());
     const FolderListing listing = page.listing();  // a click replaces it
     ImGui::BeginChild("files", list_size(2.0f), true);
-    if (listing.folder.has_parent_path() && ImGui::Selectable("../  (up)"))
+    if (listing.folder.has_parent_path() && ImGui::Selectable(tr("../  (up)")))
         page.browse(listing.folder.parent_path());
     for (const std::string& name : listing.folders)
         if (ImGui::Selectable((name + "/").c_str())) page.browse(listing.folder / name);
@@ -127,11 +130,12 @@ void draw_browser(StartPage& page) {
     ImGui::EndChild();
     if (!listing.problem.empty()) ImGui::TextUnformatted(listing.problem.c_str());
     if (is_for_scan) {
-        if (button("This folder", !listing.files.empty())) page.take(listing.folder);
+        if (button(tr("This folder"), !listing.files.empty())) page.take(listing.folder);
         ImGui::SameLine();
     }
     const bool was_on_import = !is_for_scan && page.view() != StartPage::View::recording_browser;
-    if (ImGui::Button("Back")) page.show(was_on_import ? StartPage::View::import : StartPage::View::cases);
+    if (ImGui::Button(tr("Back")))
+        page.show(was_on_import ? StartPage::View::import : StartPage::View::cases);
 }
 
 void upload(const StartPage& page, StartPicture& picture) {
@@ -201,7 +205,7 @@ void draw_material(SegmentChoice& segment, const char* left_open) {
         if (ImGui::Selectable(shown, segment.material == material)) segment.material = material;
     };
     offer(left_open, "");
-    offer("soft: no bone", soft_material);
+    offer(tr("soft: no bone"), soft_material);
     for (const Material& material : shipped_materials()) offer(material.name.c_str(), material.name);
     ImGui::EndCombo();
 }
@@ -210,13 +214,13 @@ void draw_segments(ImportForm& form) {
     for (std::size_t i = 0; i < form.segments.size(); ++i) {
         SegmentChoice& segment = form.segments[i];
         ImGui::PushID(static_cast<int>(i));
-        ImGui::Checkbox("protect", &segment.is_protected);
+        ImGui::Checkbox(tr("protect"), &segment.is_protected);
         ImGui::SameLine();
-        if (ImGui::Checkbox("target", &segment.is_target) && segment.is_target)
+        if (ImGui::Checkbox(tr("target"), &segment.is_target) && segment.is_target)
             for (std::size_t other = 0; other < form.segments.size(); ++other)
                 if (other != i) form.segments[other].is_target = false;
         ImGui::SameLine();
-        draw_material(segment, form.are_labels ? "as its name says" : "as its HU say");
+        draw_material(segment, form.are_labels ? tr("as its name says") : tr("as its HU say"));
         ImGui::SameLine();
         ImGui::TextUnformatted(segment.name.c_str());
         ImGui::PopID();
@@ -228,7 +232,7 @@ void draw_region(ImportForm& form) {
     for (const bool is_low : {true, false}) {
         ImGui::PushID(is_low ? "low" : "high");
         ImGui::AlignTextToFramePadding();
-        ImGui::TextUnformatted(is_low ? "from" : "to");
+        ImGui::TextUnformatted(is_low ? tr("from") : tr("to"));
         for (int axis = 0; axis < 3; ++axis) {
             ImGui::SameLine();
             number_field(axes[static_cast<std::size_t>(axis)],
@@ -237,7 +241,7 @@ void draw_region(ImportForm& form) {
         ImGui::SameLine();
         ImGui::PopID();
     }
-    ImGui::TextUnformatted("mm LPS");
+    ImGui::TextUnformatted(tr("mm LPS"));
 }
 
 void draw_import(StartPage& page, StartPicture& picture) {
@@ -245,8 +249,9 @@ void draw_import(StartPage& page, StartPicture& picture) {
     ImGui::TextUnformatted(form.scan.filename().c_str());
     if (const auto& look = page.look()) {
         ImGui::SameLine();
-        ImGui::TextDisabled("HU %.0f to %.0f; drag a box in each slice: what becomes bone", look->least_hu,
-                            look->most_hu);
+        ImGui::TextDisabled("%s", trf("HU {:.0f} to {:.0f}; drag a box in each slice: what becomes bone",
+                                      look->least_hu, look->most_hu)
+                                      .c_str());
     }
     if (page.look() && page.picture()) {
         const float line = ImGui::GetFrameHeightWithSpacing();
@@ -254,39 +259,40 @@ void draw_import(StartPage& page, StartPicture& picture) {
         draw_slices(page, picture, {all.x, std::max(all.y - 9.0f * line, 4.0f * line)});
         draw_region(form);
         if (!form.are_labels) {
-            number_field("HU threshold", form.threshold_hu, "%.0f");
+            number_field(tr("HU threshold"), form.threshold_hu, "%.0f");
             ImGui::SameLine();
         }
-        number_field("mm a voxel", form.spacing_mm, "%.2f");
+        number_field(tr("mm a voxel"), form.spacing_mm, "%.2f");
         form.spacing_mm = std::clamp(form.spacing_mm, 0.02, 10.0);
         if (!form.are_labels) {
             ImGui::SameLine();
-            ImGui::Checkbox("keep soft tissue", &form.keeps_soft_tissue);
+            ImGui::Checkbox(tr("keep soft tissue"), &form.keeps_soft_tissue);
         }
         ImGui::BeginChild("segments", list_size(3.5f), false);
-        if (button("Look there", !page.is_working())) page.look_again();
+        if (button(tr("Look there"), !page.is_working())) page.look_again();
         ImGui::SameLine();
-        if (button("Add a segmentation ...", !page.is_working()))
+        if (button(tr("Add a segmentation ..."), !page.is_working()))
             page.show(StartPage::View::segmentation_browser);
         ImGui::SameLine();
-        if (button("Colour table ...", !form.segments.empty() && !page.is_working()))
+        if (button(tr("Colour table ..."), !form.segments.empty() && !page.is_working()))
             page.show(StartPage::View::colours_browser);
         ImGui::SameLine();
-        ImGui::TextDisabled("%.0f million voxels, %.0f MB at most", 1e-6 * voxels_of(form),
-                            1e-6 * most_memory_bytes(form));
+        ImGui::TextDisabled("%s", trf("{:.0f} million voxels, {:.0f} MB at most", 1e-6 * voxels_of(form),
+                                      1e-6 * most_memory_bytes(form))
+                                      .c_str());
         draw_segments(form);
         ImGui::EndChild();
-        text_field("name of the case", form.name, 14.0f * ImGui::GetFontSize());
+        text_field(tr("name of the case"), form.name, 14.0f * ImGui::GetFontSize());
     }
     if (!page.look() && !page.is_working()) {
-        text_field("mm between pixels and slices of a stack of pictures: x,y,z", form.stack_spacing,
+        text_field(tr("mm between pixels and slices of a stack of pictures: x,y,z"), form.stack_spacing,
                    12.0f * ImGui::GetFontSize());
         ImGui::SameLine();
-        if (ImGui::Button("Look")) page.look_again();
+        if (ImGui::Button(tr("Look"))) page.look_again();
     }
-    if (button("Import", page.look() && !page.is_working())) page.import();
+    if (button(tr("Import"), page.look() && !page.is_working())) page.import();
     ImGui::SameLine();
-    if (ImGui::Button(page.is_working() ? "Give up" : "Back")) {
+    if (ImGui::Button(page.is_working() ? tr("Give up") : tr("Back"))) {
         if (page.is_working())
             page.give_up_work();
         else

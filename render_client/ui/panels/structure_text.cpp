@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "render_client/ui/words/translation.h"
+
 namespace osteomill {
 
 namespace {
@@ -11,11 +13,11 @@ namespace {
 /// Two lines, so that none is too long for a panel.
 void add_touches(PanelText& text, const StructureDistance& now, const Tissue& tissue) {
     const bool is_one = now.touches_so_far == 1;
-    text.push_back(
-        {{Tone::warning, is_one ? fmt::format("touched: {}", tissue.name)
-                                : fmt::format("touched: {}, {} times", tissue.name, now.touches_so_far)}});
-    std::string when = fmt::format("{} {:.1f} s, for {:.1f} s{}", is_one ? "at" : "first at",
-                                   now.first_touch_s, now.touched_s, is_one ? "" : " in all");
+    text.push_back({{Tone::warning, is_one ? trf("touched: {}", tissue.name)
+                                           : trf("touched: {}, {} times", tissue.name, now.touches_so_far)}});
+    std::string when = is_one
+                           ? trf("at {:.1f} s, for {:.1f} s", now.first_touch_s, now.touched_s)
+                           : trf("first at {:.1f} s, for {:.1f} s in all", now.first_touch_s, now.touched_s);
     const double mm3 = std::max(now.removed_mm3, now.entered_mm3);
     if (mm3 > 0.0) when += fmt::format(", {:.2f} mm\u00b3", mm3);
     text.push_back({{Tone::plain, std::move(when)}});
@@ -30,12 +32,12 @@ PanelText structure_text(const OverlayContent& content) {
     if (std::ranges::none_of(tissues, &Tissue::is_protected)) return text;
     if (const StructureDistance* nearest = nearest_structure(content.link.distances)) {
         const Tissue& tissue = tissues[nearest->tissue];
-        text.push_back({{warning_of(*nearest, tissue) != StructureWarning::none ? Tone::warning : Tone::plain,
-                         *nearest->distance_mm <= 0.0
-                             ? fmt::format("{}: touching", tissue.name)
-                             : fmt::format("{}: {:.2f} mm away", tissue.name, *nearest->distance_mm)}});
+        text.push_back(
+            {{warning_of(*nearest, tissue) != StructureWarning::none ? Tone::warning : Tone::plain,
+              *nearest->distance_mm <= 0.0 ? trf("{}: touching", tissue.name)
+                                           : trf("{}: {:.2f} mm away", tissue.name, *nearest->distance_mm)}});
     } else {
-        text.push_back({{Tone::dim, "no protected structure near"}});
+        text.push_back({{Tone::dim, tr("no protected structure near")}});
     }
     for (const StructureDistance& now : content.link.distances)
         if (now.touches_so_far > 0) add_touches(text, now, tissues[now.tissue]);
@@ -48,13 +50,13 @@ PanelText structure_warnings(const OverlayContent& content) {
     for (const StructureDistance& now : content.link.distances) {
         const Tissue& tissue = content.session->tissues[now.tissue];
         if (now.touches)
-            text.push_back({{Tone::warning, fmt::format("PROTECTED: the burr touches {}", tissue.name)}});
+            text.push_back({{Tone::warning, trf("PROTECTED: the burr touches {}", tissue.name)}});
         else if (warning_of(now, tissue) == StructureWarning::near)
-            text.push_back({{Tone::warning,
-                             fmt::format("CAREFUL: {} is {:.1f} mm away", tissue.name, *now.distance_mm)}});
+            text.push_back(
+                {{Tone::warning, trf("CAREFUL: {} is {:.1f} mm away", tissue.name, *now.distance_mm)}});
     }
     if (text.empty() && content.tool && content.tool->touches_protected)
-        text.push_back({{Tone::warning, "PROTECTED TISSUE: the burr touches it"}});
+        text.push_back({{Tone::warning, tr("PROTECTED TISSUE: the burr touches it")}});
     return text;
 }
 

@@ -12,6 +12,7 @@
 
 #include "common/scene/burr_profile.h"
 #include "render_client/ui/panels/input_panel.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
@@ -67,8 +68,8 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
         const OperatorCommand& command = *content.operator_command;
         buttons.push_back({.tool = Tool::pedal,
                            .sign = "\u25CF",
-                           .word = "Pedal",
-                           .tip = "the spindle turns until you press again, or while SPACE is held",
+                           .word = tr("Pedal"),
+                           .tip = tr("the spindle turns until you press again, or while SPACE is held"),
                            .is_enabled = may && !can.is_paused,
                            .is_on = command.pedal});
     }
@@ -76,80 +77,80 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
         buttons.push_back({.tool = Tool::burr,
                            .sign = "\u25CE",
                            .word = burr_words(content.session->burrs[*burr]),
-                           .tip = "choose a burr (1 to 9, [ ]) and the spindle's speed (, .)",
+                           .tip = tr("choose a burr (1 to 9, [ ]) and the spindle's speed (, .)"),
                            .is_enabled = may});
     if (content.operator_command) {
         buttons.push_back({.tool = Tool::tilt,
                            .sign = "\u2197",
-                           .word = "Tilt",
-                           .tip = "left drag tilts the handpiece (T); the arrow keys do, too",
+                           .word = tr("Tilt"),
+                           .tip = tr("left drag tilts the handpiece (T); the arrow keys do, too"),
                            .is_enabled = may,
                            .is_on = content.view->drag_tilts});
     }
     buttons.push_back(
         {.tool = Tool::place,
          .sign = "\u25C9",
-         .word = "Place",
-         .tip = "then click on bone: there the tool goes; with shift the handpiece is upright on it (L)",
+         .word = tr("Place"),
+         .tip = tr("then click on bone: there the tool goes; with shift the handpiece is upright on it (L)"),
          .is_enabled = may,
          .is_on = content.view->click_places});
     buttons.push_back(
         {.tool = Tool::bone,
          .sign = "\u21C4",
-         .word = content.view->moves_bone ? "Let go" : "Move bone",
-         .tip = "left drag turns the bone under the tool, with shift it moves it, the wheel brings it "
-                "nearer; press again to go on there (B)",
+         .word = content.view->moves_bone ? tr("Let go") : tr("Move bone"),
+         .tip = tr("left drag turns the bone under the tool, with shift it moves it, the wheel brings it "
+                   "nearer; press again to go on there (B)"),
          .is_enabled = may,
          .is_on = content.view->moves_bone});
     if (content.session != nullptr && content.session->has_ct)
         buttons.push_back({.tool = Tool::slices,
                            .sign = "\u25A6",
                            .word = "CT",
-                           .tip = "slices of the CT (F7)",
+                           .tip = tr("slices of the CT (F7)"),
                            .is_on = content.view->slices_shown});
     const auto counted = [](const char* word, std::uint32_t count) {
         return count > 0 ? fmt::format("{} {}", word, count) : std::string(word);
     };
     buttons.push_back({.tool = Tool::undo,
                        .sign = "\u21B6",
-                       .word = counted("Undo", can.undo_steps),
-                       .tip = "gives back what the last stroke took (U)",
+                       .word = counted(tr("Undo"), can.undo_steps),
+                       .tip = tr("gives back what the last stroke took (U)"),
                        .is_enabled = may && can.undo_steps > 0});
     buttons.push_back({.tool = Tool::redo,
                        .sign = "\u21B7",
-                       .word = counted("Redo", can.redo_steps),
-                       .tip = "the stroke that was undone last (R)",
+                       .word = counted(tr("Redo"), can.redo_steps),
+                       .tip = tr("the stroke that was undone last (R)"),
                        .is_enabled = may && can.redo_steps > 0});
     buttons.push_back({.tool = Tool::reset,
                        .sign = "\u21BA",
-                       .word = "Reset",
-                       .tip = "undoes all strokes",
+                       .word = tr("Reset"),
+                       .tip = tr("undoes all strokes"),
                        .is_enabled = may && can.undo_steps > 0});
     buttons.push_back({.tool = Tool::pause,
                        .sign = can.is_paused ? "\u25B6" : "\u275A\u275A",
-                       .word = can.is_paused ? "Go on" : "Pause",
-                       .tip = "force and spindle off (H)",
+                       .word = can.is_paused ? tr("Go on") : tr("Pause"),
+                       .tip = tr("force and spindle off (H)"),
                        .is_enabled = may,
                        .is_on = can.is_paused});
     buttons.push_back({.tool = Tool::mark,
                        .sign = "\u2691",
-                       .word = "Mark",
-                       .tip = "this moment, with a note, for the report (M)",
+                       .word = tr("Mark"),
+                       .tip = tr("this moment, with a note, for the report (M)"),
                        .is_enabled = may});
     buttons.push_back({.tool = Tool::save,
                        .sign = "\u21E9",
-                       .word = "Save",
-                       .tip = "the bone as it is, where the server saves it (F6)",
+                       .word = tr("Save"),
+                       .tip = tr("the bone as it is, where the server saves it (F6)"),
                        .is_enabled = may});
     buttons.push_back({.tool = Tool::surface,
                        .sign = "\u25B3",
-                       .word = "Surface",
-                       .tip = "the bone's surface as it is, as STL, PLY or OBJ (F8)",
+                       .word = tr("Surface"),
+                       .tip = tr("the bone's surface as it is, as STL, PLY or OBJ (F8)"),
                        .is_enabled = may});
     buttons.push_back({.tool = Tool::finish,
                        .sign = "\u25A0",
-                       .word = "Finish",
-                       .tip = "ends the session for everybody; all is saved (F10)",
+                       .word = tr("Finish"),
+                       .tip = tr("ends the session for everybody; all is saved (F10)"),
                        .is_enabled = may});
     return buttons;
 }
@@ -300,7 +301,7 @@ void draw_speed(const OverlayContent& content) {
     if (ImGui::IsItemDeactivatedAfterEdit())
         choose(std::clamp(100.0 * std::round(rpm / 100.0), least_spindle_rpm, most_spindle_rpm));
     ImGui::SameLine();
-    if (ImGui::Button(fmt::format("its own: {:.0f}", own_rpm).c_str())) choose(0.0);
+    if (ImGui::Button(trf("its own: {:.0f}", own_rpm).c_str())) choose(0.0);
 }
 
 void draw_burr_list(const OverlayContent& content) {
@@ -309,8 +310,9 @@ void draw_burr_list(const OverlayContent& content) {
     const float mm_per_px = 1.15f * largest_mm(content.session->burrs) / height;
     for (std::size_t i = 0; i < content.session->burrs.size(); ++i) {
         const Burr& burr = content.session->burrs[i];
-        const std::string text = fmt::format("           {}: {}, {} edges, {:.0f} rpm##{}", i + 1,
-                                             burr_words(burr), burr.edges, 60.0 * burr.spindle_rev_per_s, i);
+        const std::string text = fmt::format(
+            "           {}: {}##{}", i + 1,
+            trf("{}, {} edges, {:.0f} rpm", burr_words(burr), burr.edges, 60.0 * burr.spindle_rev_per_s), i);
         const ImVec2 place = ImGui::GetCursorScreenPos();
         ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0.0f, 0.5f});
         const auto flags =
@@ -354,7 +356,7 @@ void draw_tool_bar(const OverlayContent& content, const PanelPlace& place) {
         if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
             const std::string tip = button.word + ": " + button.tip;
             ImGui::SetTooltip("%s%s", tip.c_str(),
-                              content.link.controls.may_control ? "" : "\nanother client has the seat");
+                              content.link.controls.may_control ? "" : tr("\nanother client has the seat"));
         }
     }
     draw_burr_list(content);

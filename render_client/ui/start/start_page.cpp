@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "common/text/file_name.h"
+#include "render_client/ui/words/translation.h"
 #include "render_client/volume/png_file.h"
 
 namespace osteomill {
@@ -111,14 +112,14 @@ void StartPage::start() {
     try {
         server_ = std::make_unique<ChildProgram>(command, longest_report);
         has_address_ = false;
-        message_ = fmt::format("{} is being made ready ...", wanted.name);
+        message_ = trf("{} is being made ready ...", wanted.name);
     } catch (const std::exception& error) {
         message_ = error.what();
     }
 }
 
 void StartPage::note_end_of_session() {
-    if (is_session_running()) message_ = "the session has ended; its report is being written ...";
+    if (is_session_running()) message_ = tr("the session has ended; its report is being written ...");
 }
 
 void StartPage::open_page(const std::filesystem::path& page) {
@@ -127,7 +128,7 @@ void StartPage::open_page(const std::filesystem::path& page) {
         opener_ =
             std::make_unique<ChildProgram>(std::vector<std::string>{"/usr/bin/xdg-open", page.string()});
     } catch (const std::exception&) {
-        message_ = "no browser is known here; open it by hand: " + page.string();
+        message_ = tr("no browser is known here; open it by hand: ") + page.string();
     }
 }
 
@@ -135,7 +136,7 @@ void StartPage::replay(const std::filesystem::path& recording) {
     try {
         players_.push_back(std::make_unique<ChildProgram>(
             std::vector<std::string>{program("render_client"), "--replay=" + recording.string()}));
-        message_ = recording.string() + " opens in a window of its own";
+        message_ = recording.string() + tr(" opens in a window of its own");
     } catch (const std::exception& error) {
         message_ = error.what();
     }
@@ -145,7 +146,7 @@ void StartPage::compare_sessions() {
     if (is_working()) return;
     const auto sessions = sessions_in(places_.home / "reports");
     if (sessions.empty()) {
-        message_ = "there is no session yet in " + (places_.home / "reports").string();
+        message_ = tr("there is no session yet in ") + (places_.home / "reports").string();
         return;
     }
     std::vector<std::string> command{program("osteomill_study"), "sessions", "--out",
@@ -154,7 +155,7 @@ void StartPage::compare_sessions() {
     try {
         work_ = Work::compare;
         worker_ = std::make_unique<ChildProgram>(command);
-        message_ = "comparing ...";
+        message_ = tr("comparing ...");
     } catch (const std::exception& error) {
         message_ = error.what();
     }
@@ -189,7 +190,7 @@ void StartPage::look_at_scan(bool is_another_scan) {
         is_another_scan_ = is_another_scan;
         worker_ = std::make_unique<ChildProgram>(
             look_command(program("bone_import"), form, scratch_ / "look.png", !is_another_scan));
-        message_ = "looking at the scan ...";
+        message_ = tr("looking at the scan ...");
     } catch (const std::exception& error) {
         message_ = error.what();
     }
@@ -201,16 +202,16 @@ void StartPage::import() {
     if (message_.empty()) message_ = make_folder_at_home(cases_of(places_));
     if (!message_.empty()) return;
     if (voxels_of(form) > most_imported_voxels) {
-        message_ = fmt::format(
-            "the region has {:.1f} thousand million voxels; {:.1f} are the most: drag a smaller one",
-            1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
+        message_ =
+            trf("the region has {:.1f} thousand million voxels; {:.1f} are the most: drag a smaller one",
+                1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
         return;
     }
     try {
         work_ = Work::import;
         worker_ = std::make_unique<ChildProgram>(
             import_command(program("bone_import"), form, cases_of(places_) / form.name));
-        message_ = "importing ...";
+        message_ = tr("importing ...");
     } catch (const std::exception& error) {
         message_ = error.what();
     }
@@ -233,7 +234,7 @@ void StartPage::end_of_work() {
         show(View::cases);
         for (std::size_t i = 0; i < cases_.size(); ++i)
             if (cases_[i].name == form.name) chosen = i;
-        message_ = fmt::format("{} is there", form.name);
+        message_ = trf("{} is there", form.name);
     } else if (work_ == Work::compare && is_good) {
         open_page(places_.home / "comparison" / "sessions.html");
     } else if (work_ == Work::look && is_good) {
@@ -300,7 +301,7 @@ bool StartPage::poll() {
     });
     if (opener_ && opener_->poll() && !opener_->is_running()) {
         has_news = true;
-        if (opener_->status() != 0) message_ = "no browser is known here; open it by hand: " + message_;
+        if (opener_->status() != 0) message_ = tr("no browser is known here; open it by hand: ") + message_;
         opener_.reset();
     }
     return has_news;

@@ -1,0 +1,13 @@
+// The files of words beside this one, as they are in the program.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace osteomill {
+
+/// Language and text.
+std::span<const std::pair<std::string_view, std::string_view>> embedded_words();
+
+}  // namespace osteomill
