@@ -42,6 +42,7 @@ FilmFile::FilmFile(const std::filesystem::path& file, const glm::ivec2& size_px,
                                      "-y",
                                      file_.part().string()};
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (std::string& argument : command) arguments.push_back(argument.data());
     arguments.push_back(nullptr);
 

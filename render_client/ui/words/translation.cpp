@@ -2,7 +2,6 @@
 
 #include <toml++/toml.h>
 
-#include <array>
 #include <cstdlib>
 #include <string_view>
 
