@@ -18,6 +18,9 @@ git archive HEAD | tar -x -C "$work/osteomill-$version"
 (cd "$work/osteomill-$version" && dpkg-buildpackage --no-sign --build=full --jobs="${JOBS:-$(nproc)}" >"$work/build.log" 2>&1) ||
     { tail -40 "$work/build.log" >&2; exit 1; }
 lintian --allow-root --fail-on error,warning --tag-display-limit 0 "$work"/*.changes
+mkdir "$work/installed"
+for package in "$work"/*.deb; do dpkg-deb -x "$package" "$work/installed"; done
+if grep -rlF "$work/" "$work/installed"; then echo "these hold the folder that they were built in" >&2; exit 1; fi
 mkdir -p "$out"
 rm -f "$out"/*osteomill* "$out/commit"
 mv "$work"/*.deb "$work"/*.dsc "$work"/*.tar.* "$work"/*.changes "$work"/*.buildinfo "$out"
