@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Has a bare Debian 12 install the project's packages from a signed repository of them (apt_repository.sh), use them, install them anew,
-# and remove them: nothing is to be left.
+# Has a bare Debian 12 install the project's packages from a signed repository of them (apt_repository.sh), use them, also as two machines,
+# install them anew, and remove them: nothing is to be left.
 #   scripts/try_packages.sh [FOLDER [MIRROR]]      FOLDER as of scripts/package.sh: out/packages
 # As root. The bare root is made once by debootstrap and kept in OSTEOMILL_BARE_ROOT (/var/tmp/osteomill-bare-root.tar).
 set -euo pipefail
@@ -12,7 +12,15 @@ command -v debootstrap >/dev/null || { echo "debootstrap is not installed (apt-g
 
 tar=${OSTEOMILL_BARE_ROOT:-/var/tmp/osteomill-bare-root.tar}
 root=$(mktemp -d)
-trap 'umount -q "$root/proc" "$root/dev" 2>/dev/null || true; rm -rf --one-file-system "$root"' EXIT
+export GNUPGHOME=$root.keys
+network=$(basename "$root")
+clean_up() {
+    gpgconf --kill all
+    umount -q "$root/proc" "$root/dev" || true
+    rm -rf --one-file-system "$root" "$GNUPGHOME"
+    for end in server client; do ip netns del "$network.$end" 2>/dev/null || true; done
+}
+trap clean_up EXIT
 say() { printf '\n== %s\n' "$*"; }
 within() { chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
 
@@ -30,8 +38,6 @@ mount --bind /dev "$root/dev"
 mount -t proc proc "$root/proc"
 
 say "a repository, signed by a key of today"
-export GNUPGHOME=$root.keys
-trap 'gpgconf --kill all; umount -q "$root/proc" "$root/dev" 2>/dev/null || true; rm -rf --one-file-system "$root" "$GNUPGHOME"' EXIT
 mkdir -m 700 "$GNUPGHOME"
 gpg --batch --quiet --passphrase '' --quick-generate-key try@osteomill.example ed25519 sign 1d
 scripts/apt_repository.sh "$root/srv/packages" try@osteomill.example "$packages" >/dev/null
@@ -57,6 +63,25 @@ cp debian/tests/demo "$root/root/"
 within /root/demo
 within test -s /usr/share/man/man1/haptic_server.1.gz
 within sh -c 'haptic_server --check --listen 127.0.0.1:0 || true' | tail -3
+
+say "two machines: network namespaces, and TLS by the certificates of a lab"
+within apt-get -y -qq --no-install-recommends install openssl >/dev/null 2>&1
+on() { local machine=$1; shift; ip netns exec "$network.$machine" chroot "$root" env --chdir=/root LC_ALL=C.UTF-8 PATH=/usr/bin:/bin "$@"; }
+ip netns add "$network.server" && ip netns add "$network.client"
+ip -n "$network.server" link add cable type veth peer name cable netns "$network.client"
+for end in server:1 client:2; do
+    ip -n "$network.${end%:*}" address add "10.213.78.${end#*:}/24" dev cable
+    ip -n "$network.${end%:*}" link set cable up
+done
+lab=/usr/share/doc/osteomill-server/examples/make_lab_certificates.sh
+for what in "ca" "server server 10.213.78.1" "client client"; do within bash $lab /root/lab $what >/dev/null; done
+tls() { echo --tls-cert "lab/$1.pem" --tls-key "lab/$1.key" --tls-ca lab/ca.pem; }
+on server haptic_server --case cube --listen 10.213.78.1:7010 $(tls server) --duration-s 10 --json server.json >/dev/null 2>&1 &
+on client render_client --connect 10.213.78.1:7010 $(tls client) --offscreen --frames 100000 --until-server-ends --json client.json >/dev/null 2>&1
+wait $!
+bone() { sed -n 's/.*"bone_checksum": //p' "$root/root/$1.json"; }
+[ -n "$(bone server)" ] && [ "$(bone server)" = "$(bone client)" ] || { echo "the client's bone is not the server's" >&2; exit 1; }
+echo "the same bone at both ends: $(bone server)"
 
 say "install anew, as an upgrade does"
 apt install --reinstall
