@@ -15,6 +15,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/osteomill-$version"
 git archive HEAD | tar -x -C "$work/osteomill-$version"
+git rev-parse --short=12 HEAD >"$work/osteomill-$version/COMMIT"
 (cd "$work/osteomill-$version" && dpkg-buildpackage --no-sign --build=full --jobs="${JOBS:-$(nproc)}" >"$work/build.log" 2>&1) ||
     { tail -40 "$work/build.log" >&2; exit 1; }
 lintian --allow-root --fail-on error,warning --tag-display-limit 0 "$work"/*.changes
