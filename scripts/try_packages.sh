@@ -76,10 +76,10 @@ done
 lab=/usr/share/doc/osteomill-server/examples/make_lab_certificates.sh
 for what in "ca" "server server 10.213.78.1" "client client"; do within bash $lab /root/lab $what >/dev/null; done
 tls() { echo --tls-cert "lab/$1.pem" --tls-key "lab/$1.key" --tls-ca lab/ca.pem; }
-on server haptic_server --case cube --listen 10.213.78.1:7010 $(tls server) --duration-s 10 --json server.json >/dev/null 2>&1 &
-on client render_client --connect 10.213.78.1:7010 $(tls client) --offscreen --frames 100000 --until-server-ends --json client.json >/dev/null 2>&1
-wait $!
-bone() { sed -n 's/.*"bone_checksum": //p' "$root/root/$1.json"; }
+on server haptic_server --case cube --listen 10.213.78.1:7010 $(tls server) --duration-s 10 --json server.json >"$root/root/server.log" 2>&1 &
+on client render_client --connect 10.213.78.1:7010 $(tls client) --offscreen --frames 100000 --json client.json >"$root/root/client.log" 2>&1 &&
+    wait $! || { tail -5 "$root/root/server.log" "$root/root/client.log" >&2; exit 1; }
+bone() { sed -n 's/.*"bone_checksum": "\(.*\)".*/\1/p' "$root/root/$1.json"; }
 [ -n "$(bone server)" ] && [ "$(bone server)" = "$(bone client)" ] || { echo "the client's bone is not the server's" >&2; exit 1; }
 echo "the same bone at both ends: $(bone server)"
 
