@@ -3,6 +3,7 @@
 #   scripts/package.sh [FOLDER]      into FOLDER, out/packages unless said otherwise
 # Needs scripts/packages.txt and scripts/package_packages.txt. What to build with is theirs to say: CMAKE_CXX_COMPILER_LAUNCHER=ccache.
 set -euo pipefail
+umask 022  # modes go into the packages
 cd "$(dirname "$0")/.."
 out=$(realpath -m "${1:-out/packages}")
 
