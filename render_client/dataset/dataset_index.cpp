@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "common/files/atomic_file.h"
+#include "common/program/commit.h"
 #include "render_client/volume/gl/offscreen_context.h"
 
 namespace osteomill {
@@ -52,6 +53,7 @@ DatasetIndex::DatasetIndex(const std::filesystem::path& recording, const std::st
                                                    : fmt::format("dataset-{}-of-{}.json", options.part.number,
                                                                  options.part.of))) {
     all_ = {{"osteomill", version},
+            {"commit", built_from_commit()},
             {"recording", recording.filename().string()},
             {"gl_renderer", gl::renderer_name()},
             {"randomised_from", options.randomise ? Json(*options.randomise) : Json()},
