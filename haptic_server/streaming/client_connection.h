@@ -27,7 +27,7 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
         /// A message from the client; an error if it makes no sense, which drops the client.
         std::function<std::optional<WireError>(const v2::ClientFrame&)> on_message;
         /// A frame of so many bytes is on its way.
-        std::function<void(std::size_t bytes)> on_sent;
+        std::function<void(std::size_t bytes)> on_sent{};
         /// Once, last: the line says why it ended, and `is_fault` whether the client is to blame.
         std::function<void(const std::string& line, bool is_fault)> on_closed;
     };
