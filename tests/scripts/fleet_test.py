@@ -51,7 +51,7 @@ class Database:
 class Fleet(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
+        cls.scratch = tempfile.TemporaryDirectory(dir="/tmp")  # which every user may enter
         cls.folder = pathlib.Path(cls.scratch.name)
         cls.database = Database(cls.folder)
         for station in ("a", "b"):

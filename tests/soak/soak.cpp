@@ -41,7 +41,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t clients = 8;
 constexpr double most_growth_share = 0.01;
-constexpr double most_growth_mib = 4.0;
+constexpr double most_growth_mib = 8.0;
 constexpr double long_run_minutes = 30.0;
 
 /// Strokes over all of the block, each two seconds long and lifted clear of it, ever deeper; enough of them
