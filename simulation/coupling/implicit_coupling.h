@@ -4,7 +4,7 @@
 //
 // The proxy is solved against the engagement map that the milling loop last sampled, a local linear model of
 // the bone, and not by running the milling model within the haptic tick. A milling step with its map takes
-// 34, 41 and 69 us at the 99th percentile at 0.5, 1 and 2.5 mm depth (milling_benchmark), the haptic
+// 23, 42 and 68 us at the 99th percentile at 0.5, 1 and 2.5 mm depth (milling_benchmark), the haptic
 // tick with the solve 7 us: the model would fit into a tick on this bone and this machine, but then the force
 // would miss its deadline whenever a carve does not (a long sweep, a large burr, pages of bone first
 // touched), and a milling rate of 100 Hz would be out of the question. On the map a late or heavy carve costs
