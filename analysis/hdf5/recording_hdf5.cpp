@@ -1,7 +1,6 @@
 #include "analysis/hdf5/recording_hdf5.h"
 
 #include <chrono>
-#include <limits>
 #include <stdexcept>
 
 #include "analysis/hdf5/all_of_recording.h"
@@ -20,21 +19,13 @@ double began_unix_s(const std::filesystem::path& recording) {
 template <typename Layout>
 std::string write(const std::filesystem::path& recording, Layout layout, Playhead& playhead,
                   const std::function<void()>& on_frame) {
-    std::string error;
-    try {
-        for (;;) {
-            on_frame();
-            const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
-            if (step == Playhead::Step::end) break;
-            if (step == Playhead::Step::new_bone)
-                throw std::runtime_error(recording.string() +
-                                         ": several sessions were joined in it, and an HDF5 file holds one: "
-                                         "cut them apart, with editcap for instance");
-            if (step == Playhead::Step::state) layout.add(playhead);
-        }
-    } catch (const RecordingError& failure) {
-        error = failure.what();
-    }
+    std::string error = play_to_end(playhead, on_frame, [&](Playhead::Step step) {
+        if (step == Playhead::Step::new_bone)
+            throw std::runtime_error(recording.string() +
+                                     ": several sessions were joined in it, and an HDF5 file holds one: "
+                                     "cut them apart, with editcap for instance");
+        if (step == Playhead::Step::state) layout.add(playhead);
+    });
     layout.close(playhead, error.empty() && !playhead.is_truncated());
     return error;
 }

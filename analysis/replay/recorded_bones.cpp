@@ -1,6 +1,6 @@
 #include "analysis/replay/recorded_bones.h"
 
-#include <limits>
+#include <utility>
 
 #include "common/recording/playhead.h"
 
@@ -9,17 +9,9 @@ namespace osteomill {
 RecordedBones bones_of(const std::filesystem::path& file, const std::function<void()>& on_frame) {
     Playhead playhead(file);
     Bone at_start = playhead.bone();
-    std::string error;
-    try {
-        for (;;) {
-            on_frame();
-            const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
-            if (step == Playhead::Step::end) break;
-            if (step == Playhead::Step::new_bone) at_start = playhead.bone();
-        }
-    } catch (const RecordingError& what) {
-        error = what.what();
-    }
+    std::string error = play_to_end(playhead, on_frame, [&](Playhead::Step step) {
+        if (step == Playhead::Step::new_bone) at_start = playhead.bone();
+    });
     return {.at_start = std::move(at_start), .at_end = playhead.bone(), .error = std::move(error)};
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <future>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -49,29 +48,22 @@ void add_marks(const std::filesystem::path& file, const Pictures& make, const Na
                const std::function<void()>& on_frame, SessionPictures& pictures) {
     Playhead playhead(file);
     std::size_t number = 0;
-    try {
-        for (;;) {
-            on_frame();
-            const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
-            if (step == Playhead::Step::end) return;
-            if (step == Playhead::Step::new_bone)
-                pictures.marks.clear(), pictures.marks_left_out = 0, number = 0;
-            if (step != Playhead::Step::state) continue;
-            for (const ControlEvent& event : playhead.state().events) {
-                ++number;
-                if (event.action != SessionAction::mark || event.is_refused) continue;
-                if (pictures.marks.size() == most_marks) {
-                    ++pictures.marks_left_out;
-                    continue;
-                }
-                SessionPicture picture = make.of(playhead.bone(), view, picture_px);
-                picture.title = fmt::format("{}: {:.1f} s {}", number, event.time_s, event.text);
-                pictures.marks.push_back(std::move(picture));
+    // Why a torn recording ends there, the trace says.
+    (void)play_to_end(playhead, on_frame, [&](Playhead::Step step) {
+        if (step == Playhead::Step::new_bone) pictures.marks.clear(), pictures.marks_left_out = 0, number = 0;
+        if (step != Playhead::Step::state) return;
+        for (const ControlEvent& event : playhead.state().events) {
+            ++number;
+            if (event.action != SessionAction::mark || event.is_refused) continue;
+            if (pictures.marks.size() == most_marks) {
+                ++pictures.marks_left_out;
+                continue;
             }
+            SessionPicture picture = make.of(playhead.bone(), view, picture_px);
+            picture.title = fmt::format("{}: {:.1f} s {}", number, event.time_s, event.text);
+            pictures.marks.push_back(std::move(picture));
         }
-    } catch (const RecordingError&) {
-        // The trace says it.
-    }
+    });
 }
 
 /// Through the target, and through the nearest approach; through the work from two sides where the burr came

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <limits>
 #include <numeric>
 
 #include "analysis/report/surface_normal.h"
@@ -142,24 +141,17 @@ SessionTrace read_trace(const std::filesystem::path& file, const std::function<v
     Playhead playhead(file);
     SessionTrace trace = begin(playhead);
     std::optional<StructureWatch> structures;  // from the first state on: what is where has been said by then
-    try {
-        for (;;) {
-            on_frame();
-            const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
-            if (step == Playhead::Step::end) break;
-            if (step == Playhead::Step::state) {
-                if (!structures) structures = watch(trace, playhead.structures());
-                add_sample(trace, playhead, *structures);
-            }
-            if (step == Playhead::Step::goodbye) trace.ends = true;
-            if (step == Playhead::Step::new_bone) {
-                trace = begin(playhead);
-                structures.reset();
-            }
+    trace.error = play_to_end(playhead, on_frame, [&](Playhead::Step step) {
+        if (step == Playhead::Step::state) {
+            if (!structures) structures = watch(trace, playhead.structures());
+            add_sample(trace, playhead, *structures);
         }
-    } catch (const RecordingError& error) {
-        trace.error = error.what();
-    }
+        if (step == Playhead::Step::goodbye) trace.ends = true;
+        if (step == Playhead::Step::new_bone) {
+            trace = begin(playhead);
+            structures.reset();
+        }
+    });
     if (trace.began_unix_ns == 0) trace.began_unix_ns = recorded_unix_ns(file);
     if (!structures) structures = watch(trace, playhead.structures());
     (void)take_over(playhead.take_changes(), playhead.bone(), trace.at_end, *structures);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/recording/recorded_time.h"
@@ -110,5 +112,22 @@ class Playhead {
     std::uint64_t tick_bytes_ = 0;
     std::uint64_t checksums_verified_ = 0;
 };
+
+/// Takes every step that is left: `on_frame()` before each, `on_step(step)` after each but the end. Returns
+/// why the recording cannot be read to its end, empty where it can; what was before that stays as it is.
+/// Passes on what the two throw, but for RecordingError.
+template <typename OnFrame, typename OnStep>
+std::string play_to_end(Playhead& playhead, const OnFrame& on_frame, const OnStep& on_step) {
+    try {
+        for (;;) {
+            on_frame();
+            const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
+            if (step == Playhead::Step::end) return {};
+            on_step(step);
+        }
+    } catch (const RecordingError& error) {
+        return error.what();
+    }
+}
 
 }  // namespace osteomill
