@@ -20,13 +20,16 @@ double or_nan(const Optional& value) {
     return value ? static_cast<double>(*value) : not_said;
 }
 
-/// A column of the states: one number each.
-struct StateNumber {
+/// A column: one number of each row.
+template <typename Row>
+struct NumberOf {
     const char* name;
     const char* units;
     Hdf5Number stored;
-    double (*of)(const SessionState& state);
+    double (*of)(const Row& row);
 };
+using StateNumber = NumberOf<SessionState>;
+using DistanceNumber = NumberOf<StructureDistance>;
 
 using S = SessionState;
 using enum Hdf5Number;
@@ -77,13 +80,6 @@ constexpr std::array state_vectors{
     StateVector{"force_n", "N", [](const ToolState& t) { return t.force_n; }},
     StateVector{"shank_torque_n_mm", "N mm",
                 [](const ToolState& t) { return t.shank_torque_n_mm.value_or(glm::dvec3(not_said)); }}};
-
-struct DistanceNumber {
-    const char* name;
-    const char* units;
-    Hdf5Number stored;
-    double (*of)(const StructureDistance& distance);
-};
 
 using D = StructureDistance;
 constexpr std::array distance_numbers{
