@@ -10,7 +10,8 @@
 
 namespace osteomill::testing {
 
-/// The lines of a CSV file behind its header.
+/// The lines of a CSV file behind its header, each up to the first field that is no number: a log that is read
+/// while it is written may end in "-" or "1e".
 inline std::vector<std::vector<double>> read_csv_numbers(std::istream& in) {
     std::vector<std::vector<double>> rows;
     std::string text;
@@ -19,7 +20,9 @@ inline std::vector<std::vector<double>> read_csv_numbers(std::istream& in) {
         std::vector<double>& row = rows.emplace_back();
         for (const char* at = text.c_str(); *at != '\0';) {
             char* end = nullptr;
-            row.push_back(std::strtod(at, &end));
+            const double number = std::strtod(at, &end);
+            if (end == at) break;
+            row.push_back(number);
             at = *end == ',' ? end + 1 : end;
         }
     }
