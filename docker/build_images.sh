@@ -1,31 +1,27 @@
 #!/usr/bin/env bash
-# Builds the images osteomill-server and osteomill-client, and osteomill-programs, from which they take the programs.
-#   docker/build_images.sh [--base IMAGE] [--programs FOLDER]
-# IMAGE is a Debian 12: debian:bookworm-slim unless said otherwise, or what make_base_image.sh made. FOLDER holds programs that
-# were built on a Debian 12, such as build/release/bin; without it they are compiled, once, in a stage of their own.
+# Builds the images osteomill-server and osteomill-client of the project's Debian packages.
+#   docker/build_images.sh [--base IMAGE] [--packages FOLDER]
+# IMAGE is a Debian 12: debian:bookworm-slim unless said otherwise, or what make_base_image.sh made. FOLDER is as scripts/package.sh
+# leaves it: out/packages unless said otherwise. DOCKER=podman builds them with Podman.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 base=debian:bookworm-slim
-programs=
+packages=out/packages
 while [ $# -gt 0 ]; do
     case $1 in
         --base) base=${2:?"--base needs an image"}; shift 2 ;;
-        --programs) programs=${2:?"--programs needs a folder"}; shift 2 ;;
-        *) echo "unknown argument '$1'; choose from --base IMAGE, --programs FOLDER" >&2; exit 2 ;;
+        --packages) packages=${2:?"--packages needs a folder"}; shift 2 ;;
+        *) echo "unknown argument '$1'; choose from --base IMAGE, --packages FOLDER" >&2; exit 2 ;;
     esac
 done
+[ -e "$packages/commit" ] || { echo "$packages holds no packages: scripts/package.sh $packages builds them" >&2; exit 1; }
 
-# The host's network while packages are installed: a dockerd that was started by hand may have no way out of its bridges.
-build() { docker build --network host --build-arg "BASE=$base" -t "osteomill-$1" -f "docker/$2.Dockerfile" "$3"; }
-
-if [ -n "$programs" ]; then
-    context=$(mktemp -d)
-    trap 'rm -rf "$context"' EXIT
-    cp "$programs"/{haptic_server,packet_replay,render_client} "$context"
-    build programs prebuilt "$context"
-else
-    build programs programs .
-fi
-build server server docker
-build client client docker
+context=$(mktemp -d)
+trap 'rm -rf "$context"' EXIT
+cp docker/*.sh "$packages"/osteomill-{server,tools,client}_*.deb "$context"
+# The host's network while libraries are installed: a dockerd that was started by hand may have no way out of its bridges.
+for image in server client; do
+    "${DOCKER:-docker}" build --network host --build-arg "BASE=$base" --label "org.opencontainers.image.revision=$(cat "$packages/commit")" \
+        -t "osteomill-$image" -f "docker/$image.Dockerfile" "$context"
+done

@@ -6,4 +6,4 @@ bounding=$((0x$(sed -n 's/^CapBnd:[[:space:]]*//p' /proc/self/status)))
 if [ $((bounding >> sys_nice & 1)) -eq 1 ]; then
     exec /usr/local/lib/osteomill/haptic_server "$@"
 fi
-exec /usr/local/bin/haptic_server "$@"
+exec /usr/bin/haptic_server "$@"

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "common/program/commit.h"
 #include "tests/containers/two_machines.h"
 #include "tests/support/child_process.h"
 
@@ -55,7 +56,7 @@ class Containers final : public TwoMachines {
                         "--name",       name_of(where), "--volume", folder_.string() + ":/out"};
         // As docker/compose.yaml has them.
         append(command, {"--cap-drop", "ALL", "--security-opt", "no-new-privileges", "--read-only", "--tmpfs",
-                         "/tmp", "--tmpfs", "/home/osteomill:uid=10001,mode=0700"});
+                         "/tmp", "--tmpfs", "/home/lab:uid=10001,mode=0700"});
         if (where == Machine::beside_server)
             append(command, {"--network", "container:" + name_of(Machine::server)});
         else
@@ -104,16 +105,18 @@ class Containers final : public TwoMachines {
 
 }  // namespace
 
-std::unique_ptr<TwoMachines> make_containers(const std::filesystem::path& folder,
-                                             const std::filesystem::path& programs) {
+std::unique_ptr<TwoMachines> make_containers(const std::filesystem::path& folder) {
     const Finished version = outcome_of({"docker", "version", "--format", "{{.Server.Version}}"});
     if (version.status != 0) throw std::runtime_error("no Docker runs: " + last_line(version.err));
-    Command build{BUILD_IMAGES, "--programs", programs.string()};
-    if (outcome_of({"docker", "image", "inspect", "osteomill-base"}).status == 0) {
-        build.emplace_back("--base");
-        build.emplace_back("osteomill-base");
+    for (const char* const image : {"osteomill-server", "osteomill-client"}) {
+        const std::string commit = first_line(
+            run_or_throw({"docker", "image", "inspect", "--format",
+                          "{{index .Config.Labels \"org.opencontainers.image.revision\"}}", image}));
+        if (!commit.starts_with(built_from_commit()))
+            throw std::runtime_error(
+                std::string(image) + " is of commit " + commit +
+                "; scripts/package.sh and docker/build_images.sh make one of this commit");
     }
-    run_or_throw(build, 480s);
     return std::make_unique<Containers>(first_line(version.out), folder);
 }
 

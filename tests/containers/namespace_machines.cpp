@@ -38,7 +38,7 @@ class Namespaces final : public TwoMachines {
 FoundMachines find_machines(const std::filesystem::path& folder, const std::filesystem::path& programs) {
     FoundMachines found;
     try {
-        found.machines = make_containers(folder, programs);
+        found.machines = make_containers(folder);
         return found;
     } catch (const std::runtime_error& error) {
         found.why_no_containers = error.what();

@@ -42,13 +42,12 @@ struct FoundMachines {
     std::string why_none;                   ///< empty where there are machines
 };
 
-/// `folder` is for files that go in and out; any user must be able to write there. `programs` is where they
-/// are.
+/// `folder` is for files that go in and out; any user must be able to write there. `programs` is where
+/// namespaces find them.
 FoundMachines find_machines(const std::filesystem::path& folder, const std::filesystem::path& programs);
 
-/// Two containers of the images that docker/build_images.sh makes of the programs; throws std::runtime_error
-/// with one line where there can be none.
-std::unique_ptr<TwoMachines> make_containers(const std::filesystem::path& folder,
-                                             const std::filesystem::path& programs);
+/// Two containers of the images that docker/build_images.sh makes of this commit's packages; throws
+/// std::runtime_error with one line where there can be none.
+std::unique_ptr<TwoMachines> make_containers(const std::filesystem::path& folder);
 
 }  // namespace osteomill::testing
