@@ -42,17 +42,17 @@ std::string metrics_text(const TickMeter::Reading& loop, const StreamingTraffic&
     page.only("missed_deadlines_total", "counter", "Milliseconds that no tick of the haptic loop came for.",
               loop.missed_deadlines);
 
-    page.head("tick_lateness_seconds", "histogram",
-              "How much later a tick was done than the promptest so far would have been.");
+    page.head("tick_latency_seconds", "histogram",
+              "From when a tick of the haptic loop was due to when its work was done.");
     std::uint64_t up_to = 0;
-    for (std::size_t i = 0; i < TickMeter::lateness_bounds_s.size(); ++i)
-        page.value(fmt::format("tick_lateness_seconds_bucket{{le=\"{}\"}}", TickMeter::lateness_bounds_s[i]),
-                   up_to += loop.lateness[i]);
+    for (std::size_t i = 0; i < TickMeter::latency_bounds_s.size(); ++i)
+        page.value(fmt::format("tick_latency_seconds_bucket{{le=\"{}\"}}", TickMeter::latency_bounds_s[i]),
+                   up_to += loop.latency[i]);
     // Of the buckets, not of the ticks, which the loop may have counted one more of meanwhile.
-    up_to += loop.lateness.back();
-    page.value("tick_lateness_seconds_bucket{le=\"+Inf\"}", up_to);
-    page.value("tick_lateness_seconds_sum", loop.lateness_sum_s);
-    page.value("tick_lateness_seconds_count", up_to);
+    up_to += loop.latency.back();
+    page.value("tick_latency_seconds_bucket{le=\"+Inf\"}", up_to);
+    page.value("tick_latency_seconds_sum", loop.latency_sum_s);
+    page.value("tick_latency_seconds_count", up_to);
 
     page.head("faults_total", "counter", "How often the force went off, by cause.");
     for (const Fault fault : all_faults)

@@ -20,12 +20,12 @@ void TickMeter::push(const TickSample& tick, std::chrono::steady_clock::time_poi
     session_s_.store(tick.time_s, relaxed);
     raise(ticks_);
 
-    const double behind_s = std::chrono::duration<double>(done.time_since_epoch()).count() - tick.time_s;
-    promptest_s_ = std::min(promptest_s_, behind_s);
-    const double late_s = behind_s - promptest_s_;
-    const auto bound = std::lower_bound(lateness_bounds_s.begin(), lateness_bounds_s.end(), late_s);
-    raise(lateness_[static_cast<std::size_t>(bound - lateness_bounds_s.begin())]);
-    lateness_sum_s_.store(lateness_sum_s_.load(relaxed) + late_s, relaxed);
+    if (began_) {
+        const double latency_s = std::chrono::duration<double>(done - *began_).count() - tick.time_s;
+        const auto bound = std::lower_bound(latency_bounds_s.begin(), latency_bounds_s.end(), latency_s);
+        raise(latency_[static_cast<std::size_t>(bound - latency_bounds_s.begin())]);
+        latency_sum_s_.store(latency_sum_s_.load(relaxed) + latency_s, relaxed);
+    }
 
     if (tick.fault != fault_.load(relaxed) && tick.fault < faults_.size()) raise(faults_[tick.fault]);
     fault_.store(tick.fault, relaxed);
@@ -39,13 +39,13 @@ TickMeter::Reading TickMeter::read() const {
     Reading reading{.session_s = session_s_.load(relaxed),
                     .ticks = ticks_.load(relaxed),
                     .missed_deadlines = missed_.load(relaxed),
-                    .lateness_sum_s = lateness_sum_s_.load(relaxed),
+                    .latency_sum_s = latency_sum_s_.load(relaxed),
                     .fault = static_cast<Fault>(fault_.load(relaxed)),
                     .force_n = force_n_.load(relaxed),
                     .removed_mm3 = removed_mm3_.load(relaxed),
                     .spindle_on = spindle_on_.load(relaxed),
                     .spindle_starts = spindle_starts_.load(relaxed)};
-    for (std::size_t i = 0; i < lateness_.size(); ++i) reading.lateness[i] = lateness_[i].load(relaxed);
+    for (std::size_t i = 0; i < latency_.size(); ++i) reading.latency[i] = latency_[i].load(relaxed);
     for (std::size_t i = 0; i < faults_.size(); ++i) reading.faults[i] = faults_[i].load(relaxed);
     return reading;
 }

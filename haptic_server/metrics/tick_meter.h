@@ -10,7 +10,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <optional>
 
 #include "common/scene/tick_sample.h"
 #include "simulation/exchange/sample_log.h"
@@ -21,17 +21,17 @@ namespace osteomill {
 class TickMeter final : public SampleLog<TickSample> {
   public:
     /// Upper bounds, s; of the last bucket none. A tick is late for the hand from 1 ms on.
-    static constexpr std::array lateness_bounds_s{5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 2e-4,
-                                                  5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 5e-2};
+    static constexpr std::array latency_bounds_s{5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 2e-4,
+                                                 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 5e-2};
 
     struct Reading {
         double session_s = 0.0;
         std::uint64_t ticks = 0;
         std::uint64_t missed_deadlines = 0;  ///< periods that no tick came for: gaps in the ticks' times
-        /// How much later a tick was done than the promptest one so far would have been; how many ticks by
-        /// bucket.
-        std::array<std::uint64_t, lateness_bounds_s.size() + 1> lateness{};
-        double lateness_sum_s = 0.0;
+        /// From when a tick was due to when its force was on its way to the device and its work done; how
+        /// many ticks by bucket. None on the virtual clock.
+        std::array<std::uint64_t, latency_bounds_s.size() + 1> latency{};
+        double latency_sum_s = 0.0;
         std::array<std::uint64_t, all_faults.size() + 1> faults{};  ///< how often each began; index = Fault
         Fault fault = Fault::none;                                  ///< now
         double force_n = 0.0;
@@ -40,6 +40,8 @@ class TickMeter final : public SampleLog<TickSample> {
         std::uint64_t spindle_starts = 0;
     };
 
+    void begin() override { begin(std::chrono::steady_clock::now()); }
+    void begin(std::chrono::steady_clock::time_point now) { began_ = now; }
     void push(const TickSample& tick) noexcept override { push(tick, std::chrono::steady_clock::now()); }
     void push(const TickSample& tick, std::chrono::steady_clock::time_point done) noexcept;
     void drain() override {}
@@ -57,16 +59,15 @@ class TickMeter final : public SampleLog<TickSample> {
     std::atomic<double> session_s_{0.0};
     std::atomic<std::uint64_t> ticks_{0};
     std::atomic<std::uint64_t> missed_{0};
-    std::array<std::atomic<std::uint64_t>, lateness_bounds_s.size() + 1> lateness_{};
-    std::atomic<double> lateness_sum_s_{0.0};
+    std::array<std::atomic<std::uint64_t>, latency_bounds_s.size() + 1> latency_{};
+    std::atomic<double> latency_sum_s_{0.0};
     std::array<std::atomic<std::uint64_t>, all_faults.size() + 1> faults_{};
     std::atomic<std::uint8_t> fault_{0};
     std::atomic<double> force_n_{0.0};
     std::atomic<double> removed_mm3_{0.0};
     std::atomic<bool> spindle_on_{false};
     std::atomic<std::uint64_t> spindle_starts_{0};
-    double promptest_s_ =
-        std::numeric_limits<double>::infinity();  // the loop's: done minus due, on the steady clock
+    std::optional<std::chrono::steady_clock::time_point> began_{};  // time zero; none on the virtual clock
 };
 
 }  // namespace osteomill

@@ -8,6 +8,9 @@ class SampleLog {
   public:
     virtual ~SampleLog() = default;
 
+    /// At time zero of a session on the real clock, before its first push.
+    virtual void begin() {}
+
     /// From one loop only. Real-time safe.
     virtual void push(const Sample& sample) noexcept = 0;
 

@@ -15,6 +15,9 @@ class SampleTee final : public SampleLog<Sample> {
         if (log != nullptr) logs_.push_back(log);
     }
 
+    void begin() override {
+        for (SampleLog<Sample>* log : logs_) log->begin();
+    }
     void push(const Sample& sample) noexcept override {
         for (SampleLog<Sample>* log : logs_) log->push(sample);
     }

@@ -216,6 +216,7 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop, const OnProgr
 
     prepared.wait();
     clock.emplace();
+    if (log_ != nullptr) log_->begin();
     begun.count_down();
 
     while (!stop.load(std::memory_order_relaxed) && clock->now_s() < options_.duration_s) {

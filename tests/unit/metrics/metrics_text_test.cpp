@@ -27,21 +27,21 @@ std::set<std::string> named_in(const std::string& text) {
 }
 
 TEST(MetricsText, SaysWhatWasCounted) {
-    TickMeter::Reading loop{.session_s = 2.5, .ticks = 7, .missed_deadlines = 3, .lateness_sum_s = 0.25};
-    loop.lateness.front() = 4;
-    loop.lateness[1] = 2;
-    loop.lateness.back() = 1;
+    TickMeter::Reading loop{.session_s = 2.5, .ticks = 7, .missed_deadlines = 3, .latency_sum_s = 0.25};
+    loop.latency.front() = 4;
+    loop.latency[1] = 2;
+    loop.latency.back() = 1;
     loop.faults[static_cast<std::size_t>(Fault::overrun)] = 5;
     loop.fault = Fault::overrun;
     loop.spindle_on = true;
     const std::string text = metrics_text(loop, {.clients = 2, .sent_bytes = 12'345'678'901}, "9.8.7");
     for (const char* line :
          {"osteomill_session_seconds 2.5\n", "osteomill_ticks_total 7\n",
-          "osteomill_missed_deadlines_total 3\n", "osteomill_tick_lateness_seconds_bucket{le=\"5e-06\"} 4\n",
-          "osteomill_tick_lateness_seconds_bucket{le=\"1e-05\"} 6\n",
-          "osteomill_tick_lateness_seconds_bucket{le=\"0.05\"} 6\n",
-          "osteomill_tick_lateness_seconds_bucket{le=\"+Inf\"} 7\n",
-          "osteomill_tick_lateness_seconds_count 7\n", "osteomill_tick_lateness_seconds_sum 0.25\n",
+          "osteomill_missed_deadlines_total 3\n", "osteomill_tick_latency_seconds_bucket{le=\"5e-06\"} 4\n",
+          "osteomill_tick_latency_seconds_bucket{le=\"1e-05\"} 6\n",
+          "osteomill_tick_latency_seconds_bucket{le=\"0.05\"} 6\n",
+          "osteomill_tick_latency_seconds_bucket{le=\"+Inf\"} 7\n",
+          "osteomill_tick_latency_seconds_count 7\n", "osteomill_tick_latency_seconds_sum 0.25\n",
           "osteomill_faults_total{fault=\"overrun\"} 5\n",
           "osteomill_faults_total{fault=\"device_lost\"} 0\n", "osteomill_force_off 1\n",
           "osteomill_spindle_on 1\n", "osteomill_clients 2\n", "osteomill_sent_bytes_total 12345678901\n",

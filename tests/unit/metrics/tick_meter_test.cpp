@@ -30,27 +30,32 @@ TEST(TickMeter, CountsTheMillisecondsThatNoTickCameFor) {
     EXPECT_DOUBLE_EQ(meter.read().session_s, 0.010);
 }
 
-TEST(TickMeter, LatenessIsThatBehindThePromptestTick) {
+TEST(TickMeter, LatencyIsFromWhenATickWasDueToWhenItIsDone) {
     TickMeter meter;
-    push(meter, 0, 20us);     // the promptest so far: 0
-    push(meter, 1, 50us);     // 30 us
-    push(meter, 2, 10us);     // the promptest: 0
-    push(meter, 3, 160us);    // 150 us
-    push(meter, 4, 1310us);   // 1300 us
-    push(meter, 6, 99010us);  // 99 ms
+    meter.begin(began);
+    push(meter, 0, 3us);
+    push(meter, 1, 30us);
+    push(meter, 3, 150us);
+    push(meter, 4, 1300us);
+    push(meter, 6, 99000us);
     const TickMeter::Reading reading = meter.read();
     const auto in_bucket = [&](double up_to_s) {
-        for (std::size_t i = 0; i < TickMeter::lateness_bounds_s.size(); ++i)
-            if (TickMeter::lateness_bounds_s[i] == up_to_s) return reading.lateness[i];
-        return reading.lateness.back();
+        for (std::size_t i = 0; i < TickMeter::latency_bounds_s.size(); ++i)
+            if (TickMeter::latency_bounds_s[i] == up_to_s) return reading.latency[i];
+        return reading.latency.back();
     };
-    EXPECT_EQ(in_bucket(5e-6), 2U);
-    EXPECT_EQ(in_bucket(5e-5), 1U);
-    EXPECT_EQ(in_bucket(2e-4), 1U);
-    EXPECT_EQ(in_bucket(2e-3), 1U);
-    EXPECT_EQ(in_bucket(1.0), 1U);
-    EXPECT_EQ(std::accumulate(reading.lateness.begin(), reading.lateness.end(), 0ULL), 6U);
-    EXPECT_NEAR(reading.lateness_sum_s, 30e-6 + 150e-6 + 1300e-6 + 99e-3, 1e-9);
+    for (const double bound_s : {5e-6, 5e-5, 2e-4, 2e-3, 1.0}) EXPECT_EQ(in_bucket(bound_s), 1U) << bound_s;
+    EXPECT_EQ(std::accumulate(reading.latency.begin(), reading.latency.end(), 0ULL), 5U);
+    EXPECT_NEAR(reading.latency_sum_s, 3e-6 + 30e-6 + 150e-6 + 1300e-6 + 99e-3, 1e-9);
+}
+
+TEST(TickMeter, KnowsNoLatencyOnTheVirtualClock) {
+    TickMeter meter;
+    push(meter, 0, 20us);
+    push(meter, 1, 20us);
+    const TickMeter::Reading reading = meter.read();
+    EXPECT_EQ(reading.ticks, 2U);
+    EXPECT_EQ(std::accumulate(reading.latency.begin(), reading.latency.end(), 0ULL), 0U);
 }
 
 TEST(TickMeter, CountsHowOftenAFaultBeganAndTheSpindleWasStarted) {
