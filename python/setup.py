@@ -1,6 +1,7 @@
 """Wheel of the module: CMake builds the core where the programs are built, setuptools packs it.
 
-OSTEOMILL_BUILD names the build's folder; otherwise it is build/release of the repository, configured by its preset if need be."""
+OSTEOMILL_BUILD names the build's folder; otherwise it is build/release of the repository, configured by its preset if need be.
+OSTEOMILL_CORE names a core that is built already."""
 
 import os
 import pathlib
@@ -18,13 +19,16 @@ SCRATCH = BUILD / "wheel"  # nothing is left among the sources
 
 class BuildWithCMake(build_ext):
     def build_extension(self, extension):
+        to = pathlib.Path(self.get_ext_fullpath(extension.name))
+        to.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(os.environ.get("OSTEOMILL_CORE") or self.built_core(), to)
+
+    def built_core(self):
         if not (BUILD / "CMakeCache.txt").exists():
             subprocess.run(["cmake", "--preset", "release", "-B", BUILD, "-DOSTEOMILL_TESTS=OFF"], cwd=REPOSITORY, check=True)
         subprocess.run(["cmake", "--build", BUILD, "--target", "osteomill_python"], check=True)
-        to = pathlib.Path(self.get_ext_fullpath(extension.name))
-        to.parent.mkdir(parents=True, exist_ok=True)
         [core] = (BUILD / "python" / "osteomill").glob("_core.*.so")
-        shutil.copy(core, to)
+        return core
 
 
 SCRATCH.mkdir(parents=True, exist_ok=True)

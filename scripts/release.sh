@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes a release of what is committed: packages, source, bill of materials, checksums and their signature in out/release/VERSION,
+# Makes a release of what is committed: packages, source, wheel, bill of materials, checksums and their signature in out/release/VERSION,
 # and then the signed tag. Publishing is copying that folder and pushing the tag; the last lines say how.
 #   scripts/release.sh [--dry-run] [--minisign SECRET_KEY]
 #     --dry-run    all of it but the tag
@@ -37,7 +37,12 @@ cp "$packages"/*_"$version"[_.]* "$out"
 installed=$(mktemp -d)
 trap 'rm -rf "$installed"' EXIT
 for package in "$out"/*.deb; do dpkg-deb -x "$package" "$installed"; done
-SOURCE_DATE_EPOCH=$(git log -1 --format=%ct) scripts/bill_of_materials.py "$installed"/usr/bin/* >"$out/osteomill-$version.spdx.json"
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+export SOURCE_DATE_EPOCH
+# Of the package's core, which needs Debian 12's libraries: there is nothing to compile anew.
+OSTEOMILL_CORE=$(find "$installed" -name "_core.*.so") \
+    /usr/bin/python3 -m pip --quiet wheel --no-build-isolation --no-index --no-deps --wheel-dir "$out" ./python
+scripts/bill_of_materials.py "$installed"/usr/bin/* >"$out/osteomill-$version.spdx.json"
 (cd "$out" && LC_ALL=C sha256sum -- * >SHA256SUMS)
 [ -z "$key" ] || minisign -S -s "$key" -m "$out/SHA256SUMS" -t "osteomill $version, commit $commit" >/dev/null
 ls -s --block-size=1k "$out"

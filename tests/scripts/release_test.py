@@ -4,10 +4,14 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import sysconfig
 import tempfile
 import unittest
+import zipfile
 
 SOURCE = pathlib.Path(sys.argv.pop())
+CORE = "_core" + sysconfig.get_config_var("EXT_SUFFIX")
+WHEEL = f"osteomill-1.2.3-cp311-cp311-{sysconfig.get_platform().replace('-', '_')}.whl"
 
 
 def run(*command, cwd):
@@ -23,9 +27,13 @@ class Release(unittest.TestCase):
         (self.tree / "scripts").mkdir(parents=True)
         for script in ("release.sh", "bill_of_materials.py"):
             shutil.copy(SOURCE / "scripts" / script, self.tree / "scripts")
+        (self.tree / "python").mkdir()
+        for file in ("setup.py", "pyproject.toml"):
+            shutil.copy(SOURCE / "python" / file, self.tree / "python")
+        shutil.copytree(SOURCE / "python/osteomill", self.tree / "python/osteomill", ignore=shutil.ignore_patterns("__pycache__"))
         (self.tree / "CMakeLists.txt").write_text("project(osteomill VERSION 1.2.3 LANGUAGES CXX)\n")
         (self.tree / "CHANGELOG.md").write_text("# Changelog\n\n## 1.2.3\n\n- It mills.\n\n## 1.2.2\n\n- It hums.\n")
-        (self.tree / ".gitignore").write_text("/out/\n")
+        (self.tree / ".gitignore").write_text("/out/\n/build/\n")
         self.git("init", "--quiet")
         self.commit()
 
@@ -40,7 +48,10 @@ class Release(unittest.TestCase):
         self.git("commit", "--quiet", "--allow-empty", "-m", "a change")
         made = self.tree / "out" / "made"
         (made / "DEBIAN").mkdir(parents=True, exist_ok=True)
-        (made / "usr/bin").mkdir(parents=True, exist_ok=True)
+        modules = made / "usr/lib/python3/dist-packages/osteomill"
+        for folder in (made / "usr/bin", modules):
+            folder.mkdir(parents=True, exist_ok=True)
+        shutil.copy("/bin/false", modules / CORE)
         shutil.copy("/bin/true", made / "usr/bin/haptic_server")
         (made / "DEBIAN/control").write_text("Package: osteomill-server\nVersion: 1.2.3\nArchitecture: all\n"
                                              "Maintainer: a <a@b.example>\nDescription: a\n")
@@ -66,15 +77,27 @@ class Release(unittest.TestCase):
         self.assertEqual(said.returncode, 0, said.stderr)
         out = self.tree / "out/release/1.2.3"
         self.assertEqual({file.name for file in out.iterdir()},
-                         {"osteomill-server_1.2.3_all.deb", "osteomill-1.2.3.spdx.json", "SHA256SUMS", "SHA256SUMS.minisig"})
+                         {"osteomill-server_1.2.3_all.deb", WHEEL, "osteomill-1.2.3.spdx.json", "SHA256SUMS", "SHA256SUMS.minisig"})
         self.assertEqual(run("sha256sum", "--check", "--strict", "SHA256SUMS", cwd=out).returncode, 0)
-        self.assertEqual(len((out / "SHA256SUMS").read_text().splitlines()), 2)
+        self.assertEqual(len((out / "SHA256SUMS").read_text().splitlines()), 3)
         check = ("minisign", "-V", "-p", str(public), "-m", "SHA256SUMS")
         self.assertIn(self.git("rev-parse", "HEAD"), run(*check, cwd=out).stdout)
         self.assertEqual(self.git("tag"), "")
         with open(out / "SHA256SUMS", "a") as sums:
             sums.write("more\n")
         self.assertNotEqual(run(*check, cwd=out).returncode, 0)
+
+    def test_has_a_wheel_of_the_core_in_the_package(self):
+        bytes_of_wheel = []
+        for _ in range(2):
+            said = self.release()
+            self.assertEqual(said.returncode, 0, said.stderr)
+            file = self.tree / "out/release/1.2.3" / WHEEL
+            bytes_of_wheel.append(file.read_bytes())
+            with zipfile.ZipFile(file) as wheel:
+                self.assertEqual(wheel.read(f"osteomill/{CORE}"), pathlib.Path("/bin/false").read_bytes())
+                self.assertIn("osteomill/_core.pyi", wheel.namelist())
+        self.assertEqual(*bytes_of_wheel)
 
     def test_says_that_it_is_not_signed_without_a_key(self):
         said = self.release()
