@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Has a bare Debian 12 install the project's packages from a signed repository of them (apt_repository.sh), use them, also as two machines,
-# install them anew, and remove them: nothing is to be left.
+# upgrade them, and remove them: nothing is to be left.
 #   scripts/try_packages.sh [FOLDER [MIRROR]]      FOLDER as of scripts/package.sh: out/packages
 # As root. The bare root is made once by debootstrap and kept in OSTEOMILL_BARE_ROOT (/var/tmp/osteomill-bare-root.tar).
 set -euo pipefail
@@ -83,8 +83,24 @@ bone() { sed -n 's/.*"bone_checksum": "\(.*\)".*/\1/p' "$root/root/$1.json"; }
 [ -n "$(bone server)" ] && [ "$(bone server)" = "$(bone client)" ] || { echo "the client's bone is not the server's" >&2; exit 1; }
 echo "the same bone at both ends: $(bone server)"
 
-say "install anew, as an upgrade does"
-apt install --reinstall
+say "upgrade: from the same with an older version, a file that is no more, and settings that the lab changed"
+older=$root/root/older
+for package in "$packages"/*.deb; do
+    dpkg-deb -R "$package" "$older"
+    sed -i 's/^Version: .*/&~older/' "$older/DEBIAN/control"
+    mkdir -p "$older/usr/share/osteomill"
+    touch "$older/usr/share/osteomill/$(basename "$package").no_more"
+    dpkg-deb --root-owner-group --build "$older" "$older.$(basename "$package")" >/dev/null
+    rm -r "$older"
+done
+within sh -c 'apt-get -y -qq --allow-downgrades --no-install-recommends install /root/older.*.deb' >"$root/root/apt.log" 2>&1 || { tail -20 "$root/root/apt.log" >&2; exit 1; }
+within dpkg-query -W -f '${Package} ${Version}\n' "${named[@]}"
+limits=$root/etc/security/limits.d/60-osteomill.conf
+echo "# of the lab" >>"$limits"
+apt install
+[ -z "$(find "$root/usr/share/osteomill" -name '*.no_more')" ] || { echo "files of the older version stay" >&2; exit 1; }
+grep -q "# of the lab" "$limits" || { echo "the lab's settings are lost" >&2; exit 1; }
+within /root/demo >/dev/null
 
 say "remove"
 apt purge
