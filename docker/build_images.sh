@@ -20,6 +20,7 @@ done
 context=$(mktemp -d)
 trap 'rm -rf "$context"' EXIT
 cp docker/*.sh "$packages"/osteomill-{server,tools,client}_*.deb "$context"
+export BUILDAH_FORMAT=docker  # the own format of Podman has no health checks
 # The host's network while libraries are installed: a dockerd that was started by hand may have no way out of its bridges.
 for image in server client; do
     "${DOCKER:-docker}" build --network host --build-arg "BASE=$base" --label "org.opencontainers.image.revision=$(cat "$packages/commit")" \

@@ -7,7 +7,7 @@ COPY osteomill-client_*.deb /packages/
 RUN apt-get update -qq \
     && apt-get install -y -qq --no-install-recommends /packages/*.deb \
     && rm -rf /var/lib/apt/lists/* /packages \
-    && useradd --uid 10001 --create-home lab \
+    && useradd --uid 10001 --home-dir /tmp lab \
     && install -d -o lab /out
 COPY is_connected.sh /usr/local/bin/
 USER lab

@@ -56,7 +56,7 @@ class Containers final : public TwoMachines {
                         "--name",       name_of(where), "--volume", folder_.string() + ":/out"};
         // As docker/compose.yaml has them.
         append(command, {"--cap-drop", "ALL", "--security-opt", "no-new-privileges", "--read-only", "--tmpfs",
-                         "/tmp", "--tmpfs", "/home/lab:uid=10001,mode=0700"});
+                         "/tmp"});
         if (where == Machine::beside_server)
             append(command, {"--network", "container:" + name_of(Machine::server)});
         else
