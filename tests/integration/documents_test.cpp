@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -82,6 +83,39 @@ TEST(Documents, ShowCommandsThatTheProgramsUnderstand) {
     EXPECT_THAT(
         findings_in_all([](const Document& document) { return bad_commands(document, help_of_program); }),
         IsEmpty());
+}
+
+/// A chart is of this version, or in a folder that is named after the one it is of.
+TEST(Documents, ShowChartsOfThisVersionOrSayOfWhich) {
+    const auto minor = [](const std::string& version) { return version.substr(0, version.rfind('.')); };
+    const std::filesystem::path results = repository_folder / "docs/results";
+    std::string pages;
+    for (const Document& document : read_documents(repository_folder)) pages += document.text;
+    int charts = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(results)) {
+        const std::filesystem::path chart = entry.path().lexically_relative(results);
+        if (chart.extension() != ".svg" && chart.filename() != "demo_forces.png") continue;
+        SCOPED_TRACE(chart);
+        ++charts;
+        EXPECT_THAT(pages, HasSubstr(chart.string() + ")")) << "no page shows it";
+        std::ifstream file(entry.path().parent_path() / "manifest.json");
+        if (!file) {
+            ADD_FAILURE() << "it stands beside no manifest";
+            continue;
+        }
+        const auto manifest = nlohmann::json::parse(file);
+        EXPECT_TRUE(std::regex_match(manifest.at("commit").get<std::string>(), std::regex("[0-9a-f]{8,40}")));
+        const auto drawn_by = minor(manifest.at("version").get<std::string>());
+        if (std::isdigit(static_cast<unsigned char>(chart.string().front())) != 0) {
+            EXPECT_EQ(*chart.begin(), drawn_by);
+            continue;
+        }
+        EXPECT_EQ(drawn_by, minor(OSTEOMILL_VERSION)) << "draw it anew";
+        std::string command = "```bash\nbuild/release/bin/" + manifest.at("program").get<std::string>();
+        for (const auto& word : manifest.at("command").get<std::vector<std::string>>()) command += ' ' + word;
+        EXPECT_THAT(bad_commands({chart, command + "\n```\n"}, help_of_program), IsEmpty());
+    }
+    EXPECT_GT(charts, 20);
 }
 
 TEST(Documents, BeginWithAShortReadme) {
