@@ -90,7 +90,7 @@ for package in "$packages"/*.deb; do
     sed -i 's/^Version: .*/&~older/' "$older/DEBIAN/control"
     mkdir -p "$older/usr/share/osteomill"
     touch "$older/usr/share/osteomill/$(basename "$package").no_more"
-    dpkg-deb --root-owner-group --build "$older" "$older.$(basename "$package")" >/dev/null
+    dpkg-deb -Znone --root-owner-group --build "$older" "$older.$(basename "$package")" >/dev/null
     rm -r "$older"
 done
 within sh -c 'apt-get -y -qq --allow-downgrades --no-install-recommends install /root/older.*.deb' >"$root/root/apt.log" 2>&1 || { tail -20 "$root/root/apt.log" >&2; exit 1; }
