@@ -98,6 +98,8 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         ++states_;
         state_bytes_ += event.bytes;
         if (followed.check == ReplicaCheck::equal) ++checksums_verified_;
+        // One that did not change is not said again.
+        if (!state->state.view) state->state.view = state_.view;
         state_ = std::move(state->state);
         has_state_ = true;
         changes_ = std::move(state->changes);

@@ -36,6 +36,7 @@ RecordingOutline outline_of(const std::filesystem::path& file) {
                 time.next_s(Stamp(std::chrono::nanoseconds(frame->recorded_unix_ns())), frame->has_hello());
             if (frame->has_hello()) touches = 0;
             if (!frame->has_state()) continue;
+            outline.has_view = outline.has_view || frame->state().has_view();
             for (const v2::SessionEvent& event : frame->state().events())
                 if (event.action() == v2::SESSION_ACTION_MARK && !event.is_refused())
                     outline.moments.push_back({time_s, Kind::mark});

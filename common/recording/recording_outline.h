@@ -20,6 +20,7 @@ struct RecordedMoment {
 struct RecordingOutline {
     double duration_s = 0.0;                ///< from the first frame to the last that can be read
     std::vector<RecordedMoment> moments{};  ///< in their order
+    bool has_view = false;                  ///< it says from where the one who moved the tool looked
 };
 
 /// Reads all frames, but no bone. Throws RecordingError for a file that is no recording.

@@ -2,11 +2,13 @@
 // what a recording keeps of it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/scene/session_control.h"
 #include "common/scene/structure_distance.h"
 #include "common/scene/tool_state.h"
+#include "common/scene/viewpoint.h"
 
 namespace osteomill {
 
@@ -15,6 +17,8 @@ struct SessionState {
     std::vector<ControlEvent> events{};          ///< since the frame before: what was done to the session
     SessionStatus status{};                      ///< what can be done to it now
     std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
+    /// From where the one who moves the tool looks; only in a recording, and nothing where nobody said.
+    std::optional<Viewpoint> view{};
 };
 
 }  // namespace osteomill

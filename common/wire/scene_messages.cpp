@@ -167,6 +167,7 @@ v2::Hello to_message(const SessionInfo& session) {
     hello.set_force_limit_n(session.force_limit_n);
     if (session.reach_mm != longest_reach_mm) hello.set_reach_mm(session.reach_mm);
     hello.set_has_ct(session.has_ct);
+    hello.set_records_view(session.records_view);
     hello.set_accepts_controls(session.accepts_controls);
     hello.set_holds_ticks(session.holds_ticks);
     if (session.plan) *hello.mutable_plan() = to_message(*session.plan);
@@ -276,6 +277,7 @@ std::variant<SessionInfo, WireError> session_info_from(const v2::Hello& hello) {
                        .reach_mm = hello.reach_mm() > 0.0 ? hello.reach_mm() : longest_reach_mm,
                        .has_ct = hello.has_ct(),
                        .accepts_controls = hello.accepts_controls(),
+                       .records_view = hello.records_view(),
                        .holds_ticks = hello.holds_ticks(),
                        .plan = std::move(plan),
                        .pass = pass_from(hello),

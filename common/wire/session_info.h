@@ -25,6 +25,7 @@ struct SessionInfo {
     double reach_mm = longest_reach_mm;  ///< from the burr to an operator's target, at most
     bool has_ct = false;                 ///< the server has a CT for people to look at
     bool accepts_controls = false;       ///< the server takes a SessionControl
+    bool records_view = false;           ///< the server takes a Viewpoint, for its recording
     bool holds_ticks = false;            ///< a recording: its states hold every tick of the haptic loop
     std::optional<Plan> plan{};
     PassMarks pass{};

@@ -8,6 +8,7 @@
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
 #include "common/wire/structure_messages.h"
+#include "common/wire/viewpoint_message.h"
 #include "haptic_server/streaming/update_deadband.h"
 
 namespace osteomill {
@@ -34,7 +35,7 @@ void ClientFeed::request_state(SessionState state, bool with_checksum) {
     state_ = std::move(state);
     const bool is_news = with_checksum || !pending_.empty() || !events_.empty() || !sent_ ||
                          state_.status != sent_->status || state_.distances != sent_->distances ||
-                         !is_within_deadband(sent_->tool, state_.tool);
+                         state_.view != sent_->view || !is_within_deadband(sent_->tool, state_.tool);
     wants_state_ = wants_state_ || is_news;
     wants_checksum_ = wants_checksum_ || with_checksum;
     comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
@@ -122,6 +123,8 @@ void ClientFeed::fill_state(v2::StateFrame& state, std::size_t most_bytes) {
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
     if (state_.status != SessionStatus{}) *state.mutable_status() = to_message(state_.status);
     for (const StructureDistance& distance : state_.distances) *state.add_distances() = to_message(distance);
+    if (state_.view && !(sent_ && sent_->view == state_.view))
+        *state.mutable_view() = to_message(*state_.view);
     add_events(state, most_bytes);
     add_changes(state, most_bytes);
     add_ticks(state);

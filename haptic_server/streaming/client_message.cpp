@@ -5,6 +5,7 @@
 #include "common/wire/control_messages.h"
 #include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
+#include "common/wire/viewpoint_message.h"
 
 namespace osteomill {
 
@@ -26,6 +27,12 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v2::Cli
     }
     if (frame.has_ct_request()) {
         client.feed.ask_for_ct();
+        return std::nullopt;
+    }
+    if (frame.has_viewpoint()) {
+        const auto view = viewpoint_from(frame.viewpoint());
+        if (const auto* error = std::get_if<WireError>(&view)) return *error;
+        if (client.view != nullptr) *client.view = std::get<Viewpoint>(view);
         return std::nullopt;
     }
     if (frame.has_session_control()) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "common/scene/viewpoint.h"
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/answered_states.h"
 #include "haptic_server/streaming/client_feed.h"
@@ -23,6 +24,7 @@ struct MessagingClient {
     std::size_t burr_count = 0;     ///< of the session
     /// Takes what the client asks of the session; null: it may not ask now.
     const std::function<void(const SessionControl&)>* control = nullptr;
+    std::optional<Viewpoint>* view = nullptr;  ///< where it looks from; null: nobody wants to know
 };
 
 /// What became of an operator's input that was let through, or not; see AnsweredStates.
@@ -34,9 +36,9 @@ std::optional<WireError> check_greeting(const v2::ClientFrame& frame);
 /// Any later message. An operator's input is given to the lease if it is fresh.
 /// A control of the session goes where the client says; one that may not ask is told so.
 /// An error if the message makes no sense, which drops the client: no body, numbers that are not finite, a
-/// burr that is not there, an answer to a state that was not sent, a comparison that ClientFeed refuses. It
-/// has then changed nothing. Otherwise what became of an operator's input where that is news: it is otherwise
-/// than the one before, or the first that is not fresh.
+/// viewpoint that viewpoint_from refuses, a burr that is not there, an answer to a state that was not sent, a
+/// comparison that ClientFeed refuses. It has then changed nothing. Otherwise what became of an operator's
+/// input where that is news: it is otherwise than the one before, or the first that is not fresh.
 std::variant<std::optional<Answer>, WireError> take_client_message(const v2::ClientFrame& frame,
                                                                    const MessagingClient& client,
                                                                    ControlLease::Time now);

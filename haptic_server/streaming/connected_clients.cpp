@@ -84,6 +84,12 @@ void ConnectedClients::show_ct(const std::function<std::shared_ptr<const CtVolum
     }
 }
 
+std::optional<Viewpoint> ConnectedClients::view_of_operator() {
+    if (const auto steers = lease_ ? lease_->holder() : seat_.holder()) steered_last_ = steers;
+    const auto looks = steered_last_ ? views_.find(*steered_last_) : views_.begin();
+    return looks != views_.end() ? looks->second : std::nullopt;
+}
+
 void ConnectedClients::show(const SessionState& state, bool with_checksum) {
     const Time now = std::chrono::steady_clock::now();
     // A recording's packets have stamps of their own.
@@ -138,12 +144,14 @@ bool ConnectedClients::may_control(Id id, Time now) const {
 v2::Hello ConnectedClients::hello_for(bool may_operate) const {
     v2::Hello hello = hello_;
     hello.set_accepts_controls(hello.accepts_controls() && may_operate);
+    hello.set_records_view(hello.records_view() && may_operate);
     hello.set_accepts_operator(hello.accepts_operator() && may_operate);
     return hello;
 }
 
 SessionState ConnectedClients::state_for(Id id, const SessionState& state, Time now) const {
     SessionState theirs = state;
+    theirs.view.reset();
     theirs.status.may_control = may_control(id, now);
     if (lease_)
         theirs.tool.driver = watchers_.contains(id) ? ToolDriver::others_only : lease_->driver_for(id);
@@ -165,13 +173,15 @@ std::optional<WireError> ConnectedClients::take(Id id, const v2::ClientFrame& fr
     const bool controls = frame.has_session_control() && may_control(id, now);
     if (controls) seat_.use(id, now);
     const bool may_operate = lease_ && !when_gone_ && !watchers_.contains(id);
+    const bool shows_view = frame.has_viewpoint() && hello_.records_view() && !watchers_.contains(id);
     auto taken = take_client_message(frame,
                                      {.id = id,
                                       .feed = connection->feed(),
                                       .answers = connection->answers(),
                                       .lease = may_operate ? &*lease_ : nullptr,
                                       .burr_count = static_cast<std::size_t>(hello_.burrs_size()),
-                                      .control = controls ? &control_ : nullptr},
+                                      .control = controls ? &control_ : nullptr,
+                                      .view = shows_view ? &views_[id] : nullptr},
                                      now);
     log_holder();
     if (frame.has_operator_input() && watchers_.contains(id) && refused_input_.insert(id).second)
@@ -190,6 +200,8 @@ void ConnectedClients::dismiss(Id id, const std::string& peer, const std::string
     // First of all: a hand that has gone must not keep the burr turning.
     if (lease_) lease_->leave(id);
     seat_.leave(id);
+    views_.erase(id);
+    if (steered_last_ == id) steered_last_.reset();
     const bool was_unidentified = unidentified_.remove(id);
     (was_unidentified ? unidentified_log_ : client_log_)
         .write(is_fault ? spdlog::level::warn : spdlog::level::info, fmt::format("client {} {}", peer, line),

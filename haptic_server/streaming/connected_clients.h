@@ -65,6 +65,10 @@ class ConnectedClients {
     /// About those who have yet to say who they are; a few lines at a time.
     void log_unidentified(const std::string& line);
 
+    /// From where the one looks who moves the tool, did so last or, if none did, used the controls; of a
+    /// session that nobody steers, the first who looks on. Nothing where that one does not say.
+    std::optional<Viewpoint> view_of_operator();
+
     std::size_t count() const { return connections_.size(); }
     /// Of frames, to all who are connected or were.
     std::uint64_t sent_bytes() const { return sent_bytes_; }
@@ -92,6 +96,8 @@ class ConnectedClients {
     ControlSeat seat_;  // where there is no lease
     std::function<void(const SessionControl&)> control_;
     ChangesOfHands changes_of_hands_;
+    std::map<Id, std::optional<Viewpoint>> views_;  // of those who said
+    std::optional<Id> steered_last_;                // and is still connected
 
     std::map<Id, std::shared_ptr<ClientConnection>> connections_;
     UnidentifiedConnections unidentified_;  // those of the connections who are that

@@ -24,6 +24,8 @@ class ControlSeat {
         holder_ = client;
         used_ = now;
     }
+    /// Who used it last and has not left.
+    std::optional<ClientId> holder() const { return holder_; }
     void leave(ClientId client) {
         if (holder_ == client) holder_.reset();
     }

@@ -21,6 +21,7 @@ std::string packet_of(const std::string& frame, Stamp stamp) {
 
 v2::Hello of_recording(v2::Hello hello, const RecordTo& to) {
     hello.set_holds_ticks(to.ticks != nullptr);
+    hello.clear_records_view();
     return hello;
 }
 

@@ -39,6 +39,12 @@ namespace {
 constexpr std::chrono::seconds longest_goodbye{5};
 constexpr const char* end_of_session = "the session has ended";
 
+/// Who looks is asked from where only if that is kept.
+SessionInfo with_view(SessionInfo session, const StreamingOptions& options) {
+    session.records_view = options.record.has_value();
+    return session;
+}
+
 /// A hello too long for a frame would fail only when a client joins.
 void require_fits_frame(const v2::Hello& hello) {
     v2::ServerFrame frame;
@@ -59,7 +65,7 @@ class StreamingServer::Impl {
     Impl(StreamingOptions options, SessionInfo session, Bone mirror, StreamSource& source,
          OperatorChannel* operator_channel, std::span<const Structure> structures)
         : options_(std::move(options)),
-          hello_(to_message(session)),
+          hello_(to_message(with_view(std::move(session), options_))),
           structures_(structure_pieces(structures)),
           mirror_(std::move(mirror)),
           source_(source),
@@ -164,7 +170,11 @@ class StreamingServer::Impl {
         clients_.look_after(Clock::now());
         update();
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
-        if (recorder_) recorder_->record(state_, with_checksum, options_.paced_by_session);
+        if (recorder_) {
+            SessionState recorded = state_;
+            recorded.view = clients_.view_of_operator();
+            recorder_->record(std::move(recorded), with_checksum, options_.paced_by_session);
+        }
         clients_.show_ct([this] { return source_.ct(); });
         clients_.show(state_, with_checksum);
         traffic_clients_ = clients_.count();

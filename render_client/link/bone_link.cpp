@@ -39,6 +39,7 @@ class BoneLink::Impl {
     void ask_for_ct() { connection_.ask_for_ct(); }
     void connect_to(std::string host, std::uint16_t port) { connection_.connect_to(std::move(host), port); }
     void send(const SessionControl& control) { connection_.send(control); }
+    void send(const Viewpoint& view) { connection_.send(view); }
     std::optional<ToolState> newest_tool() const { return connection_.newest_tool(); }
 
     std::string finish_recording() {
@@ -168,6 +169,9 @@ void BoneLink::connect_to(std::string host, std::uint16_t port) {
 }
 void BoneLink::send_control(const SessionControl& control) {
     impl_->send(control);
+}
+void BoneLink::send_view(const Viewpoint& view) {
+    impl_->send(view);
 }
 std::optional<ToolState> BoneLink::newest_tool() const {
     return impl_->newest_tool();

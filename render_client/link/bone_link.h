@@ -23,6 +23,7 @@
 #include "common/scene/structure.h"
 #include "common/scene/structure_distance.h"
 #include "common/scene/tool_state.h"
+#include "common/scene/viewpoint.h"
 #include "common/wire/session_info.h"
 #include "render_client/link/delay_meter.h"
 
@@ -51,6 +52,8 @@ struct LinkUpdate {
     std::vector<ControlEvent> events{};    ///< since the last poll
     /// Of protected structures that are near the burr or were touched, as of the newest tool.
     std::vector<StructureDistance> distances{};
+    /// From where the one who moves the tool looks, in a recording that says so.
+    std::optional<Viewpoint> view{};
     SessionStatus controls{};  ///< what can be done with the session now
     /// How old the newest tool of this session was when a poll took it; nothing where the server does not
     /// say.
@@ -108,6 +111,10 @@ class BoneLink {
     /// Any thread. Asks something of the session, in order; dropped while not connected, and where the server
     /// does not take it. What comes of it is an event.
     void send_control(const SessionControl& control);
+
+    /// Any thread. From where the operator looks, at most thirty times a second; a server that records the
+    /// session is told when it has changed.
+    void send_view(const Viewpoint& view);
 
     /// UI thread. To another server from now on: the one before is left, and its bone stays until the next
     /// has come.

@@ -46,6 +46,7 @@ LinkUpdate RecordingPlayer::poll(Time now) {
     if (update.bone_replaced) update.changes.clear();
     update.controls = playhead_->state().status;
     update.distances = playhead_->state().distances;
+    update.view = playhead_->state().view;
     const std::vector<Structure>& structures = playhead_->structures();
     while (shown_structures_ < structures.size())
         update.structures.push_back(structures[shown_structures_++]);

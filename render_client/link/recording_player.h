@@ -47,6 +47,8 @@ class RecordingPlayer {
     /// Where it is or, while it seeks, where it is going.
     double time_s() const { return target_s_; }
     double duration_s() const { return outline_.duration_s; }
+    /// Whether it says from where the one who moved the tool looked.
+    bool has_view() const { return outline_.has_view; }
     /// What there is to look at.
     const std::vector<RecordedMoment>& moments() const { return outline_.moments; }
     /// Whether what it shows is that of time_s(), or the last that can be shown.

@@ -14,6 +14,7 @@
 #include "common/wire/control_messages.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
+#include "common/wire/viewpoint_message.h"
 
 namespace osteomill {
 
@@ -76,6 +77,15 @@ void ServerConnection::send(const SessionControl& control) {
     asio::post(io_, [this, message = to_message(control)]() mutable {
         if (!accepts_controls_ || !receiver_.is_live() || controls_.size() >= most_waiting_controls) return;
         controls_.push_back(std::move(message));
+        write_newest();
+    });
+}
+
+void ServerConnection::send(const Viewpoint& view) {
+    asio::post(io_, [this, view] {
+        if (view_ == view) return;
+        view_ = view;
+        owes_view_ = records_view_;
         write_newest();
     });
 }
@@ -203,6 +213,7 @@ void ServerConnection::disconnect() {
     controls_.clear();
     accepts_controls_ = false;
     has_ct_ = wants_ct_ = false;
+    records_view_ = owes_view_ = false;
     sent_sequence_ = 0;
     is_writing_ = false;
 }
@@ -275,6 +286,8 @@ void ServerConnection::take_event(SessionInfo session) {
     accepts_operator_ = session.accepts_operator;
     accepts_controls_ = session.accepts_controls;
     has_ct_ = session.has_ct;
+    records_view_ = session.records_view;
+    owes_view_ = records_view_ && view_;
     burr_count_ = session.burrs.size();
     owes_hello_ = true;
     write_newest();
@@ -322,7 +335,8 @@ void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
 }
 
 void ServerConnection::write_newest() {
-    if (is_writing_ || !(owes_hello_ || newest_input_ || newest_request_ || !controls_.empty() || wants_ct_))
+    if (is_writing_ ||
+        !(owes_hello_ || newest_input_ || newest_request_ || !controls_.empty() || wants_ct_ || owes_view_))
         return;
     v2::ClientFrame frame;
     frame.set_sequence(++sent_sequence_);
@@ -336,6 +350,8 @@ void ServerConnection::write_newest() {
     } else if (!controls_.empty()) {
         *frame.mutable_session_control() = std::move(controls_.front());
         controls_.pop_front();
+    } else if (std::exchange(owes_view_, false)) {
+        *frame.mutable_viewpoint() = to_message(*view_);
     } else {
         *frame.mutable_operator_input() = *std::exchange(newest_input_, std::nullopt);
     }

@@ -58,6 +58,8 @@ class ServerConnection {
     void send(const OperatorCommand& command);
     /// Dropped where the server would not take it, and beyond most_waiting_controls that wait to be written.
     void send(const SessionControl& control);
+    /// From where its operator looks, told again to whom it connects later; only to servers that record it.
+    void send(const Viewpoint& view);
     /// Asks for the CT; dropped where the server has none.
     void ask_for_ct();
     /// Of the newest state frame that came on this connection; nothing before the first.
@@ -150,6 +152,9 @@ class ServerConnection {
     bool owes_hello_ = false;
     bool has_ct_ = false;  // the server does
     bool wants_ct_ = false;
+    bool records_view_ = false;  // the server does
+    bool owes_view_ = false;
+    std::optional<Viewpoint> view_;  // the newest
     std::optional<v2::OperatorInput> newest_input_;
     std::uint64_t input_number_ = 0;  // of this connection
     std::optional<v2::CompareBone> newest_request_;

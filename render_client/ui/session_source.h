@@ -28,6 +28,8 @@ class SessionSource {
     virtual void connect_to(const ListenAddress&) {}
     /// Any thread: asks something of the session; nothing where nobody takes it.
     virtual void send_control(const SessionControl&) {}
+    /// From where the operator looks; nothing where nobody keeps it.
+    virtual void send_view(const Viewpoint&) {}
     /// Any thread: of the session that an operator may be at; nothing where there is none.
     virtual std::optional<ToolState> newest_tool() const { return std::nullopt; }
     /// What plays the session, where it is a recording; null where it is not.
@@ -49,6 +51,7 @@ class LinkedSession final : public SessionSource {
     void ask_for_ct() override { link_.ask_for_ct(); }
     void connect_to(const ListenAddress& server) override { link_.connect_to(server.address, server.port); }
     void send_control(const SessionControl& control) override { link_.send_control(control); }
+    void send_view(const Viewpoint& view) override { link_.send_view(view); }
     std::optional<ToolState> newest_tool() const override { return link_.newest_tool(); }
     std::string finish() override { return link_.finish_recording(); }
 

@@ -134,6 +134,15 @@ v2::ClientFrame hello() {
     return frame;
 }
 
+v2::ClientFrame viewpoint(float qw) {
+    v2::ClientFrame frame;
+    v2::Viewpoint& view = *frame.mutable_viewpoint();
+    view.mutable_eye_mm()->set_y(-80.0);
+    view.set_qw(qw);
+    view.set_field_of_view_deg(34.0f);
+    return frame;
+}
+
 v2::ClientFrame goodbye() {
     v2::ClientFrame frame;
     frame.mutable_goodbye()->set_reason("enough");
@@ -207,6 +216,8 @@ void write_seeds(const std::filesystem::path& folder) {
                '\xff' + numbered({hello(), comparison(carved), operator_input(0.0, 1), comparison(bone)}));
     write_file(folder / "server_session/hello",
                '\x87' + numbered({hello(), hello(), operator_input(1.0, 0), comparison(bone), goodbye()}));
+    write_file(folder / "server_session/viewpoint",
+               '\x87' + numbered({hello(), viewpoint(1.0f), viewpoint(0.5f), goodbye()}));
     write_file(folder / "server_session/slow_reader",
                '\x10' + numbered({hello(), operator_input(0.0, 1), goodbye()}));
     write_file(folder / "server_session/tls", std::string("\xff\x16\x03\x01\x02", 5));

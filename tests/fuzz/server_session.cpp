@@ -85,6 +85,7 @@ void server_session(Bytes input) {
     const auto session =
         std::make_shared<ClientConnection>(stream, ClientFeed(to_message(info), mirror, packers));
 
+    std::optional<Viewpoint> view;
     std::optional<std::string> ended;
     std::size_t messages = 0;
     session->start({.on_message =
@@ -99,7 +100,8 @@ void server_session(Bytes input) {
                                                                     .feed = session->feed(),
                                                                     .answers = session->answers(),
                                                                     .lease = &lease,
-                                                                    .burr_count = info.burrs.size()},
+                                                                    .burr_count = info.burrs.size(),
+                                                                    .view = &view},
                                                                    {});
                             const auto* error = std::get_if<WireError>(&taken);
                             return error != nullptr ? std::optional(*error) : std::nullopt;
@@ -113,6 +115,8 @@ void server_session(Bytes input) {
         stream->arrive(piece);
         if (output.refresh() && output.front().command)
             require_possible(*output.front().command, info.burrs.size());
+        require(!view || (is_finite(view->eye_mm) && view->field_of_view_rad > 0.0),
+                "somebody looks from where no number is");
         // What the milling loop does meanwhile: the first brick goes, voxel by voxel.
         const std::size_t voxel = ++states % brick_voxel_count;
         carved.fractions(0)[voxel] = 0;

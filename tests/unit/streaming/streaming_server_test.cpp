@@ -148,7 +148,7 @@ TEST(StreamingServer, DropsClientsThatTalkNonsenseWhileOthersNoticeNothing) {
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
     {
         RawClient http(served.port()), oversize(served.port()), bodiless(served.port()), late(served.port()),
-            nowhere(served.port()), burr(served.port()), doubter(served.port());
+            nowhere(served.port()), burr(served.port()), doubter(served.port()), blind(served.port());
         http.send("GET / HTTP/1.1\r\nHost: osteomill.example\r\nAccept: text/html, any/any\r\n\r\n" +
                   std::string(200, 'x'));
         oversize.send("\xff\xff\xff\xff\xff\xff");
@@ -160,10 +160,15 @@ TEST(StreamingServer, DropsClientsThatTalkNonsenseWhileOthersNoticeNothing) {
         doubt.set_sequence(2);
         doubt.mutable_compare_bone();
         doubter.send(doubt);
+        v2::ClientFrame view;
+        view.set_sequence(2);
+        view.mutable_viewpoint()->set_field_of_view_deg(30.0f);  // its axes are no rotation
+        blind.send(view);
         RawClient rude(served.port(), Says::nothing), old(served.port(), Says::nothing);
         rude.send(input_frame(1, {}));
         old.send(greeting(protocol_major - 1));
-        for (RawClient* client : {&http, &oversize, &bodiless, &late, &nowhere, &burr, &doubter, &rude, &old})
+        for (RawClient* client :
+             {&http, &oversize, &bodiless, &late, &nowhere, &burr, &doubter, &blind, &rude, &old})
             EXPECT_TRUE(client->is_dropped());
     }
     EXPECT_FALSE(served.operator_command().has_value());
