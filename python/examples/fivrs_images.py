@@ -59,6 +59,8 @@ def put(session, folder, camera):
             raise ValueError(f"{folder}: has no camera {camera}, but {', '.join(known)}")
         if (known[eye]["width_px"], known[eye]["height_px"]) != SIZE_PX:
             raise ValueError(f"{folder}: the camera {eye} is not of 640 x 480 pixels")
+        if known[eye]["intrinsics"] is None:
+            raise ValueError(f"{folder}: the camera {eye} has the trainee's angle, which may change: give it intrinsics")
     frames, times = index["frames"], session["data/time"][:]
     recorded = np.array([frame["recorded_s"] for frame in frames])
     if len(recorded) != len(times) or not np.allclose(times - times[0], recorded - recorded[0], atol=1e-5):

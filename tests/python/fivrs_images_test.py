@@ -113,6 +113,21 @@ class FivrsImagesTest(unittest.TestCase):
         self.assertGreater(points, 20_000)
         self.assertGreater(landed / points, 0.995)
 
+    def test_the_mastoid_has_the_colours_by_which_their_programs_tell_anatomy(self):
+        (self.folder / "plain.toml").write_text('[[cameras]]\nname = "main"\n')
+        for command in ((program("haptic_server"), "--clock", "virtual", "--scene", "mastoid", "--record", "m.pcap", "--duration-s", "0.05"),
+                        (program("packet_replay"), "m.pcap", "--hdf5", "20260102_104500.hdf5", "--layout", "fivrs"),
+                        (program("render_client"), "--replay", "m.pcap", "--dataset", "mastoid", "--cameras", "plain.toml"),
+                        (sys.executable, EXAMPLE, "20260102_104500.hdf5", "mastoid", "main")):
+            ran = run(self.folder, *command)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+        with h5py.File(self.folder / "20260102_104500.hdf5") as file:
+            colours = {tuple(int(part) for part in colour) for colour in np.unique(file["data/segm"][0].reshape(-1, 3), axis=0)}
+            self.assertNotIn("r_img", file["data"])
+            self.assertNotIn("baseline", file["metadata"])
+        # BGR of nothing, tool and bone.
+        self.assertLessEqual({(0, 0, 0), (33, 32, 34), (219, 249, 255)}, colours)
+
     def test_a_set_that_does_not_fit_is_refused_in_one_line_and_the_file_stays(self):
         before = (self.folder / "s.pcap").read_bytes()
         run(self.folder, program("packet_replay"), "s.pcap", "--hdf5", "other.hdf5", "--layout", "fivrs")
