@@ -69,26 +69,31 @@ void read_path(DatasetCamera& camera, const std::filesystem::path& file) {
     if (camera.poses.empty()) refuse("has no pose; a line is time_s,x,y,z,qx,qy,qz,qw");
 }
 
-Pinhole read_pinhole(TomlReader& reader) {
+void read_pinhole(DatasetCamera& camera, TomlReader& reader) {
     const auto edge_px = [&](const char* key, int usual) {
         return static_cast<int>(reader.whole_number(key, 1, largest_edge_px).value_or(usual));
     };
     const glm::ivec2 size_px(edge_px("width_px", 640), edge_px("height_px", 480));
     const auto k = reader.rows("intrinsics", 3);
-    if (!k) return pinhole_of(size_px, default_field_of_view_rad);
+    camera.has_trainees_angle = camera.follows_trainee && !k;
+    camera.pinhole = pinhole_of(size_px, default_field_of_view_rad);
+    if (!k) return;
     const bool is_pinhole = k->size() == 3 && (*k)[0][0] > 0.0 && (*k)[1][1] > 0.0 && (*k)[0][1] == 0.0 &&
                             (*k)[1][0] == 0.0 && (*k)[2] == std::vector{0.0, 0.0, 1.0};
     if (!is_pinhole)
         reader.fail("intrinsics", "must be [[fx, 0, cx], [0, fy, cy], [0, 0, 1]] in pixels, fx, fy above 0");
-    return {size_px, {(*k)[0][0], (*k)[1][1]}, {(*k)[0][2], (*k)[1][2]}};
+    camera.pinhole = {size_px, {(*k)[0][0], (*k)[1][1]}, {(*k)[0][2], (*k)[1][2]}};
 }
 
 void read_pose(DatasetCamera& camera, TomlReader& reader, const std::filesystem::path& folder) {
     const auto eye_mm = reader.place("eye_mm"), target_mm = reader.place("target_mm");
     const auto up = reader.direction("up");
     const auto path = reader.text("path");
+    camera.follows_trainee = reader.choice("view", {"trainee"}).has_value();
     if (path && (eye_mm || target_mm || up))
         reader.fail("path", "stands in place of eye_mm, target_mm and up");
+    if (camera.follows_trainee && (path || eye_mm || target_mm || up))
+        reader.fail("view", "stands in place of eye_mm, target_mm, up and path");
     if (path) return read_path(camera, folder / *path);
     if (!eye_mm && !target_mm && !up) return;
     const glm::dvec3 from = required(reader, "eye_mm", eye_mm);
@@ -102,7 +107,8 @@ void read_pose(DatasetCamera& camera, TomlReader& reader, const std::filesystem:
 DatasetCamera one_of_pair(DatasetCamera camera, const char* side, double aside_mm, double convergence_mm) {
     camera.name += side;
     camera.aside_mm = aside_mm;
-    camera.pinhole.centre_px.x += camera.pinhole.focal_px.x * aside_mm / convergence_mm;
+    camera.aside_slope = aside_mm / convergence_mm;
+    camera.pinhole.centre_px.x += camera.pinhole.focal_px.x * camera.aside_slope;
     return camera;
 }
 
@@ -116,8 +122,8 @@ void read_camera(TomlReader& reader, const std::filesystem::path& folder,
     if (camera.name.empty() || !std::ranges::all_of(camera.name, is_fit))
         reader.fail("name",
                     fmt::format("'{}' must be of letters, digits, - and _: it names a folder", camera.name));
-    camera.pinhole = read_pinhole(reader);
     read_pose(camera, reader, folder);
+    read_pinhole(camera, reader);
     const auto baseline_mm = reader.number("baseline_mm", {1e-3, 1e3});
     const auto convergence_mm = reader.number("convergence_mm", {1e-3, 1e6});
     if (convergence_mm && !baseline_mm) reader.fail("convergence_mm", "is of a pair: give baseline_mm, too");
@@ -133,7 +139,8 @@ void read_camera(TomlReader& reader, const std::filesystem::path& folder,
 
 }  // namespace
 
-Pose DatasetCamera::pose_at(double time_s, const Pose& first_view) const {
+Pose DatasetCamera::pose_at(double time_s, const Pose& first_view,
+                            const std::optional<Viewpoint>& trainee) const {
     Pose pose = poses.empty() ? first_view : poses.back();
     const auto next = std::ranges::upper_bound(times_s, time_s) - times_s.begin();
     if (const auto i = static_cast<std::size_t>(next); i == 0 && !poses.empty()) {
@@ -143,8 +150,16 @@ Pose DatasetCamera::pose_at(double time_s, const Pose& first_view) const {
         pose = {glm::mix(poses[i - 1].position_mm, poses[i].position_mm, part),
                 glm::slerp(poses[i - 1].rotation, poses[i].rotation, part)};
     }
+    if (follows_trainee && trainee) pose = {trainee->eye_mm, trainee->rotation};
     pose.position_mm += pose.rotation * glm::dvec3(aside_mm, 0.0, 0.0);
     return pose;
+}
+
+Pinhole DatasetCamera::pinhole_at(const std::optional<Viewpoint>& trainee) const {
+    if (!has_trainees_angle || !trainee) return pinhole;
+    Pinhole zoomed = pinhole_of(pinhole.size_px, trainee->field_of_view_rad);
+    zoomed.centre_px.x += zoomed.focal_px.x * aside_slope;
+    return zoomed;
 }
 
 std::vector<DatasetCamera> default_cameras() {
@@ -153,15 +168,33 @@ std::vector<DatasetCamera> default_cameras() {
     return {camera};
 }
 
+void require_view(std::span<const DatasetCamera> cameras, bool has_view,
+                  const std::filesystem::path& recording) {
+    if (!has_view && std::ranges::any_of(cameras, &DatasetCamera::follows_trainee))
+        throw std::runtime_error(recording.string() + ": does not say from where the trainee looked");
+}
+
+std::vector<DatasetCamera> cameras_named(const std::string& which) {
+    if (which.empty()) return default_cameras();
+    if (which != "trainee") return read_cameras(which);
+    std::vector<DatasetCamera> cameras = default_cameras();
+    cameras.front().name = which;
+    cameras.front().follows_trainee = cameras.front().has_trainees_angle = true;
+    return cameras;
+}
+
 std::vector<DatasetCamera> read_cameras(const std::filesystem::path& file) {
-    const std::string name = file.string();
-    const std::string text = read_toml_text(file, "a file of cameras");
+    return parse_cameras(read_toml_text(file, "a file of cameras"), file.string(), file.parent_path());
+}
+
+std::vector<DatasetCamera> parse_cameras(std::string_view text, const std::string& name,
+                                         const std::filesystem::path& folder) {
     require_shallow_toml(text, name);
     std::vector<DatasetCamera> cameras;
     try {
         const toml::table root = toml::parse(text, name);
         TomlReader reader(root, name, "the cameras");
-        for (TomlReader& table : reader.tables("cameras")) read_camera(table, file.parent_path(), cameras);
+        for (TomlReader& table : reader.tables("cameras")) read_camera(table, folder, cameras);
         reader.refuse_other_keys();
         if (cameras.empty()) reader.fail("cameras", "has no camera: write [[cameras]]");
         if (cameras.size() > most_cameras)

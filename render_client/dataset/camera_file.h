@@ -9,19 +9,24 @@
 //     target_mm = [0, 0, 0]
 //     up = [0, 0, 1]                    # the default
 //     path = "path.csv"                 # in place of eye, target and up: time_s,x,y,z,qx,qy,qz,qw a line
+//     view = "trainee"                  # in place of those: from where the trainee looked, as recorded
 //     baseline_mm = 5                   # a pair, NAME_left and NAME_right, about that pose
 //     convergence_mm = 100              # where both pictures show the same; default: nowhere, axes parallel
 //
 // A path's poses are the camera's axes (right, down, forward) in patient LPS by recorded time; between lines
 // they are interpolated, before the first and behind the last they stay. A camera without a pose has the
-// first view of the session, as a window has it.
+// first view of the session, as a window has it. So has a trainee's before that is recorded; without
+// intrinsics it has the trainee's angle, from top to bottom, which may change from frame to frame.
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/scene/viewpoint.h"
 #include "render_client/dataset/pinhole.h"
 
 namespace osteomill {
@@ -32,8 +37,14 @@ struct DatasetCamera {
     std::vector<double> times_s{};  ///< ascending
     std::vector<Pose> poses{};      ///< at those; one where it stands still, none: the first view
     double aside_mm = 0.0;          ///< how far to the right of that pose: one of a pair
+    double aside_slope = 0.0;       ///< what of that comes to the middle of the picture: mm a mm forward
+    bool follows_trainee = false;   ///< in place of those poses
+    bool has_trainees_angle = false;
 
-    Pose pose_at(double time_s, const Pose& first_view) const;
+    /// `trainee`: from where they look then, if that is recorded.
+    Pose pose_at(double time_s, const Pose& first_view, const std::optional<Viewpoint>& trainee = {}) const;
+    /// What `pinhole` is then.
+    Pinhole pinhole_at(const std::optional<Viewpoint>& trainee) const;
 };
 
 /// One, at the first view.
@@ -41,5 +52,15 @@ std::vector<DatasetCamera> default_cameras();
 
 /// Throws SceneError, in one line, for what cannot be. A path's file is relative to the cameras' file.
 std::vector<DatasetCamera> read_cameras(const std::filesystem::path& file);
+/// The text of such a file; `name` is what errors call it, and paths are relative to `folder`.
+std::vector<DatasetCamera> parse_cameras(std::string_view text, const std::string& name,
+                                         const std::filesystem::path& folder);
+
+/// Throws std::runtime_error, in one line, where one follows a trainee and the recording has no such view.
+void require_view(std::span<const DatasetCamera> cameras, bool has_view,
+                  const std::filesystem::path& recording);
+
+/// "trainee": one of that name, which follows the trainee; empty: the default; else a file's.
+std::vector<DatasetCamera> cameras_named(const std::string& which);
 
 }  // namespace osteomill

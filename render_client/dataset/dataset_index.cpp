@@ -40,46 +40,38 @@ const Json conventions{
     {"removed_mm3", "bone that was taken since the session began"},
 };
 
-}  // namespace
-
+/// Position and rotation, mm and x, y, z, w: the order of most libraries.
 Json json_of(const Pose& pose) {
     return {pose.position_mm.x, pose.position_mm.y, pose.position_mm.z, pose.rotation.x,
             pose.rotation.y,    pose.rotation.z,    pose.rotation.w};
 }
 
-DatasetIndex::DatasetIndex(const std::filesystem::path& recording, const std::string& version,
-                           std::span<const DatasetCamera> cameras, const DatasetOptions& options)
-    : file_(options.folder / (options.part.of == 1 ? "dataset.json"
-                                                   : fmt::format("dataset-{}-of-{}.json", options.part.number,
-                                                                 options.part.of))) {
-    all_ = {{"osteomill", version},
-            {"commit", built_from_commit()},
-            {"recording", recording.filename().string()},
-            {"gl_renderer", gl::renderer_name()},
-            {"randomised_from", options.randomise ? Json(*options.randomise) : Json()},
-            {"conventions", conventions},
-            {"cameras", Json::array()},
-            {"sessions", Json::array()},
-            {"frames", Json::array()}};
-    for (const DatasetCamera& camera : cameras)
-        all_["cameras"].push_back({{"name", camera.name},
-                                   {"width_px", camera.pinhole.size_px.x},
-                                   {"height_px", camera.pinhole.size_px.y},
-                                   {"intrinsics", intrinsics_of(camera.pinhole)}});
+std::string name_of_index(const DatasetPart& part) {
+    return part.of == 1 ? "dataset.json" : fmt::format("dataset-{}-of-{}.json", part.number, part.of);
 }
 
-void DatasetIndex::begin_session(const SessionInfo& session, const Grid& grid) {
+}  // namespace
+
+Json json_of(const DatasetCamera& camera) {
+    return {{"name", camera.name},
+            {"width_px", camera.pinhole.size_px.x},
+            {"height_px", camera.pinhole.size_px.y},
+            {"intrinsics", camera.has_trainees_angle ? Json() : intrinsics_of(camera.pinhole)}};
+}
+
+Json session_json(const Playhead& playhead) {
+    const SessionInfo& session = playhead.session();
     Json labels = Json::array();
     for (const SurfaceLabel& label : label_table(session.tissues))
         labels.push_back({{"name", label.name}, {"rgb", label.colour_rgb}});
-    all_["sessions"].push_back({{"scene", session.scene_name},
-                                {"case", session.case_name},
-                                {"server_version", session.server_version},
-                                {"voxel_mm", grid.spacing_mm},
-                                {"labels", labels}});
+    return {{"scene", session.scene_name},
+            {"case", session.case_name},
+            {"server_version", session.server_version},
+            {"voxel_mm", playhead.bone().grid().spacing_mm},
+            {"labels", labels}};
 }
 
-void DatasetIndex::add_frame(std::size_t frame, const Playhead& playhead, Json images) {
+Json instant_json(const DatasetFrame& frame, const Playhead& playhead) {
     const ToolState& state = *playhead.tool();
     const SessionInfo& session = playhead.session();
     const glm::dmat4 pose = pose_of(tool_as_thing(state, session));
@@ -90,15 +82,43 @@ void DatasetIndex::add_frame(std::size_t frame, const Playhead& playhead, Json i
         tool["diameter_mm"] = burr.diameter_mm;
         tool["spindle_rpm"] = state.spindle_on ? spindle_rpm(state, burr) : 0.0;
     }
-    all_["frames"].push_back({{"frame", frame},
-                              {"session", all_["sessions"].size() - 1},
-                              {"recorded_s", playhead.time_s()},
-                              {"session_s", state.time_s},
-                              {"tool", tool},
-                              {"hand_mm", json_of(state.hand_position_mm)},
-                              {"force_n", json_of(state.force_n)},
-                              {"removed_mm3", state.removed_mm3},
-                              {"images", std::move(images)}});
+    return {{"frame", frame.number},
+            {"session", frame.session},
+            {"recorded_s", playhead.time_s()},
+            {"session_s", state.time_s},
+            {"tool", tool},
+            {"hand_mm", json_of(state.hand_position_mm)},
+            {"force_n", json_of(state.force_n)},
+            {"removed_mm3", state.removed_mm3}};
+}
+
+Json view_json(const DatasetFrame& frame, std::size_t camera, const DatasetCamera& its) {
+    const CameraImages& images = frame.images[camera];
+    Json view{{"camera", its.name}, {"pose", json_of(images.camera)}};
+    if (its.has_trainees_angle) view["intrinsics"] = intrinsics_of(images.pinhole);
+    if (camera < frame.looks.size()) view["look"] = json_of(frame.looks[camera]);
+    return view;
+}
+
+DatasetIndex::DatasetIndex(const std::filesystem::path& folder, const std::string& recording,
+                           const std::string& version, const DatasetContents& contents)
+    : file_(folder / name_of_index(contents.part)) {
+    all_ = {{"osteomill", version},
+            {"commit", built_from_commit()},
+            {"recording", recording},
+            {"gl_renderer", gl::renderer_name()},
+            {"randomised_from", contents.randomise ? Json(*contents.randomise) : Json()},
+            {"conventions", conventions},
+            {"cameras", Json::array()},
+            {"sessions", Json::array()},
+            {"frames", Json::array()}};
+    for (const DatasetCamera& camera : contents.cameras) all_["cameras"].push_back(json_of(camera));
+}
+
+void DatasetIndex::add_frame(const DatasetFrame& frame, const Playhead& playhead, Json images) {
+    Json all = instant_json(frame, playhead);
+    all["images"] = std::move(images);
+    all_["frames"].push_back(std::move(all));
 }
 
 void DatasetIndex::write() const {

@@ -4,28 +4,35 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "common/recording/playhead.h"
-#include "render_client/dataset/session_images.h"
-#include "render_client/ui/dataset_options.h"
+#include "render_client/dataset/dataset_frames.h"
 
 namespace osteomill {
 
-/// Position and rotation, mm and x, y, z, w: the order of most libraries.
-nlohmann::ordered_json json_of(const Pose& pose);
+// What the index says of a camera, of the session that a playhead is in, of a frame and of one of its
+// cameras; units and conventions are the index's.
+
+/// Name, size and intrinsics; null for these where they change from frame to frame.
+nlohmann::ordered_json json_of(const DatasetCamera& camera);
+nlohmann::ordered_json session_json(const Playhead& playhead);
+/// All but its images: time, tool, hand, force, removed volume. The playhead has a tool.
+nlohmann::ordered_json instant_json(const DatasetFrame& frame, const Playhead& playhead);
+/// Of camera number `camera`: name, pose, intrinsics if those are the frame's, and the look by lot.
+nlohmann::ordered_json view_json(const DatasetFrame& frame, std::size_t camera, const DatasetCamera& its);
 
 class DatasetIndex {
   public:
-    DatasetIndex(const std::filesystem::path& recording, const std::string& version,
-                 std::span<const DatasetCamera> cameras, const DatasetOptions& options);
+    /// In `folder`; of a recording's name, by the program of that version.
+    DatasetIndex(const std::filesystem::path& folder, const std::string& recording,
+                 const std::string& version, const DatasetContents& contents);
 
-    /// Another session of the recording has begun: its scene and its table of labels.
-    void begin_session(const SessionInfo& session, const Grid& grid);
-    /// The instant of a playhead that has a tool; `images`: for each camera pose and files.
-    void add_frame(std::size_t frame, const Playhead& playhead, nlohmann::ordered_json images);
+    /// Another session of the recording has begun.
+    void begin_session(const Playhead& playhead) { all_["sessions"].push_back(session_json(playhead)); }
+    /// `images`: for each camera view_json and files.
+    void add_frame(const DatasetFrame& frame, const Playhead& playhead, nlohmann::ordered_json images);
 
     /// dataset.json or, of a part, dataset-2-of-8.json. Throws std::runtime_error naming the file where it
     /// cannot be written.

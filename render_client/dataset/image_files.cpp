@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render_client/dataset/dataset_index.h"
 #include "render_client/dataset/npy_file.h"
 #include "render_client/volume/png_file.h"
 
@@ -28,21 +27,20 @@ std::vector<float> along_rays(const SurfaceImage& surface, const Pinhole& pinhol
     return ray_mm;
 }
 
-nlohmann::ordered_json write_images(const DatasetOptions& options, std::size_t frame,
-                                    const DatasetCamera& camera, const CameraImages& images,
+nlohmann::ordered_json write_images(const std::filesystem::path& folder, const DatasetImages& wanted,
+                                    std::size_t frame, const std::string& camera, const CameraImages& images,
                                     const std::vector<std::array<std::uint8_t, 3>>& colours_rgb) {
-    nlohmann::ordered_json files{{"camera", camera.name}, {"pose", json_of(images.camera)}};
+    nlohmann::ordered_json files;
     const auto named = [&](const char* kind, const char* ending) {
-        const std::string name = fmt::format("{}/{:06}_{}.{}", camera.name, frame, kind, ending);
+        const std::string name = fmt::format("{}/{:06}_{}.{}", camera, frame, kind, ending);
         files[kind] = name;
-        return options.folder / name;
+        return folder / name;
     };
-    const DatasetImages& wanted = options.images;
     const SurfaceImage& surface = images.surface;
     if (wanted.colour) write_png(images.colour, named("colour", "png"));
     if (wanted.depth) write_npy(surface.size_px, surface.depth_mm, named("depth", "npy"));
     if (wanted.ray_depth)
-        write_npy(surface.size_px, along_rays(surface, camera.pinhole), named("ray_depth", "npy"));
+        write_npy(surface.size_px, along_rays(surface, images.pinhole), named("ray_depth", "npy"));
     if (wanted.labels) write_indexed_png(surface.size_px, images.labels, colours_rgb, named("labels", "png"));
     if (wanted.normals) write_npy(surface.size_px, surface.normal, named("normals", "npy"));
     return files;

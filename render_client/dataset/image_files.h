@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "render_client/dataset/dataset_contents.h"
 #include "render_client/dataset/session_images.h"
-#include "render_client/ui/dataset_options.h"
 
 namespace osteomill {
 
@@ -18,10 +18,10 @@ std::vector<std::array<std::uint8_t, 3>> colours_of(const std::vector<SurfaceLab
 /// Depths along each pixel's ray from depths along the axis, mm.
 std::vector<float> along_rays(const SurfaceImage& surface, const Pinhole& pinhole);
 
-/// Writes what `options` asks for; the camera's pose and, by kind, the names of the files relative to the
-/// set's folder. Throws std::runtime_error naming a file that cannot be written.
-nlohmann::ordered_json write_images(const DatasetOptions& options, std::size_t frame,
-                                    const DatasetCamera& camera, const CameraImages& images,
+/// Writes those that are wanted; by kind, the names of their files relative to the set's folder. Throws
+/// std::runtime_error naming a file that cannot be written.
+nlohmann::ordered_json write_images(const std::filesystem::path& folder, const DatasetImages& wanted,
+                                    std::size_t frame, const std::string& camera, const CameraImages& images,
                                     const std::vector<std::array<std::uint8_t, 3>>& colours_rgb);
 
 }  // namespace osteomill

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "common/files/atomic_file.h"
 
@@ -48,13 +47,18 @@ void write_npy(const glm::ivec2& size_px, std::span<const float> values, const s
     write(header_of("<f4", fmt::format("{}, {}", size_px.y, size_px.x)), std::as_bytes(values), file);
 }
 
-void write_npy(const glm::ivec2& size_px, std::span<const glm::vec3> values,
-               const std::filesystem::path& file) {
-    require_as_many(size_px, values.size());
+std::vector<std::uint16_t> halves_of(std::span<const glm::vec3> values) {
     std::vector<std::uint16_t> halves;
     halves.reserve(3 * values.size());
     for (const glm::vec3& value : values)
         for (int axis = 0; axis < 3; ++axis) halves.push_back(glm::packHalf1x16(value[axis]));
+    return halves;
+}
+
+void write_npy(const glm::ivec2& size_px, std::span<const glm::vec3> values,
+               const std::filesystem::path& file) {
+    require_as_many(size_px, values.size());
+    const std::vector<std::uint16_t> halves = halves_of(values);
     write(header_of("<f2", fmt::format("{}, {}, 3", size_px.y, size_px.x)), std::as_bytes(std::span(halves)),
           file);
 }

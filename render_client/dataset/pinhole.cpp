@@ -32,11 +32,16 @@ Pose pose_of(const Camera& camera) {
     return pose_of(camera.eye_mm(), glm::dmat3(camera.right(), -camera.up(), camera.forward()));
 }
 
-Camera camera_of(const Pinhole& pinhole, const Pose& pose, const glm::dvec3& ball_centre_mm,
-                 double ball_radius_mm) {
+Viewpoint viewpoint_of(const Camera& camera) {
+    Camera middle = camera;
+    middle.eye_right_mm = 0.0;
+    const Pose pose = pose_of(middle);
+    return {pose.position_mm, pose.rotation, camera.field_of_view_rad};
+}
+
+void look_through(Camera& camera, const Pinhole& pinhole, const Pose& pose) {
     const glm::dmat3 axes = glm::mat3_cast(pose.rotation);
     const glm::dvec3 right = axes[0], forward = axes[2];
-    Camera camera;
     camera.elevation_rad = std::asin(std::clamp(-forward.z, -1.0, 1.0));
     const bool is_upright = std::abs(forward.z) > 1.0 - 1e-12;
     camera.azimuth_rad = is_upright ? std::atan2(right.y, right.x) : std::atan2(-forward.x, forward.y);
@@ -48,6 +53,12 @@ Camera camera_of(const Pinhole& pinhole, const Pose& pose, const glm::dvec3& bal
     camera.pixel_aspect = pinhole.focal_px.y / pinhole.focal_px.x;
     camera.middle_slope = (0.5 * (size.x - 1.0) - pinhole.centre_px.x) / pinhole.focal_px.x;
     camera.middle_rise = (pinhole.centre_px.y - 0.5 * (size.y - 1.0)) / pinhole.focal_px.y;
+}
+
+Camera camera_of(const Pinhole& pinhole, const Pose& pose, const glm::dvec3& ball_centre_mm,
+                 double ball_radius_mm) {
+    Camera camera;
+    look_through(camera, pinhole, pose);
     camera.near_mm = 0.01 * ball_radius_mm;
     camera.far_mm = glm::distance(pose.position_mm, ball_centre_mm) + 20.0 * ball_radius_mm;
     return camera;

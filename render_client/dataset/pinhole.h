@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "common/scene/viewpoint.h"
 #include "render_client/volume/camera.h"
 
 namespace osteomill {
@@ -37,6 +38,13 @@ Pose pose_of(const glm::dvec3& position_mm, const glm::dmat3& axes);
 /// which way is free where `up` is along the line of sight.
 Pose looking_at(const glm::dvec3& eye_mm, const glm::dvec3& target_mm, const glm::dvec3& up);
 Pose pose_of(const Camera& camera);
+
+/// From where it looks; of a pair of eyes the middle.
+Viewpoint viewpoint_of(const Camera& camera);
+
+/// Moves a camera to where it has that pose and sees as a pinhole does; near and far planes, and its distance
+/// from what it turns about, stay.
+void look_through(Camera& camera, const Pinhole& pinhole, const Pose& pose);
 
 /// As it is drawn, with near and far planes that hold a ball.
 Camera camera_of(const Pinhole& pinhole, const Pose& pose, const glm::dvec3& ball_centre_mm,

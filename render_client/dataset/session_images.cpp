@@ -70,9 +70,11 @@ void SessionImages::take_structures() {
 CameraImages SessionImages::draw(std::size_t camera, bool wants_colour, bool wants_surface) {
     View& view = *views_.at(camera);
     const BallInView ball = ball_round(textures_);
-    CameraImages images{.camera = view.camera.pose_at(playhead_.time_s(), first_view_),
+    const std::optional<Viewpoint>& trainee = playhead_.state().view;
+    CameraImages images{.camera = view.camera.pose_at(playhead_.time_s(), first_view_, trainee),
+                        .pinhole = view.camera.pinhole_at(trainee),
                         .colour = Picture(glm::ivec2(0))};
-    const Camera drawn = camera_of(view.camera.pinhole, images.camera, ball.centre_mm, ball.radius_mm);
+    const Camera drawn = camera_of(images.pinhole, images.camera, ball.centre_mm, ball.radius_mm);
     std::optional<DrawnTool> tool;
     if (playhead_.tool()) tool = tool_as_thing(*playhead_.tool(), playhead_.session());
     const DrawnTool* shown = tool ? &*tool : nullptr;

@@ -17,6 +17,7 @@ namespace osteomill {
 /// What a camera sees of one instant.
 struct CameraImages {
     Pose camera{};
+    Pinhole pinhole{};
     Picture colour;
     SurfaceImage surface{};
     std::vector<std::uint8_t> labels{};

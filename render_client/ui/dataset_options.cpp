@@ -2,10 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
+#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "common/program/option_checks.h"
 #include "common/text/words.h"
@@ -13,24 +12,6 @@
 namespace osteomill {
 
 namespace {
-
-/// Kinds of images between commas. Throws CLI::ValidationError.
-DatasetImages images_named(const std::string& text) {
-    DatasetImages images{false, false, false, false, false};
-    const std::array kinds{
-        std::pair{"colour", &DatasetImages::colour}, std::pair{"depth", &DatasetImages::depth},
-        std::pair{"ray-depth", &DatasetImages::ray_depth}, std::pair{"labels", &DatasetImages::labels},
-        std::pair{"normals", &DatasetImages::normals}};
-    for (const std::string& name : cells_of(text)) {
-        const auto kind = std::ranges::find_if(kinds, [&](const auto& one) { return name == one.first; });
-        if (kind == kinds.end())
-            throw CLI::ValidationError(
-                "--dataset-images",
-                "has '" + name + "', not one of colour, depth, ray-depth, labels, normals");
-        images.*kind->second = true;
-    }
-    return images;
-}
 
 /// "2/8". Throws CLI::ValidationError.
 DatasetPart part_named(const std::string& text) {
@@ -51,24 +32,25 @@ CLI::Option* add_dataset_options(CLI::App& app, DatasetOptions& dataset) {
                        "Write an image set of the recording: pictures, depth, labels, normals and poses "
                        "(docs/datasets.md)")
             ->type_name("DIR");
-    app.add_option_function<std::string>(
-           "--cameras",
-           [&](const std::string& text) {
-               if (text == "trainee")
-                   throw CLI::ValidationError(
-                       "--cameras",
-                       "a recording does not hold the trainee's view; write a path of the camera");
-               dataset.cameras = text;
-           },
-           "Cameras of the image set, a TOML file (one, at the first view)")
-        ->type_name("FILE")
+    app.add_option(
+           "--cameras", dataset.cameras,
+           "Cameras of the image set: a TOML file, or trainee: from where the one looked who moved the "
+           "tool (one, at the first view)")
+        ->type_name("FILE|trainee")
         ->needs(folder);
     app.add_option("--dataset-fps", dataset.frames_per_s,
                    "Frames a recorded second of the image set (every recorded state)")
         ->check(within(0.001, 1000.0))
         ->needs(folder);
     app.add_option_function<std::string>(
-           "--dataset-images", [&](const std::string& text) { dataset.images = images_named(text); },
+           "--dataset-images",
+           [&](const std::string& text) {
+               try {
+                   dataset.images = images_named(cells_of(text));
+               } catch (const std::invalid_argument& wrong) {
+                   throw CLI::ValidationError("--dataset-images", wrong.what());
+               }
+           },
            "What is written, of colour, depth, ray-depth, labels, normals (all but ray-depth)")
         ->type_name("KIND,...")
         ->needs(folder);

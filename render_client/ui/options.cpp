@@ -153,6 +153,7 @@ void add_microscope(CLI::App& app, RenderOptions& options) {
 std::string contradiction(const RenderOptions& options) {
     if (options.dataset && !options.replay) return "--dataset needs --replay FILE";
     if (options.film && !options.replay) return "--film needs --replay FILE";
+    if (!options.film_camera.empty() && !options.film) return "--camera needs --film FILE";
     if (options.film && (options.offscreen || !options.screenshots.empty() || options.dataset))
         return "--film goes without --offscreen, --screenshots and --dataset: it has its own pictures";
     if (options.gpu && !options.offscreen && !options.film && !options.dataset)
@@ -238,6 +239,11 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
                    "With --replay: make a film of it, 30 pictures a second, and end; the program ffmpeg "
                    "does it, by the ending of the name (.mp4)")
         ->type_name("FILE");
+    app.add_option(
+           "--camera", options.film_camera,
+           "The film is seen by this camera: a TOML file as for --cameras, or trainee: from where the "
+           "one looked who moved the tool (that, where it is recorded)")
+        ->type_name("FILE|trainee");
     app.add_option_function<std::string>(
            "--window-size",
            [&](const std::string& text) {

@@ -29,6 +29,7 @@ struct RenderOptions {
     double speed = 1.0;                           ///< of the recording: recorded seconds a second
     double from_s = 0.0;                          ///< where in the recording it begins
     std::optional<std::filesystem::path> film;    ///< made of the recording, offscreen
+    std::string film_camera{};                    ///< as of cameras_named; empty: the trainee's, if recorded
     RendererChoice renderer = RendererChoice::raycast;
     ShadingSettings look;
     std::filesystem::path

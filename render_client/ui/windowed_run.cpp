@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "common/scene/scene_file.h"
+#include "render_client/dataset/pinhole.h"
 #include "render_client/sound/session_sound.h"
 #include "render_client/ui/input/commands.h"
 #include "render_client/ui/input/hand_input.h"
@@ -48,6 +49,8 @@ constexpr std::chrono::milliseconds driving_period(10);
 /// Otherwise events wake the thread, but a mouse that reports a thousand times a second no oftener than this.
 constexpr std::chrono::milliseconds shortest_period(4);
 constexpr double longest_wait_s = 0.1;
+/// Between two viewpoints that the server is told.
+constexpr std::chrono::milliseconds view_period(33);
 
 void move_camera(SessionPicture& session, Commands& commands, float wheel_notches, bool left_turns) {
     const ImGuiIO& io = ImGui::GetIO();
@@ -149,6 +152,10 @@ class Drawing {
         work_sound(std::chrono::duration<double>(now - began_).count());
 
         const SessionNews news = session_.take_in();
+        if (session_.has_bone() && now - view_told_ >= view_period) {
+            source_.send_view(viewpoint_of(session_.camera()));
+            view_told_ = now;
+        }
         const LinkUpdate& link = session_.link();
         session_over_ = options_.until_server_ends && link.status == LinkStatus::finished;
         commands_.tell(link.events, std::chrono::duration<double>(now - began_).count());
@@ -275,6 +282,7 @@ class Drawing {
     Redraw redraw_;
     WindowInput input_;
     Clock::time_point drawn_ = began_;
+    Clock::time_point view_told_{};
     bool drills_ = false;
     bool session_over_ = false;
 };

@@ -12,6 +12,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -297,6 +298,65 @@ TEST_F(WindowTest, UndoesMarksAndFinishesASessionByKeys) {
     EXPECT_EQ(last, Playhead(folder("session.pcap")).bone_checksum()) << "the bone is whole again";
     press("Escape");
     EXPECT_EQ(window_->wait(), 0) << "after the session nobody is asked: " << window_->err();
+}
+
+TEST_F(WindowTest, IsRecordedFromWhereTheTraineeLooksAndSeenFromThereAgain) {
+    server_->send_signal(SIGINT);
+    ASSERT_TRUE(server_->wait());
+    server_.emplace(std::vector<std::string>{HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--device", "client",
+                                             "--record", folder("session.pcap")});
+    address_ = server_->line_after("listening on ").value();
+    open_window({"--no-panels"});
+    const Picture first = display_->screen();
+    ASSERT_TRUE(display_->xdotool({"mousemove", "240", "180", "mousedown", "3"}));
+    EXPECT_TRUE(comes_true([&] {
+        display_->xdotool({"mousemove_relative", "7", "2"});
+        return difference(display_->screen(), first) >= 0.2;
+    })) << "the view turns";
+    ASSERT_TRUE(display_->xdotool({"mouseup", "3"}));
+    press("plus");  // and is magnified
+    ASSERT_TRUE(stands_still());
+    const Picture seen = display_->screen();
+
+    const auto viewpoints = [&](const std::string& name) {
+        std::vector<Viewpoint> all;
+        Playhead playhead(folder(name));
+        while (playhead.step(std::numeric_limits<double>::infinity()) != Playhead::Step::end)
+            if (playhead.state().view) all.push_back(*playhead.state().view);
+        return all;
+    };
+    // So long as the mouse rests nothing more comes.
+    ASSERT_TRUE(comes_true([&] {
+        const auto all = viewpoints("session.part.pcap");
+        return !all.empty() && all.back().field_of_view_rad < 0.5;
+    }));
+    server_->send_signal(SIGINT);
+    ASSERT_TRUE(server_->wait());
+    window_.reset();
+    const std::vector<Viewpoint> views = viewpoints("session.pcap");
+    EXPECT_GT(glm::distance(views.front().eye_mm, views.back().eye_mm), 5.0);
+
+    std::ofstream(folder("eyes.toml"))
+        << "[[cameras]]\nname = \"eyes\"\nwidth_px = 480\nheight_px = 360\nview = \"trainee\"\n";
+    const Finished set =
+        run_program({RENDER_CLIENT, "--replay", folder("session.pcap"), "--dataset", folder("set"),
+                     "--cameras", folder("eyes.toml"), "--dataset-images", "colour"});
+    ASSERT_EQ(set.status, 0) << set.err;
+    const auto index = nlohmann::json::parse(std::ifstream(folder("set/dataset.json")));
+    const auto& last = index["frames"].back()["images"][0];
+    EXPECT_NEAR(last["pose"][0].get<double>(), views.back().eye_mm.x, 1e-9);
+    EXPECT_NEAR(last["intrinsics"][0][0].get<double>(),
+                180.0 / std::tan(0.5 * views.back().field_of_view_rad), 1e-6);
+    EXPECT_TRUE(index["cameras"][0]["intrinsics"].is_null());
+    EXPECT_LT(difference(read_png(folder("set/" + last["colour"].get<std::string>())), seen), 0.05);
+
+    const Finished film = run_program({RENDER_CLIENT, "--replay", folder("session.pcap"), "--film",
+                                       folder("film.mkv"), "--window-size", "480x360", "--no-panels"});
+    ASSERT_EQ(film.status, 0) << film.err;
+    const Finished picture = run_program({"/usr/bin/ffmpeg", "-loglevel", "error", "-sseof", "-1", "-i",
+                                          folder("film.mkv"), "-update", "1", folder("last.png")});
+    ASSERT_EQ(picture.status, 0) << picture.err;
+    EXPECT_LT(difference(read_png(folder("last.png")), seen), 0.1);
 }
 
 TEST_F(WindowTest, ImportsAScanAndStartsASessionOfItByMouse) {

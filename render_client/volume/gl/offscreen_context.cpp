@@ -134,10 +134,19 @@ void OffscreenContext::start_surfaceless() {
     }
 }
 
+// EGL's display is the process's: it stays, for to end it would end every other context on it.
 OffscreenContext::~OffscreenContext() {
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    release();
     eglDestroyContext(display_, context_);
-    eglTerminate(display_);
+}
+
+void OffscreenContext::make_current() const {
+    eglBindAPI(EGL_OPENGL_API);
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+}
+
+void OffscreenContext::release() const {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 std::unique_ptr<SecondContext> OffscreenContext::second() const {

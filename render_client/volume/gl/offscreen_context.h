@@ -1,6 +1,6 @@
 // An OpenGL 3.3 core context without a window or a display server (EGL): on the first GPU that has one, else
 // on whatever draws without a surface, which may be Mesa's software rasteriser. Made current in the
-// constructor, on the calling thread; draw into a Framebuffer.
+// constructor, on the calling thread; draw into a Framebuffer. A process may have several.
 #pragma once
 
 #include <memory>
@@ -24,6 +24,10 @@ class OffscreenContext {
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
     ~OffscreenContext();
+
+    /// On the calling thread, and no more on any.
+    void make_current() const;
+    void release() const;
 
     /// One that shares its textures and must not outlive it; null where the driver makes none.
     std::unique_ptr<SecondContext> second() const;

@@ -88,8 +88,42 @@ TEST_F(CameraFileTest, MovesAlongAPath) {
     EXPECT_NEAR(glm::distance(turned, glm::dvec3(0, 1, 0)), 0.0, 1e-12);
 }
 
+TEST_F(CameraFileTest, FollowsTheTraineeInPairsToo) {
+    const auto cameras = read(R"([[cameras]]
+name = "eyes"
+view = "trainee"
+baseline_mm = 4
+convergence_mm = 80
+[[cameras]]
+name = "fixed"
+view = "trainee"
+intrinsics = [[500, 0, 319.5], [0, 500, 239.5], [0, 0, 1]]
+)");
+    ASSERT_EQ(cameras.size(), 3u);
+    // Looks along y, x to the right.
+    const Viewpoint trainee{.eye_mm = {1, -50, 0},
+                            .rotation = looking_at({}, {0, 1, 0}, {0, 0, 1}).rotation,
+                            .field_of_view_rad = 2.0 * std::atan(0.25)};
+    const Pose first{.position_mm = {7, 7, 7}};
+    EXPECT_EQ(cameras[2].pose_at(0.0, first).position_mm, first.position_mm) << "before it is recorded";
+    EXPECT_EQ(cameras[2].pose_at(0.0, first, trainee).position_mm, trainee.eye_mm);
+    EXPECT_EQ(cameras[2].pinhole_at(trainee).focal_px, glm::dvec2(500.0));
+    EXPECT_NEAR(glm::distance(cameras[0].pose_at(0.0, first, trainee).position_mm, glm::dvec3(-1, -50, 0)),
+                0.0, 1e-9);
+    const Pinhole left = cameras[0].pinhole_at(trainee);
+    EXPECT_NEAR(left.focal_px.x, 240.0 / 0.25, 1e-9);
+    // What both see 80 mm ahead lies in the middle: 2 mm to the right of the left eye.
+    EXPECT_NEAR(left.focal_px.x * 2.0 / 80.0 + left.centre_px.x, 319.5, 1e-9);
+    EXPECT_EQ(cameras_named("trainee").front().pose_at(0.0, first, trainee).position_mm, trainee.eye_mm);
+}
+
 TEST_F(CameraFileTest, SaysWhatIsWrongInOneLine) {
     using ::testing::HasSubstr;
+    EXPECT_THAT(refusal("[[cameras]]\nname = \"a\"\nview = \"nurse\"\n"), HasSubstr("trainee"));
+    EXPECT_THAT(refusal("[[cameras]]\nname = \"a\"\nview = \"trainee\"\neye_mm = [0, 0, 0]\n"),
+                HasSubstr("target_mm"));
+    EXPECT_THAT(refusal("[[cameras]]\nname = \"a\"\nview = \"trainee\"\npath = \"p.csv\"\n"),
+                HasSubstr("stands in place of"));
     EXPECT_THAT(refusal(""), HasSubstr("has no camera"));
     EXPECT_THAT(refusal("[[cameras]]\nname = \"a/b\"\n"), HasSubstr("'a/b' must be of letters"));
     EXPECT_THAT(refusal("[[cameras]]\nname = \"a\"\n[[cameras]]\nname = \"a\"\n"),

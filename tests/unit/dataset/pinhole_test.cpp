@@ -56,5 +56,26 @@ TEST(PinholeTest, TakesUpThePoseOfACamera) {
     EXPECT_NEAR(again.middle_rise, 0.0, 1e-12);
 }
 
+TEST(PinholeTest, MovesACameraToWhereAnotherLooks) {
+    Camera theirs = camera_on({1.0, 2.0, 3.0}, 30.0);
+    orbit(theirs, 0.4, -0.3);
+    theirs.roll_rad = 0.2;
+    theirs.field_of_view_rad = 0.3;
+    const glm::dvec3 between_eyes_mm = theirs.eye_mm();
+    theirs.eye_right_mm = -3.0;
+    const Viewpoint view = viewpoint_of(theirs);
+    EXPECT_NEAR(glm::distance(view.eye_mm, between_eyes_mm), 0.0, 1e-9);
+
+    Camera mine = camera_on(glm::dvec3(0.0), 20.0);
+    const Camera before = mine;
+    look_through(mine, pinhole_of({960, 600}, view.field_of_view_rad), {view.eye_mm, view.rotation});
+    EXPECT_NEAR(glm::distance(mine.eye_mm(), between_eyes_mm), 0.0, 1e-9);
+    EXPECT_NEAR(glm::distance(mine.right(), theirs.right()), 0.0, 1e-9);
+    EXPECT_NEAR(glm::distance(mine.forward(), theirs.forward()), 0.0, 1e-9);
+    EXPECT_NEAR(mine.field_of_view_rad, 0.3, 1e-12);
+    EXPECT_EQ(mine.distance_mm, before.distance_mm);
+    EXPECT_EQ(mine.near_mm, before.near_mm);
+}
+
 }  // namespace
 }  // namespace osteomill::pinhole_test

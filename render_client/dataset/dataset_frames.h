@@ -1,0 +1,63 @@
+// The frames of an image set, one after the other, in memory: what DatasetRun writes and Python is given.
+//
+// Nothing depends on the time that it takes: the same recording and contents give the same bits on one
+// machine.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "common/recording/playhead.h"
+#include "render_client/dataset/dataset_contents.h"
+#include "render_client/dataset/random_look.h"
+#include "render_client/dataset/session_images.h"
+
+namespace osteomill {
+
+struct DatasetFrame {
+    std::size_t number = 0;  ///< of all parts, from 0
+    std::size_t session = 0;
+    std::vector<CameraImages> images{};  ///< a camera each
+    std::vector<RandomLook> looks{};     ///< likewise; none without domain randomisation
+};
+
+class DatasetFrames {
+  public:
+    /// `on_session` is called whenever one begins, the first from here. Throws RecordingError, and
+    /// std::runtime_error, in one line, for a bone that cannot be drawn and for a camera that follows a
+    /// trainee of whom the recording does not say from where they looked. All calls, and the end of this,
+    /// need an OpenGL context current, the same.
+    DatasetFrames(std::filesystem::path recording, DatasetContents contents,
+                  std::function<void(const Playhead&)> on_session);
+
+    /// The next of this part; nothing at the recording's end, and where `stop_asked` says so, which is asked
+    /// at every state. Throws RecordingError for what cannot be read.
+    std::optional<DatasetFrame> next(const std::function<bool()>& stop_asked);
+
+    /// The instant of the last frame.
+    const Playhead& playhead() const { return playhead_; }
+    const DatasetContents& contents() const { return contents_; }
+    const BoneTextures& textures() const { return images_->textures(); }
+    /// Among all parts' frames so far.
+    std::size_t count() const { return count_; }
+
+  private:
+    void begin_session();
+    bool has_more_of_this_instant() const;
+    bool is_due();
+    DatasetFrame draw(std::size_t number);
+
+    DatasetContents contents_;
+    std::function<void(const Playhead&)> on_session_;
+    Playhead playhead_;
+    std::optional<SessionImages> images_;
+    std::size_t sessions_ = 0;
+    std::size_t count_ = 0;
+    double period_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace osteomill
