@@ -1,7 +1,7 @@
 """Wheel of the module: CMake builds the core where the programs are built, setuptools packs it.
 
 OSTEOMILL_BUILD names the build's folder; otherwise it is build/release of the repository, configured by its preset if need be.
-OSTEOMILL_CORE names a core that is built already."""
+OSTEOMILL_MODULES names a folder of extension modules that are built already."""
 
 import os
 import pathlib
@@ -21,20 +21,21 @@ class BuildWithCMake(build_ext):
     def build_extension(self, extension):
         to = pathlib.Path(self.get_ext_fullpath(extension.name))
         to.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(os.environ.get("OSTEOMILL_CORE") or self.built_core(), to)
+        folder = pathlib.Path(os.environ.get("OSTEOMILL_MODULES") or self.built_modules())
+        [built] = folder.glob(f"{extension.name.rpartition('.')[2]}.*.so")
+        shutil.copy(built, to)
 
-    def built_core(self):
+    def built_modules(self):
         if not (BUILD / "CMakeCache.txt").exists():
             subprocess.run(["cmake", "--preset", "release", "-B", BUILD, "-DOSTEOMILL_TESTS=OFF"], cwd=REPOSITORY, check=True)
         subprocess.run(["cmake", "--build", BUILD, "--target", "osteomill_python"], check=True)
-        [core] = (BUILD / "python" / "osteomill").glob("_core.*.so")
-        return core
+        return BUILD / "python" / "osteomill"
 
 
 SCRATCH.mkdir(parents=True, exist_ok=True)
 setup(
     version=re.search(r"project\(osteomill VERSION ([\d.]+)", (REPOSITORY / "CMakeLists.txt").read_text())[1],
-    ext_modules=[Extension("osteomill._core", sources=[])],
+    ext_modules=[Extension("osteomill._core", sources=[]), Extension("osteomill._render", sources=[])],
     cmdclass={"build_ext": BuildWithCMake},
     options={"build": {"build_base": str(SCRATCH)}, "egg_info": {"egg_base": str(SCRATCH)}},
 )

@@ -39,8 +39,8 @@ trap 'rm -rf "$installed"' EXIT
 for package in "$out"/*.deb; do dpkg-deb -x "$package" "$installed"; done
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
-# Of the package's core, which needs Debian 12's libraries: there is nothing to compile anew.
-OSTEOMILL_CORE=$(find "$installed" -name "_core.*.so") \
+# Of the package's modules, which need Debian 12's libraries: there is nothing to compile anew.
+OSTEOMILL_MODULES=$(dirname "$(find "$installed" -name "_core.*.so")") \
     /usr/bin/python3 -m pip --quiet wheel --no-build-isolation --no-index --no-deps --wheel-dir "$out" ./python
 scripts/bill_of_materials.py "$installed"/usr/bin/* >"$out/osteomill-$version.spdx.json"
 (cd "$out" && LC_ALL=C sha256sum -- * >SHA256SUMS)

@@ -99,6 +99,9 @@ patient LPS.)")
              py::arg("file"),
              "Opens a file of haptic_server --record, --report (session.pcap) or Session(record=...). "
              "RuntimeError: it is none.")
+        .def_property_readonly(
+            "file", [](const SharedRecording& recording) { return recording->file(); },
+            "The file that was opened.")
         .def_property_readonly("time_s", column(&StateColumns::time_s),
                                "Seconds since the recording began: (N,).")
         .def_property_readonly("session_time_s", column(&StateColumns::session_time_s),

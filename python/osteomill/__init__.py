@@ -17,6 +17,7 @@ from osteomill._core import (
     reference_force,
 )
 from osteomill.env import Box, Env
+from osteomill.render import Rendering, render
 from osteomill.sweep import sweep
 
 __all__ = [
@@ -28,10 +29,12 @@ __all__ = [
     "Env",
     "Motion",
     "Recording",
+    "Rendering",
     "Session",
     "State",
     "Step",
     "__version__",
     "reference_force",
+    "render",
     "sweep",
 ]

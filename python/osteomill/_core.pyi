@@ -1,5 +1,6 @@
 # Types of the compiled core; what it does say its docstrings.
 import os
+import pathlib
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -174,6 +175,8 @@ class Session:
 
 class Recording:
     def __init__(self, file: _Path) -> None: ...
+    @property
+    def file(self) -> pathlib.Path: ...
     @property
     def time_s(self) -> _Floats: ...
     @property

@@ -31,6 +31,9 @@ const std::vector<Room>& rooms() {
         {"haptic_server/", {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/"}},
         {"render_client/", {"common/"}},
         {"slicer/", {"common/", "render_client/link/"}},
+        // The pictures of the module of Python are a library of their own: its core knows no OpenGL.
+        {"python/render/",
+         {"common/", "python/module/arrays.h", "render_client/dataset/", "render_client/volume/"}},
         {"python/",
          {"common/", "simulation/", "devices/simulated/", "imaging/", "analysis/", "haptic_server/"}},
         {"studies/",

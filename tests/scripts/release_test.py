@@ -10,6 +10,7 @@ import unittest
 import zipfile
 
 SOURCE = pathlib.Path(sys.argv.pop())
+RENDER = "_render" + sysconfig.get_config_var("EXT_SUFFIX")
 CORE = "_core" + sysconfig.get_config_var("EXT_SUFFIX")
 WHEEL = f"osteomill-1.2.3-cp311-cp311-{sysconfig.get_platform().replace('-', '_')}.whl"
 
@@ -52,6 +53,7 @@ class Release(unittest.TestCase):
         for folder in (made / "usr/bin", modules):
             folder.mkdir(parents=True, exist_ok=True)
         shutil.copy("/bin/false", modules / CORE)
+        shutil.copy("/bin/true", modules / RENDER)
         shutil.copy("/bin/true", made / "usr/bin/haptic_server")
         (made / "DEBIAN/control").write_text("Package: osteomill-server\nVersion: 1.2.3\nArchitecture: all\n"
                                              "Maintainer: a <a@b.example>\nDescription: a\n")
@@ -96,6 +98,7 @@ class Release(unittest.TestCase):
             bytes_of_wheel.append(file.read_bytes())
             with zipfile.ZipFile(file) as wheel:
                 self.assertEqual(wheel.read(f"osteomill/{CORE}"), pathlib.Path("/bin/false").read_bytes())
+                self.assertEqual(wheel.read(f"osteomill/{RENDER}"), pathlib.Path("/bin/true").read_bytes())
                 self.assertIn("osteomill/_core.pyi", wheel.namelist())
         self.assertEqual(*bytes_of_wheel)
 

@@ -1,0 +1,126 @@
+"""Pictures of sessions, drawn offscreen in the caller's process (docs/datasets.md)."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from osteomill._core import Case, Recording, Session
+
+if TYPE_CHECKING:
+    from osteomill import _render
+
+_Path = str | os.PathLike[str]
+
+
+class Rendering(Iterator[dict[str, Any]]):
+    """Frames of a recording, one after the other: what render() returns.
+
+    A frame is what the index of an image set says of it (docs/datasets.md), with arrays where that has lists
+    of numbers and names of files: "recorded_s", "session_s", "tool" with its "pose", "hand_mm", "force_n",
+    "removed_mm3", and under "images", by the camera's name, its "pose" and each kind of image. All is of one
+    instant. Any thread may ask for the next frame.
+    """
+
+    def __init__(self, rendering: _render.Rendering, most: int | None = None) -> None:
+        self._rendering = rendering
+        self._left = most
+
+    @property
+    def cameras(self) -> dict[str, np.ndarray[Any, Any] | None]:
+        """The intrinsics of each camera, (3, 3); None: each image has its own, "intrinsics"."""
+        return {camera["name"]: _array(camera["intrinsics"]) for camera in self._rendering.cameras}
+
+    @property
+    def sessions(self) -> list[dict[str, Any]]:
+        """Those that have begun so far; of each the scene and the table of labels. A frame says which by "session"."""
+        return self._rendering.sessions
+
+    def __next__(self) -> dict[str, Any]:
+        frame = self._rendering.next() if self._left != 0 else None
+        if frame is None:
+            raise StopIteration
+        if self._left is not None:
+            self._left -= 1
+        for name in ("hand_mm", "force_n"):
+            frame[name] = _array(frame[name])
+        frame["tool"]["pose"] = _array(frame["tool"]["pose"])
+        for view in frame["images"]:
+            for name in {"pose", "intrinsics"} & view.keys():
+                view[name] = _array(view[name])
+        frame["images"] = {view.pop("camera"): view for view in frame["images"]}
+        return frame
+
+
+def render(
+    case_or_recording: Case | Recording | _Path,
+    cameras: _Path | Sequence[Mapping[str, Any]] | None = None,
+    *,
+    fps: float | None = None,
+    from_s: float = 0.0,
+    images: Sequence[str] = ("colour", "depth", "labels", "normals"),
+    randomise: int | None = None,
+) -> Rendering:
+    """Draw frames of a recording, or the one of a case before anything is milled, without a display.
+
+    case_or_recording: a Recording or its file, or a Case.
+    cameras: a file of cameras, or what it would hold, a mapping for each ("name", "eye_mm", "intrinsics", ...);
+        "trainee": from where the trainee looked; None: one of 640 x 480 at the first view.
+    fps: frames a recorded second, the first state at or behind each; None: every recorded state.
+    from_s: recorded time from which on there are frames.
+    images: of "colour", "depth", "ray-depth", "labels", "normals".
+    randomise: the seed of domain randomisation; None: as in the window.
+
+    To the bit what render_client --dataset writes: "colour" uint8 (height, width, 3), "depth" and "ray_depth"
+    float32 (height, width) in mm, "labels" uint8 (height, width), "normals" float16 (height, width, 3).
+    Raises ValueError for cameras and images that cannot be, RuntimeError for a recording that cannot be read
+    and where there is no OpenGL 3.3.
+    """
+    try:
+        from osteomill import _render
+    except ImportError as error:
+        raise RuntimeError(f"osteomill.render: {error}; install libepoxy0, libegl1 and libgl1-mesa-dri") from None
+
+    named, text = ("", "") if cameras is None else _cameras(cameras)
+
+    def begin(recording: _Path) -> _render.Rendering:
+        return _render.Rendering(recording, named, text, fps, from_s, list(images), randomise)
+
+    if isinstance(case_or_recording, Recording):
+        return Rendering(begin(case_or_recording.file))
+    if not isinstance(case_or_recording, Case):
+        return Rendering(begin(case_or_recording))
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "start.pcap"
+        with Session(case_or_recording, record=file) as session:
+            session.step()
+        return Rendering(begin(file), most=1)
+
+
+def _cameras(cameras: _Path | Sequence[Mapping[str, Any]]) -> tuple[str, str]:
+    """What the core is given: a name, or the text of a file. A number, text or list of JSON is one of TOML."""
+    if isinstance(cameras, str | os.PathLike):
+        return os.fspath(cameras), ""
+    lines: list[str] = []
+    for camera in cameras:
+        lines.append("[[cameras]]")
+        for key, value in camera.items():
+            written = json.dumps(value, ensure_ascii=False, default=_plain)
+            lines.append(f"{json.dumps(key)} = {written}")
+    return "", "\n".join(lines) + "\n"
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    return os.fspath(value)
+
+
+def _array(numbers: Any) -> Any:
+    return None if numbers is None else np.array(numbers, float)

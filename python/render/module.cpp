@@ -1,0 +1,127 @@
+// The module osteomill._render: frames of an image set as arrays. Apart from the core, which has no OpenGL;
+// osteomill.render loads it when it is called.
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/scene/scene_file.h"
+#include "python/module/arrays.h"
+#include "python/render/rendering.h"
+#include "render_client/dataset/dataset_index.h"
+#include "render_client/dataset/image_files.h"
+#include "render_client/dataset/npy_file.h"
+
+namespace osteomill::python {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The arrays of one camera, by kind as in the files' names.
+py::dict arrays_of(CameraImages&& images, const DatasetImages& wanted) {
+    const py::ssize_t width = images.pinhole.size_px.x, height = images.pinhole.size_px.y;
+    const std::vector<py::ssize_t> flat{height, width}, deep{height, width, 3};
+    py::dict arrays;
+    if (wanted.colour) arrays["colour"] = array_of(std::move(images.colour.rgb), deep);
+    if (wanted.ray_depth) arrays["ray_depth"] = array_of(along_rays(images.surface, images.pinhole), flat);
+    if (wanted.depth) arrays["depth"] = array_of(std::move(images.surface.depth_mm), flat);
+    if (wanted.labels) arrays["labels"] = array_of(std::move(images.labels), flat);
+    if (wanted.normals)
+        arrays["normals"] = array_of(halves_of(images.surface.normal), deep).attr("view")("float16");
+    return arrays;
+}
+
+py::object from_json(const Json& json) {
+    // Names may be what a hostile file holds.
+    return py::module_::import("json").attr("loads")(
+        json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+std::unique_ptr<Rendering> begin(std::filesystem::path recording, const std::string& cameras,
+                                 const std::string& cameras_text, std::optional<double> fps, double from_s,
+                                 const std::vector<std::string>& images,
+                                 std::optional<std::uint64_t> randomise) {
+    if (fps && !(*fps >= 0.001 && *fps <= 1000.0))
+        throw std::invalid_argument(fmt::format("fps: takes 0.001 to 1000 frames a second, not {}", *fps));
+    if (!(from_s >= 0.0))
+        throw std::invalid_argument(fmt::format("from_s: takes seconds from 0 on, not {}", from_s));
+    const py::gil_scoped_release released;
+    try {
+        DatasetContents contents{
+            .cameras = cameras_text.empty() ? cameras_named(cameras)
+                                            : parse_cameras(cameras_text, "cameras", std::filesystem::path()),
+            .from_s = from_s,
+            .frames_per_s = fps,
+            .images = images_named(images),
+            .randomise = randomise};
+        return std::make_unique<Rendering>(std::move(recording), std::move(contents));
+    } catch (const SceneError& wrong) {
+        throw std::invalid_argument(wrong.what());
+    }
+}
+
+/// Instant, views and arrays; None at the end.
+py::object next(Rendering& rendering) {
+    std::optional<Rendering::Frame> frame;
+    {
+        const py::gil_scoped_release released;
+        frame = rendering.next([] {
+            const py::gil_scoped_acquire acquired;
+            return PyErr_CheckSignals() != 0;
+        });
+    }
+    if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+    if (!frame) return py::none();
+    py::list views;
+    for (std::size_t i = 0; i < frame->views.size(); ++i) {
+        const py::dict view = from_json(frame->views[i]);
+        view.attr("update")(arrays_of(std::move(frame->drawn.images[i]), rendering.images()));
+        views.append(view);
+    }
+    const py::dict instant = from_json(frame->instant);
+    instant["images"] = views;
+    return instant;
+}
+
+py::object cameras(const Rendering& rendering) {
+    Json all = Json::array();
+    for (const DatasetCamera& camera : rendering.cameras()) all.push_back(json_of(camera));
+    return from_json(all);
+}
+
+/// Waits for whoever draws; the interpreter does not.
+struct Unhurried {
+    void operator()(Rendering* rendering) const {
+        const py::gil_scoped_release released;
+        delete rendering;
+    }
+};
+
+}  // namespace
+
+}  // namespace osteomill::python
+
+PYBIND11_MODULE(_render, module) {
+    namespace py = pybind11;
+    using namespace osteomill::python;
+    module.doc() = "Frames of image sets; use it through osteomill.render.";
+    py::class_<Rendering, std::unique_ptr<Rendering, Unhurried>>(module, "Rendering")
+        .def(py::init([](std::filesystem::path recording, const std::string& named, const std::string& text,
+                         std::optional<double> fps, double from_s, const std::vector<std::string>& images,
+                         std::optional<std::uint64_t> randomise) {
+                 return begin(std::move(recording), named, text, fps, from_s, images, randomise).release();
+             }),
+             py::arg("recording"), py::arg("cameras"), py::arg("cameras_text"), py::arg("fps"),
+             py::arg("from_s"), py::arg("images"), py::arg("randomise"))
+        .def("next", &next)
+        .def_property_readonly("cameras", &cameras)
+        .def_property_readonly("sessions",
+                               [](Rendering& rendering) { return from_json(rendering.sessions()); });
+}

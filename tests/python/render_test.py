@@ -1,0 +1,164 @@
+"""osteomill.render: the very images of render_client --dataset, as arrays, in this process."""
+
+import itertools
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+from PIL import Image
+from support import program, run_server, tooth
+
+import osteomill as om
+
+SIDE = {"name": "side", "eye_mm": np.array([50.0, -40.0, 35.0]), "target_mm": [0, 0, 3], "width_px": 200, "height_px": 160,
+        "intrinsics": [[450, 0, 95], [0, 440, 82.5], [0, 0, 1]], "baseline_mm": 4, "convergence_mm": 70}
+CAMERAS = """[[cameras]]
+name = "side"
+eye_mm = [50, -40, 35]
+target_mm = [0, 0, 3]
+width_px = 200
+height_px = 160
+intrinsics = [[450, 0, 95], [0, 440, 82.5], [0, 0, 1]]
+baseline_mm = 4
+convergence_mm = 70
+"""
+TRAJECTORY = """t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal,burr
+0.0,0.5,0.2,4.5,0,0,1,1,2
+0.8,-0.8,0.4,3.0,0.1,0.1,1,1,2
+"""
+KINDS = ("colour", "depth", "ray-depth", "labels", "normals")
+
+
+def plain(thing):
+    """What JSON could say of it."""
+    if isinstance(thing, dict):
+        return {name: plain(part) for name, part in thing.items()}
+    return thing.tolist() if isinstance(thing, np.ndarray) else thing
+
+
+def same(one, other):
+    return all(np.array_equal(one["images"][name][kind], view[kind], equal_nan=True)
+               for name, view in other["images"].items() for kind in view if isinstance(view[kind], np.ndarray))
+
+
+class RenderTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.file = cls.folder / "s.pcap"
+        (cls.folder / "hand.csv").write_text(TRAJECTORY)
+        (cls.folder / "cameras.toml").write_text(CAMERAS)
+        run_server(cls.folder, "--scene", "tooth", "--record", cls.file, "--trajectory", cls.folder / "hand.csv", "--duration-s", "0.8")
+
+    def index_of(self, name, *arguments):
+        subprocess.run([program("render_client"), "--replay", self.file, "--dataset", self.folder / name, "--cameras",
+                        self.folder / "cameras.toml", "--dataset-fps", "10", "--dataset-images", ",".join(KINDS), *arguments],
+                       check=True, capture_output=True)
+        return json.loads((self.folder / name / "dataset.json").read_text())
+
+    def expect_the_set(self, frames, name, *arguments):
+        index, count = self.index_of(name, *arguments), 0
+        for frame, row in itertools.zip_longest(frames, index["frames"]):
+            for said in row.pop("images"):
+                view = frame["images"][said.pop("camera")]
+                for kind in KINDS:
+                    file = self.folder / name / said.pop(kind.replace("-", "_"))
+                    written = np.load(file) if file.suffix == ".npy" else np.array(Image.open(file))
+                    drawn = view.pop(kind.replace("-", "_"))
+                    self.assertEqual((drawn.dtype, drawn.shape), (written.dtype, written.shape))
+                    self.assertEqual(drawn.tobytes(), written.tobytes(), (kind, row["frame"]))
+                    count += 1
+                self.assertEqual(plain(view), said)
+            frame.pop("images")
+            self.assertEqual(plain(frame), row)
+        self.assertEqual(count, 9 * 2 * 5)
+        self.assertEqual(frames.sessions, index["sessions"])
+        self.assertEqual(plain(frames.cameras), {camera["name"]: camera["intrinsics"] for camera in index["cameras"]})
+
+    def test_is_to_the_bit_what_render_client_writes(self):
+        self.expect_the_set(om.render(self.file, self.folder / "cameras.toml", fps=10, images=KINDS), "set")
+
+    def test_takes_cameras_as_mappings_and_a_seed(self):
+        with om.Recording(self.file) as recording:
+            self.assertEqual(recording.file, self.file)
+            self.expect_the_set(om.render(recording, [SIDE], fps=10, images=KINDS, randomise=7), "seven", "--randomise", "7")
+
+    def test_several_at_once_do_not_disturb_each_other(self):
+        alone = list(om.render(self.file, [SIDE], fps=5))
+        self.assertEqual(len(alone), 5)
+        first, second = om.render(self.file, [SIDE], fps=5), om.render(self.file, [SIDE], fps=5, from_s=0.4)
+        for frame in alone[:2]:
+            self.assertTrue(same(next(first), frame))
+        self.assertTrue(same(next(second), alone[2]))
+        del first  # its context goes, and the other's stays
+        self.assertTrue(same(next(second), alone[3]))
+
+        drawn = {}
+        frames = om.render(self.file, [SIDE], fps=5)
+        def take(number):
+            drawn[number] = next(frames)
+        for number in range(5):  # each on a thread of its own
+            thread = threading.Thread(target=take, args=[number])
+            thread.start()
+            thread.join()
+        threads = [threading.Thread(target=lambda name=name: drawn.update({name: list(om.render(self.file, [SIDE], fps=5))})) for name in "ab"]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for together in ([drawn[i] for i in range(5)], drawn["a"], drawn["b"]):
+            self.assertTrue(all(same(one, other) for one, other in zip(together, alone, strict=True)))
+
+    def test_draws_a_case_before_anything_is_milled(self):
+        case = tooth()
+        [frame] = om.render(case)
+        self.assertEqual(frame["removed_mm3"], 0.0)
+        np.testing.assert_allclose(frame["tool"]["pose"][:3], case.start_mm, atol=1e-9)
+        view = frame["images"]["view"]
+        self.assertEqual(view["colour"].shape, (480, 640, 3))
+        labels = [label["name"] for label in om.render(case).sessions[0]["labels"]]
+        seen = {labels[number] for number in np.unique(view["labels"])}
+        self.assertLessEqual({"nothing", "burr", "shank", "enamel"}, seen)
+        self.assertTrue(np.array_equal(np.isfinite(view["depth"]), view["labels"] > 0))
+
+    def test_the_import_loads_no_opengl(self):
+        says = subprocess.run([sys.executable, "-c", "import osteomill, sys; print('osteomill._render' in sys.modules);"
+                               "print(any('epoxy' in line or 'EGL' in line for line in open('/proc/self/maps')))"],
+                              check=True, capture_output=True, text=True).stdout
+        self.assertEqual(says.split(), ["False", "False"])
+
+    def test_says_in_one_line_what_cannot_be(self):
+        for error, words, arguments, options in (
+                (ValueError, "has no camera", [self.file, []], {}),
+                (ValueError, "target_mm", [self.file, [{"name": "a", "eye_mm": [0, 0, 0]}]], {}),
+                (ValueError, "'depht'", [self.file], {"images": ["depht"]}),
+                (ValueError, "fps", [self.file], {"fps": 0.0}),
+                (ValueError, "from_s", [self.file], {"from_s": float("nan")}),
+                (ValueError, "none.toml", [self.file, self.folder / "none.toml"], {}),
+                (RuntimeError, "none.pcap", [self.folder / "none.pcap"], {}),
+                (RuntimeError, "from where the trainee looked", [self.file, "trainee"], {})):
+            with self.assertRaises(error, msg=words) as raised:
+                om.render(*arguments, **options)
+            self.assertIn(words, str(raised.exception))
+            self.assertEqual(len(str(raised.exception).splitlines()), 1)
+
+    def test_says_in_one_line_that_there_is_no_opengl(self):
+        says = subprocess.run([sys.executable, "-c", "import sys, osteomill as om\n"
+                               "try: om.render(sys.argv[1])\nexcept RuntimeError as error: print(error)", self.file],
+                              env=os.environ | {"__EGL_VENDOR_LIBRARY_DIRS": str(self.folder)},
+                              check=True, capture_output=True, text=True).stdout
+        self.assertEqual(len(says.splitlines()), 1, says)
+        self.assertIn("no OpenGL 3.3", says)
+        self.assertIn("apt-get install", says)
+
+
+if __name__ == "__main__":
+    unittest.main()
