@@ -60,7 +60,7 @@ class HuLayer {
     double hu(const glm::ivec3& voxel) const { return hu_[index(voxel)]; }
     std::uint8_t label(const glm::ivec3& voxel) const { return label_[index(voxel)]; }
 
-    /// To be called for each row of bricks before its bricks are asked for: the extremes over y and z, for
+    /// To be called for each row of bricks before its bricks are requested: the extremes over y and z, for
     /// each x. Whole rows, since that is what a compiler makes fast.
     void look_at_row(int brick_y, int brick_z) {
         const glm::ivec2 first =

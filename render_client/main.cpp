@@ -37,18 +37,18 @@ void run(osteomill::RenderOptions options) {
     if (!options.look_file.empty() && std::filesystem::exists(options.look_file, failed))
         options.look.transfer = read_look(options.look_file);
     speak(options.language);
-    const auto stop_asked = [&stop = stop_on_signals()] { return stop.load(); };
+    const auto stop_requested = [&stop = stop_on_signals()] { return stop.load(); };
     if (options.dataset) {
-        const RenderReport report = run_dataset(options, OSTEOMILL_VERSION, stop_asked);
+        const RenderReport report = run_dataset(options, OSTEOMILL_VERSION, stop_requested);
         if (!options.json.empty()) write_report(report, options.json);
         return;
     }
     const auto session = make_session(options);
     std::exception_ptr failure;
     try {
-        const RenderReport report = options.film        ? run_film(options, *session, stop_asked)
-                                    : options.offscreen ? run_offscreen(options, *session, stop_asked)
-                                                        : run_in_window(options, *session, stop_asked);
+        const RenderReport report = options.film        ? run_film(options, *session, stop_requested)
+                                    : options.offscreen ? run_offscreen(options, *session, stop_requested)
+                                                        : run_in_window(options, *session, stop_requested);
         if (!options.json.empty()) write_report(report, options.json);
     } catch (const std::exception&) {
         failure = std::current_exception();

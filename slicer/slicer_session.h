@@ -1,5 +1,5 @@
-// What 3D Slicer is told of a session, and what it may ask: the bone as an image, burr and patient as
-// transforms, figures as text; marks, pauses and places of the tool as text in return.
+// Messages between a session and 3D Slicer. Out: the bone as an image, burr and patient as transforms,
+// figures as text. In: marks, pauses and positions of the tool as text.
 //
 // Out, by name: IMAGE "Bone"; TRANSFORM "Burr" (origin: its centre; z: along the spindle, tip to shank) and
 // "Patient" (the identity: all is in the patient's space); STRING "Session", a JSON object; STATUS

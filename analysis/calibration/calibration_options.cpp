@@ -11,7 +11,7 @@ namespace osteomill::study {
 
 namespace {
 
-/// What was asked for: a fit of a table, or which runs to make.
+/// What was requested: a fit of a table, or which runs to make.
 struct CalibrationCommand {
     std::filesystem::path data;
     std::filesystem::path out = "study/calibration";

@@ -25,7 +25,7 @@ struct DesignOptions {
     RunLattice lattice{};
     int runs = 24;
     std::string material = "bone";
-    double spread_n = 0.05;  ///< for which the intervals to expect are told
+    double spread_n = 0.05;  ///< for which expected intervals are printed
     std::uint64_t seed = 1;
     std::filesystem::path out;
 };

@@ -80,7 +80,7 @@ void refuse_what_is_not_seen(const Design& design) {
                                                  coefficient_names[static_cast<std::size_t>(i)].symbol));
 }
 
-void refuse_what_cannot_be_told_apart(const ScaledDesign& scaled) {
+void refuse_inseparable_coefficients(const ScaledDesign& scaled) {
     if (scaled.condition() <= largest_condition) return;
     const auto names = confounded(scaled.least_seen());
     throw std::runtime_error(
@@ -182,7 +182,7 @@ CoefficientFit fit_coefficients(const FitInput& input) {
     const Design design = whitened(input);
     refuse_what_is_not_seen(design);
     const ScaledDesign scaled(design);
-    refuse_what_cannot_be_told_apart(scaled);
+    refuse_inseparable_coefficients(scaled);
     CoefficientFit fit;
     fit.condition = scaled.condition();
     fit.value = least_squares(design, input);

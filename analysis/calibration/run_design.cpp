@@ -55,8 +55,8 @@ double log_determinant(const Information& information) {
 /// Exchange from one random start, over the information of each candidate.
 class Exchange {
   public:
-    Exchange(const std::vector<Information>& told, int runs, std::mt19937_64& random)
-        : told_(told), is_taken_(told.size(), false), chosen_(told.size()) {
+    Exchange(const std::vector<Information>& information, int runs, std::mt19937_64& random)
+        : information_(information), is_taken_(information.size(), false), chosen_(information.size()) {
         std::iota(chosen_.begin(), chosen_.end(), std::size_t{0});
         std::shuffle(chosen_.begin(), chosen_.end(), random);
         chosen_.resize(static_cast<std::size_t>(runs));
@@ -64,7 +64,7 @@ class Exchange {
         sum_ = tiny * Information::Identity();
         for (const std::size_t c : chosen_) {
             is_taken_[c] = true;
-            sum_ += told_[c];
+            sum_ += information_[c];
         }
     }
 
@@ -82,12 +82,12 @@ class Exchange {
 
   private:
     bool improve(std::size_t& place) {
-        const Information rest = sum_ - told_[place];
+        const Information rest = sum_ - information_[place];
         double best = log_determinant(sum_) + tiny;
         std::size_t best_candidate = place;
-        for (std::size_t c = 0; c < told_.size(); ++c) {
+        for (std::size_t c = 0; c < information_.size(); ++c) {
             if (is_taken_[c]) continue;
-            const double value = log_determinant(rest + told_[c]);
+            const double value = log_determinant(rest + information_[c]);
             if (value <= best) continue;
             best = value;
             best_candidate = c;
@@ -96,11 +96,11 @@ class Exchange {
         is_taken_[place] = false;
         is_taken_[best_candidate] = true;
         place = best_candidate;
-        sum_ = rest + told_[place];
+        sum_ = rest + information_[place];
         return true;
     }
 
-    const std::vector<Information>& told_;
+    const std::vector<Information>& information_;
     std::vector<bool> is_taken_;
     std::vector<std::size_t> chosen_;
     Information sum_;
@@ -162,16 +162,16 @@ RunDesign optimal_design(const std::vector<Candidate>& candidates, int runs, std
                         "values to a list, or ask for fewer runs",
                         candidates.size(), runs));
     const Coefficients scale = column_scale(candidates);
-    std::vector<Information> told;
+    std::vector<Information> information;
     for (const Candidate& c : candidates) {
         const RunRegressors scaled = c.regressors * scale.cwiseInverse().asDiagonal();
-        told.push_back(scaled.transpose() * scaled);
+        information.push_back(scaled.transpose() * scaled);
     }
     std::mt19937_64 random(seed);
     double best = -std::numeric_limits<double>::infinity();
     std::vector<std::size_t> chosen;
     for (int start = 0; start < starts; ++start) {
-        Exchange exchange(told, runs, random);
+        Exchange exchange(information, runs, random);
         exchange.run();
         if (exchange.value() <= best) continue;
         best = exchange.value();

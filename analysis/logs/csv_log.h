@@ -16,7 +16,7 @@
 namespace osteomill {
 
 /// The file behind a log, written by a thread of its own. After a failed write (a full disk) nothing more is
-/// written and error() says why. Until it is closed its file is the part beside the one that was asked for
+/// written and error() says why. Until it is closed its file is the part beside the one that was requested
 /// (session_file.h); that stays where the log is not whole.
 class CsvFile {
   public:

@@ -1,4 +1,4 @@
-// What all pages of the project look like, and how numbers and times stand on them.
+// Style of all pages of the project, and the form of numbers and times on them.
 #pragma once
 
 #include <cstdint>

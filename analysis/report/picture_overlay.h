@@ -1,4 +1,4 @@
-// What is drawn over a picture of bone: a scale bar, the patient's directions as radiologists write them (R,
+// Overlay of a picture of bone: a scale bar, the patient's directions as radiologists write them (R,
 // L, A, P, S, I at the edges they lie beyond) and the burr.
 #pragma once
 

@@ -110,8 +110,9 @@ std::int64_t recorded_unix_ns(const std::filesystem::path& file) {
 StructureWatch watch(SessionTrace& trace, std::vector<Structure> structures) {
     const SessionInfo& session = trace.session;
     for (std::size_t tissue = 0; tissue < session.tissues.size(); ++tissue) {
-        const bool is_told = std::ranges::find(structures, tissue, &Structure::tissue) != structures.end();
-        if (!session.tissues[tissue].is_protected || is_told) continue;
+        const bool is_recorded =
+            std::ranges::find(structures, tissue, &Structure::tissue) != structures.end();
+        if (!session.tissues[tissue].is_protected || is_recorded) continue;
         StructureMask mask = structure_in_bone(trace.at_start, session.tissues[tissue].label);
         if (!mask.empty()) structures.push_back({tissue, std::move(mask)});
     }

@@ -1,6 +1,6 @@
-// Which group a trainee belongs to, as a teacher wrote it down: groups.csv, a line TRAINEE,GROUP each.
+// Groups of trainees, from a teacher's file groups.csv, a line TRAINEE,GROUP each.
 //
-// The group "expert" is the one that others are shown against. A first line "trainee,group" is a heading.
+// Others are shown against the group "expert". A first line "trainee,group" is a heading.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// How much of a place, between the centres of eight voxels, is of a set of voxels: trilinear, so that a
-// border between voxels is drawn where a surface would be and not as a staircase.
+// Share of a set of voxels at a point between the centres of eight voxels: trilinear, so that a border
+// between voxels is drawn as a surface and not as a staircase.
 #pragma once
 
 #include <glm/common.hpp>

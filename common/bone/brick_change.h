@@ -42,7 +42,7 @@ class ChangeSink {
     virtual void push(const BrickChange& change, BrickFractions fractions) noexcept = 0;
 };
 
-/// For whoever wants the bone only.
+/// For receivers that want the bone only.
 class ForgottenChanges final : public ChangeSink {
   public:
     void push(const BrickChange&, BrickFractions) noexcept override {}

@@ -64,7 +64,7 @@ fs::path folder_of(const fs::path& path) {
 WriteTarget write_target(const fs::path& path, Link link) {
     WriteTarget target{.path = path};
     if (link == Link::replace) return target;
-    std::error_code ignored;  // what cannot be looked at cannot be written either, which is told then
+    std::error_code ignored;  // what cannot be looked at cannot be written either, and that is reported
     if (fs::is_symlink(path, ignored)) {
         const fs::path resolved = fs::weakly_canonical(path, ignored);
         if (!ignored) target.path = resolved;

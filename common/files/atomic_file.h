@@ -41,7 +41,7 @@ class AtomicFile {
 
     /// Where to write, by whatever means; to be closed before commit().
     const std::filesystem::path& part() const { return part_; }
-    /// As it was asked for.
+    /// As it was requested.
     const std::filesystem::path& path() const { return path_; }
     /// Writes behind what was written so, or over it from the beginning on. Throw std::runtime_error with one
     /// line that names the file and the reason.

@@ -23,7 +23,7 @@ class SessionFile {
     SessionFile(const SessionFile&) = delete;
     SessionFile& operator=(const SessionFile&) = delete;
 
-    /// As it was asked for.
+    /// As it was requested.
     const std::filesystem::path& path() const { return file_->path(); }
     /// Where to write, by whatever means; to be closed before commit(). What is no regular file (/dev/null, a
     /// pipe) is written directly.

@@ -1,9 +1,9 @@
 // The certificates that the lab has revoked: lists of its CA in a file, read again when that changes.
 //
 // A list that has expired revokes nobody and vouches for nobody: while the newest one is of that kind, every
-// certificate is refused, because whoever can keep a new list away could else bring a lost key back. A file
-// that changed and cannot be used (torn while it is written, of another CA, expired, older than the list that
-// holds) is reported once, and the lists before hold on.
+// certificate is refused, because somebody who can keep a new list away could otherwise use a lost key again.
+// A file that changed and cannot be used (torn while it is written, of another CA, expired, older than the
+// list that holds) is reported once, and the lists before hold on.
 #pragma once
 
 #include <openssl/ssl.h>

@@ -16,7 +16,7 @@ struct ParseResult {
     std::string text;
 };
 
-/// Fills in what `app` has declared; returns the text where help or the version is asked for. Throws
+/// Fills in what `app` has declared; returns the text where help or the version is requested. Throws
 /// std::invalid_argument with one line for wrong usage.
 std::optional<std::string> parse_or_text(CLI::App& app, int argc, const char* const* argv);
 

@@ -16,10 +16,10 @@ constexpr double estimated_after_s = 2.0;
 }  // namespace
 
 std::string time_left(double left_s) {
-    constexpr long seconds_told_below = 100;
+    constexpr long seconds_up_to = 100;
     const long seconds = std::lround(std::ceil(left_s));
     if (seconds <= 0) return "";
-    if (seconds < seconds_told_below) return fmt::format("{} s left", seconds);
+    if (seconds < seconds_up_to) return fmt::format("{} s left", seconds);
     const long minutes = (seconds + 59) / 60;
     if (minutes < 60) return fmt::format("{} min left", minutes);
     return fmt::format("{} h {} min left", minutes / 60, minutes % 60);

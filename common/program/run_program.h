@@ -24,15 +24,15 @@ inline constexpr int exit_wrong_usage = 2;
 template <typename Parse, typename Run>
 int run_program(const char* name, const Parse& parse, const Run& run) {
     ignore_signals_of_streams();
-    decltype(parse()) asked;
+    decltype(parse()) parsed;
     try {
-        asked = parse();
+        parsed = parse();
     } catch (const std::invalid_argument& error) {
         std::fprintf(stderr, "%s: %s\n", name, printable(error.what()).c_str());
         return exit_wrong_usage;
     }
-    if (!asked.options) {
-        std::fputs(asked.text.c_str(), stdout);
+    if (!parsed.options) {
+        std::fputs(parsed.text.c_str(), stdout);
         return exit_success;
     }
     const ProgramOutput output;
@@ -40,7 +40,7 @@ int run_program(const char* name, const Parse& parse, const Run& run) {
     try {
         // Standard output is for programs that wait for "listening on"; the log is for people.
         log_to(output.err, name);
-        run(*asked.options, output);
+        run(*parsed.options, output);
     } catch (const std::exception& error) {
         output.err->say(fmt::format("{}: {}", name, error.what()), "error");
         exit_code = exit_failure;

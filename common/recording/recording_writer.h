@@ -11,7 +11,7 @@
 // thread, which cannot be joined, is left behind, and touches nothing but what it owns until it ends with the
 // program.
 //
-// Until the recording is whole its file is the part beside the one that was asked for (session_file.h). That
+// Until the recording is whole its file is the part beside the one that was requested (session_file.h). That
 // can be read at any time, and stays where the recording is torn.
 #pragma once
 
@@ -59,8 +59,8 @@ class RecordingWriter {
     /// and how long before the end, and for what is in the system's memory to reach the disk.
     static constexpr std::chrono::seconds longest_wait{30};
 
-    /// What may wait for the disk. A second of the fastest loopback snapshot; whoever finds it full tells
-    /// later what it has to tell, as it would a slow client.
+    /// What may wait for the disk. A second of the fastest loopback snapshot; a caller that finds it full
+    /// tells later what it has to tell, as it would a slow client.
     static constexpr std::size_t capacity_bytes = 8 * 1024 * 1024;
 
     /// Called on the writing thread, with one line for people; must not call the writer.

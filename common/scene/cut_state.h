@@ -1,5 +1,5 @@
-// State of the cut of a burr's edges, in few numbers: the force within the tooth period, for whoever makes
-// the cut heard. Nothing that is felt depends on it.
+// State of the cut of a burr's edges, in few numbers: the force within the tooth period, for the sound of
+// the cut. Nothing that is felt depends on it.
 #pragma once
 
 #include <optional>

@@ -40,14 +40,14 @@ struct SessionControl {
 /// Ten days: what is timed later in a session is a slip.
 inline constexpr double longest_session_s = 864'000.0;
 
-/// Speeds that a spindle can be told, rev/min, as a scene's burrs have them.
+/// Speeds that can be set on a spindle, rev/min, as a scene's burrs have them.
 inline constexpr double least_spindle_rpm = 100.0;
 inline constexpr double most_spindle_rpm = 500'000.0;
 inline bool is_spindle_speed(double rpm) {
     return rpm == 0.0 || (rpm >= least_spindle_rpm && rpm <= most_spindle_rpm);
 }
 
-/// Something that was asked for has been done, or refused.
+/// Something that was requested has been done, or refused.
 struct ControlEvent {
     double time_s = 0.0;  ///< session time
     SessionAction action = SessionAction::none;

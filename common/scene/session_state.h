@@ -1,5 +1,4 @@
-// State of a session at one frame, but for its bone: what a frame says to whoever follows the session, and
-// what a recording keeps of it.
+// State of a session at one frame, without its bone: what clients receive and recordings keep.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// What one tick of the haptic loop knew, as logs and recordings keep it: a table of quantities, each with so
-// many decimals.
+// One tick of the haptic loop as logs and recordings keep it: a table of quantities, each with its number of
+// decimals.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Strict reading of one TOML table: every key asked for is checked for type and range, every other key is an
+// Strict reading of one TOML table: every key requested is checked for type and range, every other key is an
 // error. Messages carry file and line.
 #pragma once
 

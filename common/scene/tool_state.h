@@ -21,7 +21,7 @@ enum class ToolDriver {
     nobody,   ///< the next that sends input
     you,
     another,      ///< whose lease has not run out: input is ignored
-    others_only,  ///< whoever it is, not this client, which may only watch: input is ignored
+    others_only,  ///< this client may only watch, its input is ignored; another may hold the tool
 };
 
 /// Positions and forces in patient LPS. On the wire it is the message of the same name.
@@ -36,7 +36,7 @@ struct ToolState {
     double removed_mm3 = 0.0;  ///< since the server began
     bool touches_protected = false;
     BoundedLine fault{};   ///< why the force is off; empty while all is well
-    BoundedLine notice{};  ///< what something that was asked for waits for; empty: nothing does
+    BoundedLine notice{};  ///< what something that was requested waits for; empty: nothing does
     /// The server's wall clock when it took this off the haptic loop, ns since 1970; 0: not said.
     std::int64_t taken_unix_ns = 0;
     ToolDriver driver = ToolDriver::unknown;  ///< said to each client by the streaming server

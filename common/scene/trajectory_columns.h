@@ -1,4 +1,4 @@
-// The first line of a trajectory in CSV, whoever writes or reads it; see devices/simulated/csv_trajectory.h.
+// First line of a trajectory in CSV, for writers and readers; see devices/simulated/csv_trajectory.h.
 #pragma once
 
 #include <string_view>

@@ -25,7 +25,7 @@ namespace osteomill {
 class BurrSound {
   public:
     static constexpr int rate_hz = 48'000;
-    /// A tool of which nothing is told for so long is taken to stand.
+    /// A tool without a new state for so long is taken to stand.
     static constexpr double patience_s = 0.5;
 
     /// From the next sample on.

@@ -50,8 +50,8 @@ std::optional<v2::CompareBone> DifferenceSearch::next(const Bone& bone, const Ru
     v2::CompareBone request;
     while (!suspects_.empty()) {
         const auto [first, count] = *suspects_.begin();
-        const std::size_t room = most_parts_of_a_comparison - asked_.size();
-        if (count > room && !asked_.empty()) break;  // finer parts in a request of its own
+        const std::size_t room = most_parts_of_a_comparison - requested_.size();
+        if (count > room && !requested_.empty()) break;  // finer parts in a request of its own
         suspects_.erase(suspects_.begin());
         const std::uint64_t per_part = rounded_up_ratio(count, most_parts_of_a_comparison);
         v2::BrickRange& range = *request.add_ranges();
@@ -59,30 +59,30 @@ std::optional<v2::CompareBone> DifferenceSearch::next(const Bone& bone, const Ru
         range.set_brick_count(count);
         range.set_bricks_per_part(per_part);
         for (std::uint64_t done = 0; done < count; done += per_part) {
-            asked_.push_back({first + static_cast<BrickIndex>(done), std::min(per_part, count - done)});
-            range.add_part_checksum(checksum.sum_of(bone, asked_.back().first, asked_.back().count));
+            requested_.push_back({first + static_cast<BrickIndex>(done), std::min(per_part, count - done)});
+            range.add_part_checksum(checksum.sum_of(bone, requested_.back().first, requested_.back().count));
         }
     }
-    if (asked_.empty()) return std::nullopt;
+    if (requested_.empty()) return std::nullopt;
     ++requests_;
     return request;
 }
 
 std::optional<WireError> DifferenceSearch::take(const v2::Comparison& answer) {
-    if (asked_.empty()) return WireError{"an answer came to a comparison that was not asked for"};
+    if (requested_.empty()) return WireError{"an answer came to a comparison that was not asked for"};
     std::int64_t last = -1;
     for (const std::uint32_t part : answer.differing_part()) {
-        if (part >= asked_.size() || part <= last)
+        if (part >= requested_.size() || part <= last)
             return WireError{"a comparison names part " + std::to_string(part) + " of " +
-                             std::to_string(asked_.size()) + " after " + std::to_string(last)};
+                             std::to_string(requested_.size()) + " after " + std::to_string(last)};
         last = part;
-        const Range& range = asked_[part];
+        const Range& range = requested_[part];
         if (range.count == 1)
             ++bricks_found_;
         else
             suspects_.emplace(range.first, range.count);
     }
-    asked_.clear();
+    requested_.clear();
     return std::nullopt;
 }
 

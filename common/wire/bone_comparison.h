@@ -41,7 +41,7 @@ class DifferenceSearch {
     /// The answer. Refuses one that nobody waits for, and parts that were not asked about.
     std::optional<WireError> take(const v2::Comparison& answer);
 
-    bool awaits_answer() const { return !asked_.empty(); }
+    bool awaits_answer() const { return !requested_.empty(); }
     int requests() const { return requests_; }
     /// Bricks that differ, so far.
     std::size_t bricks_found() const { return bricks_found_; }
@@ -52,7 +52,7 @@ class DifferenceSearch {
         std::uint64_t count = 0;
     };
     std::map<BrickIndex, std::uint64_t> suspects_;  // ranges that differ: count by first brick
-    std::vector<Range> asked_;                      // the parts of the request under way
+    std::vector<Range> requested_;                  // the parts of the request under way
     int requests_ = 0;
     std::size_t bricks_found_ = 0;
 };

@@ -43,7 +43,7 @@ struct StateArrived {
 /// What a receiver makes of a gap in the sequence of frames.
 enum class Gaps {
     refused,  ///< an error
-    /// Between state frames it is said with the next one: what it said of the bone can be asked for.
+    /// Between state frames it is said with the next one: what it said of the bone can be requested.
     /// Elsewhere an error.
     reported,
 };

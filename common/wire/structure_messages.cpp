@@ -140,14 +140,14 @@ v2::StructureDistance to_message(const StructureDistance& distance) {
 std::variant<std::vector<StructureDistance>, WireError> structure_distances_from(
     const google::protobuf::RepeatedPtrField<v2::StructureDistance>& messages, std::size_t tissue_count) {
     std::vector<StructureDistance> distances;
-    std::vector<bool> told(tissue_count, false);
+    std::vector<bool> is_listed(tissue_count, false);
     for (const v2::StructureDistance& message : messages) {
         if (message.tissue() >= tissue_count)
             return WireError{"a distance is of tissue " + std::to_string(message.tissue()) +
                              ", not one of the scene's " + std::to_string(tissue_count)};
-        if (told[message.tissue()])
+        if (is_listed[message.tissue()])
             return WireError{"two distances are of tissue " + std::to_string(message.tissue())};
-        told[message.tissue()] = true;
+        is_listed[message.tissue()] = true;
         StructureDistance distance{.tissue = message.tissue(),
                                    .distance_mm = {},
                                    .touches = message.touches(),

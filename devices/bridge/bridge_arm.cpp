@@ -136,14 +136,14 @@ void BridgeArm::run() {
     std::array<std::uint8_t, OMB_MESSAGE_BYTES + 1> buffer{};  // one more, so that what is too long is seen
     PeerAddress from;
     BridgeCounts before;
-    std::uint64_t asked_ns = 0;
+    std::uint64_t request_ns = 0;
     while (!stops_.load(std::memory_order_relaxed)) {
         const std::optional<std::size_t> bytes = socket_.receive(buffer, from, longest_wait_ms);
         const std::uint64_t now_ns = omb_now_ns();
         const bool has_force = forces_.refresh();
         if (has_force) force_ns_ = now_ns;
         if (bytes) {
-            if (host_.awaits_answer() == false) asked_ns = now_ns;
+            if (host_.awaits_answer() == false) request_ns = now_ns;
             if (const auto welcome = host_.take(std::span(buffer).first(*bytes), from, now_ns))
                 socket_.send(*welcome, from);
             if (host_.has_fresh_pose()) {
@@ -152,7 +152,7 @@ void BridgeArm::run() {
             }
         }
         // The loop's next force knows of this pose, so that is what answers it; but it need not run.
-        const bool is_overdue = !is_driven(now_ns) || now_ns - asked_ns > longest_answer_ns;
+        const bool is_overdue = !is_driven(now_ns) || now_ns - request_ns > longest_answer_ns;
         if (host_.awaits_answer() && (has_force || is_overdue))
             socket_.send(host_.answer(now_ns, wanted(now_ns)), host_.peer());
         if (bytes && host_.has_fresh_pose()) continue;

@@ -21,7 +21,7 @@ namespace osteomill {
 
 class BridgeArm final : public HapticDevice {
   public:
-    /// So many periods of the loop without a new force, and the arm is told that there is none.
+    /// After so many periods of the loop without a new force the arm is sent that there is none.
     static constexpr int longest_force_age_ms = 20;
 
     struct Parts {
@@ -87,7 +87,7 @@ class BridgeArm final : public HapticDevice {
     std::atomic<const char*> notice_{""};
     std::atomic<bool> stops_{false};
 
-    // Of the loop, and of whoever waits before it runs.
+    // Of the loop, and of the thread that waits before it runs.
     omb_arm arm_{};
     std::thread thread_;
 };

@@ -174,7 +174,7 @@ void BridgeHost::take_pose(const omb_header& header, const std::uint8_t* message
     counts_.lost += heard_ == 0 ? 0 : header.sequence - heard_ - 1;
     heard_ = header.sequence;
     heard_ns_ = now_ns;
-    asked_clock_ns_ = header.clock_ns;
+    request_clock_ns_ = header.clock_ns;
     awaits_answer_ = true;
     // What we sent, and how long it lay there, is all counted by one clock each: no clocks need agree.
     const std::uint64_t round_trip_ns = now_ns - pose.echo_clock_ns - pose.kept_ns;
@@ -197,7 +197,7 @@ BridgeMessage BridgeHost::answer(std::uint64_t now_ns, const BridgeForce& wanted
         store(wanted.torque_n_mm, force.torque_n_mm);
     }
     force.echo_sequence = heard_;
-    force.echo_clock_ns = asked_clock_ns_;
+    force.echo_clock_ns = request_clock_ns_;
     BridgeMessage message = begun(OMB_FORCE, session_, now_ns);
     omb_put_force(message.data(), &force);
     omb_seal(message.data(), &key_);

@@ -136,8 +136,8 @@ class BridgeHost {
     omb_pose pose_{};
     bool has_fresh_pose_ = false;
     bool awaits_answer_ = false;
-    bool is_answered_off_ = false;      // the pose that awaits an answer: it is not acted on
-    std::uint64_t asked_clock_ns_ = 0;  // as it stood in it
+    bool is_answered_off_ = false;        // the pose that awaits an answer: it is not acted on
+    std::uint64_t request_clock_ns_ = 0;  // as it stood in it
     BridgeCounts counts_;
     std::vector<std::uint64_t> round_trips_ns_;
     std::size_t next_round_trip_ = 0;

@@ -1,4 +1,4 @@
-// One WebSocket connection to Haply's service. No call takes longer than it is told to.
+// One WebSocket connection to Haply's service. No call takes longer than the time it is given.
 #pragma once
 
 #include <chrono>

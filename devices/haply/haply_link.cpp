@@ -83,7 +83,7 @@ void HaplyLink::converse(HaplyConnection& connection) {
     field_ = HaplyForceField::values;
     sent_force_ = {};  // what the connection before was sent ended with it
     unanswered_ = 1;   // the first message comes by itself
-    understood_ = asked_ = first_asked_ = Clock::now();
+    understood_ = requested_ = first_request_ = Clock::now();
     while (!stops_.load(std::memory_order_relaxed)) {
         const std::optional<std::string_view> text =
             connection.receive(sent_force_.is_felt() && !drives_ ? fading_pace : longest_receiving);
@@ -123,7 +123,7 @@ void HaplyLink::take(std::string_view text, Clock::time_point now) {
     understood_ = now;
     if (state->numbers_session) field_ = HaplyForceField::vector;
     if (state->arm) {
-        if (has_arm_ && unanswered_ == 0) measure(now - asked_);
+        if (has_arm_ && unanswered_ == 0) measure(now - requested_);
         take_arm(*state->arm, state->grip, now);
     } else {
         lose_arm();
@@ -151,7 +151,7 @@ void HaplyLink::take_arm(const HaplyInverse3& arm, const std::optional<HaplyGrip
                                 : arm.velocity_m_per_s ? mm_per_m * *arm.velocity_m_per_s
                                                        : sensor_.velocity_mm_per_s();
     newest_.is_ready = is_arm_able_ && !was_lost_;
-    newest_.said = first_asked_;
+    newest_.said = first_request_;
     publish();
     say(!has_power_ ? "the Inverse3 has no power: plug its power supply in"
         : !is_calibrated_
@@ -222,8 +222,8 @@ bool HaplyLink::ask(HaplyConnection& connection) {
             drives_ ? std::optional(limited(forces_.front())) : std::nullopt;
         write_haply_force(text_, device_id_, sent_force_.next(wanted_n, now_s), field_);
     }
-    asked_ = Clock::now();
-    if (unanswered_++ == 0) first_asked_ = asked_;
+    requested_ = Clock::now();
+    if (unanswered_++ == 0) first_request_ = requested_;
     return connection.send(text_, longest_sending);
 }
 

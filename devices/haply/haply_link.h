@@ -109,10 +109,10 @@ class HaplyLink {
     Clock::time_point forced_;  // when the loop left the newest force
     bool has_force_ = false;
     FadingForce sent_force_;
-    Clock::time_point asked_;
-    Clock::time_point first_asked_;  // of what is unanswered: an answer is no older
-    Clock::time_point understood_;   // the newest message that made sense
-    int unanswered_ = 0;             // messages of ours
+    Clock::time_point requested_;
+    Clock::time_point first_request_;  // of what is unanswered: an answer is no older
+    Clock::time_point understood_;     // the newest message that made sense
+    int unanswered_ = 0;               // messages of ours
     std::string text_;
     std::array<double, answers_measured> round_trips_s_{};
     std::size_t round_trips_ = 0;

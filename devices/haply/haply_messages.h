@@ -8,7 +8,7 @@
 //                             "buttons": {"a": false, "b": false, "c": false}}}],
 //    "verse_grip": [{"device_id": "...", "state": {"orientation": {...}, "button": false}}]}
 //
-// The program answers with a force on the cursor, for one exchange: an arm that is told nothing more goes
+// The program answers with a force on the cursor, for one exchange: an arm that is sent nothing more goes
 // idle
 // ("Control Commands"). Metres and newtons, in the service's own axes. A wired grip has one button; it counts
 // as `a`.

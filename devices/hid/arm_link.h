@@ -16,7 +16,7 @@
 //   waiting       it reads positions; output is enabled once a force of at most small_force_n is wanted, so
 //                 that the hand is never met by one that was there before it
 //   driving       every report is answered by the currents of the newest force
-//   gone          for good: whoever owns the connection closes it and looks for the device again
+//   gone          for good: the owner of the connection closes it and looks for the device again
 //
 // A report of another length than the first, or that means nothing, is counted and passed over.
 #pragma once

@@ -21,7 +21,7 @@ class HidConversation {
     virtual ~HidConversation() = default;
 
     /// One exchange, which waits for the device for some milliseconds at most. False: the device is gone, and
-    /// whoever reads it has been told.
+    /// its reader has been given it.
     virtual bool exchange() noexcept = 0;
 
     /// What people should know or do, a text that lives for ever; empty while all is well.

@@ -1,7 +1,7 @@
 // A handpiece that a tracker sees: the burr is where the hand holds it, and no force goes back. Device space
 // is the tracker's. What comes is played back as sampled_motion.h says.
 //
-// The pedal of a STRING message holds for Permission::by_message_s after each; so whoever sends it repeats
+// The pedal of a STRING message holds for Permission::by_message_s after each; so its sender repeats
 // it. Pressed, it counts as late as the motion is played, or it would cut what the hand passed before;
 // released, at once. Where there is no pedal (one that is always down), to be seen is the permission: it
 // comes up for a moment where the tool has come back, since a spindle does not start by itself after that

@@ -1,5 +1,5 @@
-// Checks of what a session was told to use that haptic_server --check makes: its port, its certificates, the
-// disk for its recording.
+// Checks by haptic_server --check of what a session would use: its port, its certificates, the disk for its
+// recording.
 #pragma once
 
 #include <chrono>

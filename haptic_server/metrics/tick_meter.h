@@ -1,5 +1,5 @@
-// How the haptic loop keeps its time, for whoever watches a session while it runs: counted from the ticks
-// that the loop hands to its logs, so that the loop itself knows nothing of it.
+// Timing of the haptic loop while it runs: counted from the ticks that the loop hands to its logs, so that
+// the loop itself knows nothing of it.
 //
 // The loop's thread pushes, any other reads; every number is by itself, and at most a tick older than the
 // next.

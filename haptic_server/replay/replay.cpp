@@ -25,7 +25,7 @@ namespace osteomill {
 namespace {
 
 void require_going_on(const std::atomic<bool>& stop) {
-    if (stop.load()) throw std::runtime_error("was told to stop; nothing was written");
+    if (stop.load()) throw std::runtime_error("interrupted; nothing was written");
 }
 
 /// The surface of what is left and what was removed, as far as the recording can be read. Returns why it is

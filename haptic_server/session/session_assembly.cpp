@@ -63,7 +63,7 @@ void SessionAssembly::run(const std::atomic<bool>& stop, const OnProgress& on_pr
     session_->run(is_over, [&](const ToolState& tool) {
         if (on_progress) on_progress(tool);
         show_frame();
-        if (stop.load() || device_.is_finished() || (shown_ && shown_->has_been_asked_to_finish()))
+        if (stop.load() || device_.is_finished() || (shown_ && shown_->finish_requested()))
             is_over.store(true);
     });
     if (shown_) shown_->end();

@@ -1,4 +1,4 @@
-// What a session takes where nobody chooses: its coupling and the rate of its milling loop.
+// Defaults of a session: its coupling and the rate of its milling loop.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Does for a session under way what was asked of it by a control: saves its bone, ends it.
+// Controls of a session under way that act on it as a whole: they save its bone or end it.
 #pragma once
 
 #include <atomic>
@@ -28,8 +28,8 @@ class SessionKeeper {
     SessionControls::Requests requests();
 
     /// Any thread.
-    bool has_been_asked_to_finish() const { return wants_end_.load(); }
-    /// For a save under way, which may take a minute. Once no more can be asked for.
+    bool finish_requested() const { return wants_end_.load(); }
+    /// For a save under way, which may take a minute. Once no more can be requested.
     void wait() {
         if (thread_.joinable()) thread_.join();
     }

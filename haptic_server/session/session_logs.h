@@ -1,4 +1,4 @@
-// The logs of a session's ticks and milling steps, as far as they are asked for.
+// The logs of a session's ticks and milling steps, as far as they are requested.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ class SessionLogs {
     /// Begins the files. Throws std::runtime_error in one line where one cannot be.
     SessionLogs(const LogFiles& files, bool has_shank);
 
-    /// Null where none is asked for.
+    /// Null where none is requested.
     ForceLog* force() { return force_ ? &*force_ : nullptr; }
     MillingLog* milling() { return milling_ ? &*milling_ : nullptr; }
 

@@ -58,7 +58,7 @@ ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirro
       live_(session.tool(), session.changes(), &controls_, std::move(options.script)),
       server_(options.streaming, info_of(options, scene, session.bone().grid(), device), std::move(mirror),
               live_, device.operator_channel.get(),
-              not_told_by_bone(scene.structures, scene.scene, session.bone())) {
+              structures_outside_bone_labels(scene.structures, scene.scene, session.bone())) {
     live_.listen_to(session.cuts());
     if (has_ct(scene.source, session.bone().grid()))
         live_.offer_ct([&source = scene.source] { return ct_of(source, most_ct_voxels); });

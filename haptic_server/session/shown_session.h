@@ -18,11 +18,11 @@ namespace osteomill {
 
 struct ShownOptions {
     StreamingOptions streaming{};                      ///< whom, where, and what is recorded
-    ControlScript script{};                            ///< what is asked for at its time without anybody
+    ControlScript script{};                            ///< what is requested at its time without anybody
     std::optional<std::filesystem::path> save_bone{};  ///< where a client may have the bone saved
     std::string words_at_finish{};                     ///< what is answered to who ends the session
     bool accepts_controls = true;                      ///< of clients
-    // What clients and recordings are told of the session.
+    // The session as clients and recordings see it.
     std::string version{};
     std::string trainee{};
     std::string case_name{};
@@ -37,7 +37,7 @@ class ShownSession {
                  const DeviceParts& device);
 
     StreamingServer& server() { return server_; }
-    bool has_been_asked_to_finish() const { return keeper_.has_been_asked_to_finish(); }
+    bool finish_requested() const { return keeper_.finish_requested(); }
 
     /// Begins to say goodbye, and waits for a bone that is being saved. Call once the session has ended.
     void end();

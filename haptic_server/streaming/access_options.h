@@ -12,7 +12,7 @@
 namespace osteomill {
 
 struct Access {
-    std::optional<TlsFiles> tls;    ///< absent: whoever reaches the server, in the clear
+    std::optional<TlsFiles> tls;    ///< absent: anybody who reaches the server, in the clear
     bool insecure_network = false;  ///< and that although other machines do
 };
 

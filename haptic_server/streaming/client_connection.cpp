@@ -110,7 +110,7 @@ void ClientConnection::close(const std::string& line, bool is_fault) {
     if (is_closed_) return;
     is_closed_ = true;
     stream_->close();
-    // The callbacks hold on to whoever holds this session: let go of them.
+    // The callbacks hold on to the owner of this session: let go of them.
     const Callbacks callbacks = std::exchange(callbacks_, {});
     if (callbacks.on_closed) callbacks.on_closed(line, is_fault);
 }
@@ -126,7 +126,7 @@ void ClientConnection::read() {
 
 void ClientConnection::take(std::span<const std::uint8_t> arrived) {
     if (last_sequence_ == 0 && is_tls_greeting(arrived))
-        return close("dropped: it speaks TLS, which this server was not told to", true);
+        return close("dropped: it speaks TLS, and this server runs without", true);
     decoder_.append(arrived);
     while (const auto message = decoder_.next()) {
         if (!messages_.take(std::chrono::steady_clock::now()))

@@ -42,12 +42,12 @@ class ClientFeed {
     ClientFeed(v2::Hello hello, const BoneReplica& mirror, FeedPackers& packers,
                std::span<const v2::StructureBricks> structures = {});
 
-    /// To be called for every change of the mirror, before the next frame is asked for.
+    /// To be called for every change of the mirror, before the next frame is requested.
     void note(std::span<const BrickChange> changes);
 
     /// Asks for a state frame as soon as one can be sent; but where nothing is new and the tool rests, only
     /// every deadband_period_s. One that has not been sent yet is replaced: what it
-    /// would have sent of the bone, the next one sends. A checksum once asked for is stated by the next frame
+    /// would have sent of the bone, the next one sends. A checksum once requested is stated by the next frame
     /// after which the client knows all. Events wait until they are sent; of a client that does not
     /// read, the oldest are forgotten beyond most_waiting_events.
     void request_state(SessionState state, bool with_checksum);
@@ -59,7 +59,7 @@ class ClientFeed {
     /// Those that are yet to be sent.
     std::size_t waiting_ticks() const { return ticks_.size(); }
 
-    /// Something that this client alone is told, with its next state.
+    /// An answer for this client alone, sent with its next state.
     void tell(const ControlEvent& event) { events_.push_back(event); }
 
     /// The client wants to see the CT; asked for again nothing happens.
@@ -81,7 +81,7 @@ class ClientFeed {
     /// fit a state frame of so many bytes follow in the next; but it tells of one brick at least.
     std::optional<std::string> next(std::size_t most_state_bytes = FramePace::most);
 
-    bool has_been_asked_to_finish() const { return goodbye_.has_value(); }
+    bool finish_requested() const { return goodbye_.has_value(); }
     /// Whether goodbye has been said.
     bool is_finished() const { return stage_ == Stage::finished; }
 

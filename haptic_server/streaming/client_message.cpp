@@ -20,7 +20,7 @@ std::optional<WireError> check_greeting(const v2::ClientFrame& frame) {
 
 std::variant<std::optional<Answer>, WireError> take_client_message(const v2::ClientFrame& frame,
                                                                    const MessagingClient& client,
-                                                                   ControlLease::Time now) {
+                                                                   ToolLease::Time now) {
     if (frame.has_compare_bone()) {
         if (auto error = client.feed.compare(frame.compare_bone())) return *std::move(error);
         return std::nullopt;
@@ -38,11 +38,11 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v2::Cli
     if (frame.has_session_control()) {
         const auto control = session_control_from(frame.session_control());
         if (const auto* error = std::get_if<WireError>(&control)) return *error;
-        const auto& asked = std::get<SessionControl>(control);
+        const auto& request = std::get<SessionControl>(control);
         if (client.control != nullptr) {
-            (*client.control)(asked);
+            (*client.control)(request);
         } else {
-            const ControlEvent refused{.action = asked.action,
+            const ControlEvent refused{.action = request.action,
                                        .text = "this client may not control the session, or another does",
                                        .is_refused = true};
             client.feed.tell(refused);

@@ -10,18 +10,18 @@
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/answered_states.h"
 #include "haptic_server/streaming/client_feed.h"
-#include "haptic_server/streaming/control_lease.h"
+#include "haptic_server/streaming/tool_lease.h"
 #include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
 /// A client, as far as its messages reach.
 struct MessagingClient {
-    ControlLease::ClientId id = 0;
-    ClientFeed& feed;               ///< may have something to say afterwards
-    AnsweredStates& answers;        ///< of what the client has been sent
-    ControlLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
-    std::size_t burr_count = 0;     ///< of the session
+    ToolLease::ClientId id = 0;
+    ClientFeed& feed;            ///< may have something to say afterwards
+    AnsweredStates& answers;     ///< of what the client has been sent
+    ToolLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
+    std::size_t burr_count = 0;  ///< of the session
     /// Takes what the client asks of the session; null: it may not ask now.
     const std::function<void(const SessionControl&)>* control = nullptr;
     std::optional<Viewpoint>* view = nullptr;  ///< where it looks from; null: nobody wants to know
@@ -34,14 +34,14 @@ using Answer = AnsweredStates::Answer;
 std::optional<WireError> check_greeting(const v2::ClientFrame& frame);
 
 /// Any later message. An operator's input is given to the lease if it is fresh.
-/// A control of the session goes where the client says; one that may not ask is told so.
+/// A control of the session is passed on; a client without the right to it gets an answer that says so.
 /// An error if the message makes no sense, which drops the client: no body, numbers that are not finite, a
 /// viewpoint that viewpoint_from refuses, a burr that is not there, an answer to a state that was not sent, a
 /// comparison that ClientFeed refuses. It has then changed nothing. Otherwise what became of an operator's
 /// input where that is news: it is otherwise than the one before, or the first that is not fresh.
 std::variant<std::optional<Answer>, WireError> take_client_message(const v2::ClientFrame& frame,
                                                                    const MessagingClient& client,
-                                                                   ControlLease::Time now);
+                                                                   ToolLease::Time now);
 
 /// Why such input moves nothing, as what a log says of its client; empty where it does, and of repeated ones,
 /// which do no harm.

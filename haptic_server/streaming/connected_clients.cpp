@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "haptic_server/streaming/client_message.h"
-#include "haptic_server/streaming/fair_places.h"
+#include "haptic_server/streaming/connection_quota.h"
 
 namespace osteomill {
 
@@ -35,8 +35,8 @@ ConnectedClients::ConnectedClients(const StreamingOptions& options, const v2::He
       mirror_(mirror),
       packers_(packers),
       control_(std::move(control)),
-      unidentified_(options.places_for_unidentified) {
-    if (operator_channel != nullptr) lease_.emplace(*operator_channel);
+      unidentified_(options.unidentified_quota) {
+    if (operator_channel != nullptr) tool_lease_.emplace(*operator_channel);
 }
 
 void ConnectedClients::admit(std::shared_ptr<Stream> stream) {
@@ -53,7 +53,7 @@ void ConnectedClients::admit(std::shared_ptr<Stream> stream) {
     const auto connection = std::make_shared<ClientConnection>(
         std::move(stream), ClientFeed(hello_for(may_operate), mirror_, packers_, structures_));
     connections_.emplace(id, connection);
-    if (const auto oldest = unidentified_.in_the_way())
+    if (const auto oldest = unidentified_.next_to_go())
         connections_.at(*oldest)->close("gave way to others: it had not said hello", false);
     unidentified_.add(id, origin, std::chrono::steady_clock::now());
     connection->start(
@@ -64,7 +64,7 @@ void ConnectedClients::admit(std::shared_ptr<Stream> stream) {
 }
 
 void ConnectedClients::look_after(Time now) {
-    if (lease_) lease_->check_silence(now);
+    if (tool_lease_) tool_lease_->check_silence(now);
     log_holder();
     drop_revoked(now);
     for (const Id id : unidentified_.overdue(now))
@@ -85,7 +85,7 @@ void ConnectedClients::show_ct(const std::function<std::shared_ptr<const CtVolum
 }
 
 std::optional<Viewpoint> ConnectedClients::view_of_operator() {
-    if (const auto steers = lease_ ? lease_->holder() : seat_.holder()) steered_last_ = steers;
+    if (const auto steers = tool_lease_ ? tool_lease_->holder() : control_lease_.holder()) steered_last_ = steers;
     const auto looks = steered_last_ ? views_.find(*steered_last_) : views_.begin();
     return looks != views_.end() ? looks->second : std::nullopt;
 }
@@ -102,7 +102,7 @@ void ConnectedClients::show(const SessionState& state, bool with_checksum) {
 }
 
 void ConnectedClients::end_lease() {
-    if (lease_) lease_->end();
+    if (tool_lease_) tool_lease_->end();
     log_holder();
 }
 
@@ -137,8 +137,8 @@ void ConnectedClients::log_unidentified(const std::string& line) {
 
 bool ConnectedClients::may_control(Id id, Time now) const {
     if (!hello_.accepts_controls() || when_gone_ || watchers_.contains(id)) return false;
-    if (!lease_) return seat_.is_open_to(id, now);
-    return !lease_->holder() || *lease_->holder() == id;
+    if (!tool_lease_) return control_lease_.is_open_to(id, now);
+    return !tool_lease_->holder() || *tool_lease_->holder() == id;
 }
 
 v2::Hello ConnectedClients::hello_for(bool may_operate) const {
@@ -153,8 +153,8 @@ SessionState ConnectedClients::state_for(Id id, const SessionState& state, Time 
     SessionState theirs = state;
     theirs.view.reset();
     theirs.status.may_control = may_control(id, now);
-    if (lease_)
-        theirs.tool.driver = watchers_.contains(id) ? ToolDriver::others_only : lease_->driver_for(id);
+    if (tool_lease_)
+        theirs.tool.driver = watchers_.contains(id) ? ToolDriver::others_only : tool_lease_->driver_for(id);
     return theirs;
 }
 
@@ -171,14 +171,14 @@ std::optional<WireError> ConnectedClients::take(Id id, const v2::ClientFrame& fr
     }
     const Time now = std::chrono::steady_clock::now();
     const bool controls = frame.has_session_control() && may_control(id, now);
-    if (controls) seat_.use(id, now);
-    const bool may_operate = lease_ && !when_gone_ && !watchers_.contains(id);
+    if (controls) control_lease_.use(id, now);
+    const bool may_operate = tool_lease_ && !when_gone_ && !watchers_.contains(id);
     const bool shows_view = frame.has_viewpoint() && hello_.records_view() && !watchers_.contains(id);
     auto taken = take_client_message(frame,
                                      {.id = id,
                                       .feed = connection->feed(),
                                       .answers = connection->answers(),
-                                      .lease = may_operate ? &*lease_ : nullptr,
+                                      .lease = may_operate ? &*tool_lease_ : nullptr,
                                       .burr_count = static_cast<std::size_t>(hello_.burrs_size()),
                                       .control = controls ? &control_ : nullptr,
                                       .view = shows_view ? &views_[id] : nullptr},
@@ -198,8 +198,8 @@ std::optional<WireError> ConnectedClients::take(Id id, const v2::ClientFrame& fr
 
 void ConnectedClients::dismiss(Id id, const std::string& peer, const std::string& line, bool is_fault) {
     // First of all: a hand that has gone must not keep the burr turning.
-    if (lease_) lease_->leave(id);
-    seat_.leave(id);
+    if (tool_lease_) tool_lease_->leave(id);
+    control_lease_.leave(id);
     views_.erase(id);
     if (steered_last_ == id) steered_last_.reset();
     const bool was_unidentified = unidentified_.remove(id);
@@ -228,9 +228,9 @@ void ConnectedClients::log_client(const std::string& line) {
 
 void ConnectedClients::log_holder() {
     // After the lease knows: nobody waits for a log.
-    if (!lease_) return;
+    if (!tool_lease_) return;
     const auto peer_of = [this](auto id) { return connections_.at(id)->peer(); };
-    for (const auto& line : changes_of_hands_.look(lease_->holder(), peer_of)) log_client(line);
+    for (const auto& line : lease_history_.update(tool_lease_->holder(), peer_of)) log_client(line);
 }
 
 }  // namespace osteomill

@@ -1,7 +1,7 @@
 // Everybody who is connected to a streaming server: who they are, what they may do, and what they are sent.
 //
 // They are unidentified until they have said hello, and are served from then on. One of them may move the
-// tool, see ControlLease. All calls are on the thread of the connections' io_context.
+// tool, see ToolLease. All calls are on the thread of the connections' io_context.
 #pragma once
 
 #include <chrono>
@@ -19,10 +19,10 @@
 #include "common/scene/session_state.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/wire_error.h"
-#include "haptic_server/streaming/changes_of_hands.h"
+#include "haptic_server/streaming/lease_history.h"
 #include "haptic_server/streaming/client_connection.h"
+#include "haptic_server/streaming/tool_lease.h"
 #include "haptic_server/streaming/control_lease.h"
-#include "haptic_server/streaming/control_seat.h"
 #include "haptic_server/streaming/limited_log.h"
 #include "haptic_server/streaming/streaming_options.h"
 #include "haptic_server/streaming/unidentified_connections.h"
@@ -74,7 +74,7 @@ class ConnectedClients {
     std::uint64_t sent_bytes() const { return sent_bytes_; }
 
   private:
-    using Id = ControlLease::ClientId;
+    using Id = ToolLease::ClientId;
 
     /// Those who have said hello.
     std::size_t clients() const { return connections_.size() - unidentified_.size(); }
@@ -92,10 +92,10 @@ class ConnectedClients {
     const std::vector<v2::StructureBricks>& structures_;
     const BoneReplica& mirror_;
     FeedPackers& packers_;
-    std::optional<ControlLease> lease_;
-    ControlSeat seat_;  // where there is no lease
+    std::optional<ToolLease> tool_lease_;
+    ControlLease control_lease_;  // where there is no tool lease
     std::function<void(const SessionControl&)> control_;
-    ChangesOfHands changes_of_hands_;
+    LeaseHistory lease_history_;
     std::map<Id, std::optional<Viewpoint>> views_;  // of those who said
     std::optional<Id> steered_last_;                // and is still connected
 

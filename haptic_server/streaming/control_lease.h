@@ -1,17 +1,12 @@
-// The lease on the tool: which client moves it, and what it wants. The first that sends input has it, until
-// it leaves or the lease runs out. Its input renews the lease; but from one that brings nothing new for half
-// a minute, see OperatorActivity, the next who asks takes it. That a silent operator's pedal comes up is not
-// for the lease to see to: the device does, see simulation/device/permission.h.
+// Lease on the controls (pause, undo, marks) of a session whose tool no client moves, such as one with an
+// arm. The first client that uses a control has it until it leaves, or until it has used none for half a
+// minute and another does. Where a client moves the tool, the lease on the tool decides instead
+// (tool_lease.h).
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <optional>
-
-#include "common/scene/operator_command.h"
-#include "common/scene/tool_state.h"
-#include "haptic_server/streaming/operator_activity.h"
-#include "simulation/exchange/operator_channel.h"
 
 namespace osteomill {
 
@@ -20,34 +15,25 @@ class ControlLease {
     using Time = std::chrono::steady_clock::time_point;
     using ClientId = std::uint64_t;
 
-    /// So long after its last input it is the next one's. Long enough to reconnect after a hiccup of
-    /// the network, short enough for a colleague who waits.
-    static constexpr std::chrono::milliseconds duration{3000};
+    static constexpr std::chrono::seconds longest_rest{30};
 
-    /// The lease is the one writer of `output`.
-    explicit ControlLease(OperatorChannel& output) : output_(output) {}
-
-    /// Input from a client, already checked. Ignored unless the tool is free or its own; false if ignored.
-    bool take_input(ClientId client, const OperatorCommand& command, Time now);
-    /// A client has gone; the tool is free if it was that client's.
-    void leave(ClientId client);
-    /// Nobody moves it any more.
-    void end();
-    /// To be called regularly.
-    void check_silence(Time now);
-    /// Who has it, for the log.
+    bool is_open_to(ClientId client, Time now) const {
+        return !holder_ || *holder_ == client || now - used_ > longest_rest;
+    }
+    /// Call only if it is open to the client.
+    void use(ClientId client, Time now) {
+        holder_ = client;
+        used_ = now;
+    }
+    /// The client that used it last and has not left.
     std::optional<ClientId> holder() const { return holder_; }
-    /// What to send a client, as of the last call of any of the above.
-    ToolDriver driver_for(ClientId client) const;
+    void leave(ClientId client) {
+        if (holder_ == client) holder_.reset();
+    }
 
   private:
-    /// Whether the holder may keep it though another asks.
-    bool is_kept(Time now) const { return now - last_heard_ <= duration && !activity_.is_idle(now); }
-
-    OperatorChannel& output_;
     std::optional<ClientId> holder_;
-    OperatorActivity activity_;  // of the holder
-    Time last_heard_{};
+    Time used_{};
 };
 
 }  // namespace osteomill

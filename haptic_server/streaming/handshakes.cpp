@@ -16,7 +16,7 @@ constexpr std::size_t read_bytes = 4096;
 
 Handshakes::Handshakes(boost::asio::io_context& io, TlsContext* tls, std::chrono::milliseconds deadline,
                        Callbacks callbacks, std::size_t most_at_once)
-    : io_(io), tls_(tls), deadline_(deadline), callbacks_(std::move(callbacks)), places_(most_at_once) {}
+    : io_(io), tls_(tls), deadline_(deadline), callbacks_(std::move(callbacks)), quota_(most_at_once) {}
 
 void Handshakes::begin(tcp::socket socket) {
     if (tls_ == nullptr) {
@@ -26,12 +26,12 @@ void Handshakes::begin(tcp::socket socket) {
     error_code error;
     const tcp::endpoint from = socket.remote_endpoint(error);
     if (error) return;  // gone again
-    if (const auto oldest = places_.in_the_way())
+    if (const auto oldest = quota_.next_to_go())
         fail(*oldest,
-             "it gave way to others, with " + std::to_string(places_.size()) + " handshakes under way");
+             "it gave way to others, with " + std::to_string(quota_.size()) + " handshakes under way");
     const Id id = ++last_id_;
     Handshake& handshake = under_way_.try_emplace(id, std::move(socket), io_).first->second;
-    places_.add(id, origin_of(from.address()));
+    quota_.add(id, origin_of(from.address()));
     handshake.timer.expires_after(deadline_);
     handshake.timer.async_wait([this, id](error_code failure) {
         if (!failure) fail(id, "no TLS handshake within " + std::to_string(deadline_.count()) + " ms");
@@ -54,7 +54,7 @@ void Handshakes::shake_hands(Id id) {
         if (found == under_way_.end()) return;
         const auto done = std::exchange(found->second.stream, nullptr);
         under_way_.erase(found);
-        places_.remove(id);
+        quota_.remove(id);
         callbacks_.on_done(done);
     });
 }
@@ -65,13 +65,13 @@ void Handshakes::fail(Id id, const std::string& why) {
     const Handshake& handshake = found->second;
     const std::string peer = handshake.stream ? handshake.stream->peer() : describe_end(handshake.socket);
     under_way_.erase(found);
-    places_.remove(id);
+    quota_.remove(id);
     callbacks_.on_failed(peer, why);
 }
 
 void Handshakes::cancel() {
     under_way_.clear();
-    places_.clear();
+    quota_.clear();
 }
 
 }  // namespace osteomill

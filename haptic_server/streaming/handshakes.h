@@ -1,8 +1,8 @@
 // Connections between being accepted and being a client: the TLS handshake, with a deadline for each and a
 // bound on how many there are. Without TLS they are clients at once.
 //
-// One that has not said a word is a socket and a timer; TLS, which costs a hundred times as much, begins with
-// the first byte. Whose place is taken when they are short: see FairPlaces.
+// A silent connection is a socket and a timer; TLS, which costs a hundred times as much, begins with the
+// first byte. ConnectionQuota says which connection goes when there are too many.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -16,7 +16,7 @@
 #include <string>
 
 #include "common/net/stream.h"
-#include "haptic_server/streaming/fair_places.h"
+#include "haptic_server/streaming/connection_quota.h"
 
 namespace osteomill {
 
@@ -28,9 +28,9 @@ class Handshakes {
         std::function<void(const std::string& peer, const std::string& why)> on_failed;
     };
 
-    /// `tls`: null for none. It and `io` outlive this. `most_at_once`: places under TLS.
+    /// `tls`: null for none. It and `io` outlive this. `most_at_once`: under TLS.
     Handshakes(boost::asio::io_context& io, TlsContext* tls, std::chrono::milliseconds deadline,
-               Callbacks callbacks, std::size_t most_at_once = places_for_unidentified());
+               Callbacks callbacks, std::size_t most_at_once = unidentified_quota());
 
     void begin(boost::asio::ip::tcp::socket socket);
     /// Hangs up on all that are under way; without a word to anybody.
@@ -51,7 +51,7 @@ class Handshakes {
         std::shared_ptr<Stream> stream;       // from then on
         boost::asio::steady_timer timer;
     };
-    using Id = FairPlaces::Id;
+    using Id = ConnectionQuota::Id;
 
     void shake_hands(Id id);
     void fail(Id id, const std::string& why);
@@ -62,7 +62,7 @@ class Handshakes {
     Callbacks callbacks_;
     Id last_id_ = 0;
     std::map<Id, Handshake> under_way_;
-    FairPlaces places_;  // of these
+    ConnectionQuota quota_;  // of these
 };
 
 }  // namespace osteomill

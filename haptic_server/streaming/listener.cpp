@@ -23,7 +23,7 @@ tcp::acceptor listen(asio::io_context& io, const StreamingOptions& options) {
         throw std::runtime_error("cannot listen on " + where +
                                  ": without TLS only this machine is served; use 127.0.0.1 or ::1");
     if (!address.is_loopback() && !options.tls)
-        spdlog::warn("{} is served without TLS: whoever reaches it sees everything and may drill", where);
+        spdlog::warn("{} is served without TLS: anybody who reaches it sees everything and may drill", where);
     tcp::acceptor acceptor(io);
     const tcp::endpoint endpoint(address, options.port);
     acceptor.open(endpoint.protocol(), error);

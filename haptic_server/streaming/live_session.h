@@ -34,7 +34,7 @@ class LiveSession final : public StreamSource {
     void offer_ct(std::function<CtVolume()> make) { make_ct_ = std::move(make); }
     /// The protected structures that are looked at from now on. Approaches and touches are logged.
     void watch(StructureWatch structures, std::vector<Tissue> tissues);
-    /// What the edges cut is told with the tool from now on. The one reader of `cuts`, which outlives it.
+    /// From now on the cut of the edges is sent with the tool. The one reader of `cuts`, which outlives it.
     void listen_to(TripleBuffer<std::optional<CutState>>& cuts) { cuts_ = &cuts; }
     /// What came of them; once the streaming server has ended.
     const StructureWatch& structures() const { return structures_; }

@@ -21,7 +21,7 @@ void SessionControls::control(const SessionControl& control) {
     if (waiting_.size() < most_waiting)
         waiting_.push_back({control});
     else
-        say(control, "too much was asked for at once");
+        say(control, "too much was requested at once");
 }
 
 void SessionControls::begin_frame() {
@@ -132,7 +132,7 @@ std::string SessionControls::place(const Waiting& waiting, const Bone& bone, con
             return {};
         }
         if (tool.spindle_on) return "the spindle still turns";
-        if (frames_left < 2) return "what was asked for before it took too long";
+        if (frames_left < 2) return "what was requested before it took too long";
         const auto found = requests_.place(bone, waiting.control.pose, tool.burr);
         if (const auto* refusal = std::get_if<std::string>(&found)) {
             say(waiting.control, *refusal);

@@ -1,4 +1,4 @@
-// Looks after a session on behalf of whoever controls it: pause, undo and redo by strokes, marks, the speed
+// Controls of a session that its operator uses: pause, undo and redo by strokes, marks, the speed
 // of the spindle, saving, the end. On the streaming thread, which knows all that was milled from its own copy
 // of the bone.
 //
@@ -37,7 +37,7 @@ class SessionControls {
         /// `text`: as what; empty for the bone itself.
         std::function<std::string(const Bone&, const std::string& text)> save{};
         std::function<std::string()> finish{};
-        /// What who finishes is told, such as where the report will be.
+        /// The answer to Finish, such as where the report will be.
         std::string finish_words{};
         /// Where the burr goes that is wanted there, or why nowhere. Empty where a tool cannot be placed.
         std::function<std::variant<ToolPose, std::string>(const Bone&, const ToolPose&, std::size_t burr)>
@@ -50,7 +50,7 @@ class SessionControls {
     };
     /// So many wait at most; what comes then is refused.
     static constexpr std::size_t most_waiting = 64;
-    /// Of a streaming server, at 30 Hz: less than a second until whoever asked has the answer.
+    /// Of a streaming server, at 30 Hz: less than a second until the client has its answer.
     static constexpr int longest_wait_frames = 25;
 
     /// The one writer of gate.holds_still and gate.spindle_rev_per_s, of `restored` and of `placements`; all
@@ -65,7 +65,7 @@ class SessionControls {
     void begin_frame();
     /// For each of them, before it is applied to `bone`.
     void note(const BrickChange& change, const Bone& bone);
-    /// When all are: does what was asked for and can be done now, and refuses what has waited too long.
+    /// When all are: does what was requested and can be done now, and refuses what has waited too long.
     void end_frame(const Bone& bone, const ToolState& tool);
 
     std::vector<ControlEvent> take_events() { return std::exchange(events_, {}); }
@@ -74,7 +74,7 @@ class SessionControls {
   private:
     struct Waiting {
         SessionControl control;
-        int frames = 0;          ///< it has seen since it was asked for
+        int frames = 0;          ///< it has seen since it was requested
         bool lifts_out = false;  ///< of place: nobody asked for it
     };
     /// What it has to wait for; empty: it is done, or refused.
@@ -103,7 +103,7 @@ class SessionControls {
     bool is_paused_ = false;
     bool has_changes_ = false;  // in this frame
 
-    Placement placement_;  // the last that was asked for
+    Placement placement_;  // the last that was requested
     bool is_being_placed_ = false;
     bool may_be_in_bone_ = false;             // since bone came back
     StrokeJournal::Restoration restoration_;  // of this frame

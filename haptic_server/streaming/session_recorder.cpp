@@ -75,7 +75,7 @@ void SessionRecorder::finish(SessionState state, const std::string& reason) {
 
 RecordingReport SessionRecorder::report() const {
     RecordingReport report = writer_.report();
-    const bool lacks_end = report.error.empty() && feed_.has_been_asked_to_finish() && !feed_.is_finished();
+    const bool lacks_end = report.error.empty() && feed_.finish_requested() && !feed_.is_finished();
     if (lacks_end) report.error = report.file.string() + ": lacks the end: the disk was full until then";
     if (ticks_ != nullptr) report.missed_ticks = ticks_->dropped();
     return report;

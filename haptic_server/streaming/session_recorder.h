@@ -29,7 +29,7 @@ class SessionRecorder {
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
     /// Hands over a state frame; without waiting, unless `may_wait`.
     void record(SessionState state, bool with_checksum, bool may_wait);
-    /// Hands over the end, waits until all is written and makes it the file that was asked for. Gives up on a
+    /// Hands over the end, waits until all is written and makes it the file that was requested. Gives up on a
     /// disk that does not answer (see RecordingWriter).
     void finish(SessionState state, const std::string& reason);
 
@@ -48,7 +48,7 @@ class SessionRecorder {
     std::uint64_t missed_ticks_ = 0;  // that ticks_ dropped and the recording has yet to tell of
     std::uint64_t dropped_ticks_ = 0;
     std::atomic<bool> is_under_way_{false};
-    // Of its own: the recording ends on another thread while clients are still told the end.
+    // Of its own: the recording ends on another thread while clients are still sent the end.
     FeedPackers packers_{};
     ClientFeed feed_;
     RecordingWriter writer_;

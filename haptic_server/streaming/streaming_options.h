@@ -12,7 +12,7 @@
 #include "common/net/tls_context.h"
 #include "common/recording/packet.h"
 #include "common/scene/tick_sample.h"
-#include "haptic_server/streaming/fair_places.h"
+#include "haptic_server/streaming/connection_quota.h"
 #include "haptic_server/streaming/operator_list.h"
 #include "simulation/exchange/sample_queue.h"
 
@@ -38,8 +38,8 @@ struct StreamingOptions {
     /// Two round trips and some milliseconds of arithmetic; a client that does not hear from its server for
     /// 5 s gives up.
     std::chrono::milliseconds handshake_deadline{3000};
-    /// Places for those who are not clients yet, see FairPlaces.
-    std::size_t places_for_unidentified = osteomill::places_for_unidentified();
+    /// Places for those who are not clients yet, see ConnectionQuota.
+    std::size_t unidentified_quota = osteomill::unidentified_quota();
     double frame_rate_hz = 30.0;
     /// Frames go out when show_frame() is called instead, and a recording waits for its disk: for sessions
     /// that run on a clock of their own.

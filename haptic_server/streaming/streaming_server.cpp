@@ -252,7 +252,7 @@ class StreamingServer::Impl {
              [this](const std::string& peer, const std::string& why) {
                  clients_.log_unidentified(fmt::format("client {} was refused: {}", peer, why));
              }},
-        options_.places_for_unidentified};
+        options_.unidentified_quota};
     asio::steady_timer timer_{io_};
     asio::steady_timer deadline_{io_};
     Clock::time_point next_frame_{};

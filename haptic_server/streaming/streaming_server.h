@@ -52,7 +52,7 @@ class StreamingServer {
     /// Sends a frame of what is shown, and returns when that is done: with paced_by_session.
     void show_frame();
 
-    // The end, in three steps, so that whoever has something to save need not wait for clients nor a disk.
+    // The end, in three steps, so that saving a bone waits for neither clients nor a disk.
     // Each takes those before it first, and does nothing the second time.
 
     /// Call after the milling loop has ended: takes over the last changes, and begins to send every client
@@ -69,7 +69,7 @@ class StreamingServer {
     std::uint16_t port() const;
     /// Checksum of the mirror, after end().
     std::uint64_t mirror_checksum() const;
-    /// What became of the recording, after finish_recording(); nothing where none was asked for.
+    /// What became of the recording, after finish_recording(); nothing where none was requested.
     std::optional<RecordingReport> recording() const;
 
   private:

@@ -15,8 +15,8 @@ std::vector<std::string> StructureLog::lines(std::span<const StructureDistance> 
         const bool was_warned_of = is_warned_of_[now.tissue];
         const double limit_mm = (was_warned_of ? left_at : 1.0) * tissue.warn_mm;
         is_near[now.tissue] = now.touches || (now.distance_mm && *now.distance_mm < limit_mm);
-        if (now.touches_so_far > touches_told_[now.tissue]) {
-            touches_told_[now.tissue] = now.touches_so_far;
+        if (now.touches_so_far > touches_logged_[now.tissue]) {
+            touches_logged_[now.tissue] = now.touches_so_far;
             say(lines, fmt::format("the burr touches {} ({:.2f} s; touch {})", tissue.name, time_s,
                                    now.touches_so_far));
         } else if (is_near[now.tissue] && !was_warned_of && !now.touches) {

@@ -23,7 +23,7 @@ class StructureLog {
 
     /// `tissues`: those that distances name by their index.
     explicit StructureLog(std::vector<Tissue> tissues)
-        : tissues_(std::move(tissues)), is_warned_of_(tissues_.size()), touches_told_(tissues_.size()) {}
+        : tissues_(std::move(tissues)), is_warned_of_(tissues_.size()), touches_logged_(tissues_.size()) {}
 
     /// What is to be said now, mostly nothing.
     std::vector<std::string> lines(std::span<const StructureDistance> distances, double time_s);
@@ -32,8 +32,8 @@ class StructureLog {
     void say(std::vector<std::string>& lines, std::string line);
 
     std::vector<Tissue> tissues_;
-    std::vector<bool> is_warned_of_;           // by tissue
-    std::vector<std::uint32_t> touches_told_;  // by tissue
+    std::vector<bool> is_warned_of_;             // by tissue
+    std::vector<std::uint32_t> touches_logged_;  // by tissue
     std::size_t said_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // Connections that have yet to say hello: a client that is about to, or a scan of ports.
 //
-// They have places of their own, so that they cannot take a client's; whose is taken when those are short:
-// see FairPlaces. They are sent a hello and no more, so that a stranger costs no snapshot.
+// They have a quota of their own (ConnectionQuota), so that they never cost a client its connection. They are
+// sent a hello and no more, so that a stranger costs no snapshot.
 #pragma once
 
 #include <chrono>
@@ -10,30 +10,30 @@
 #include <optional>
 #include <vector>
 
-#include "haptic_server/streaming/fair_places.h"
+#include "haptic_server/streaming/connection_quota.h"
 
 namespace osteomill {
 
 class UnidentifiedConnections {
   public:
-    using Id = FairPlaces::Id;  ///< ascending in the order in which they came
+    using Id = ConnectionQuota::Id;  ///< ascending in the order in which they came
     using Time = std::chrono::steady_clock::time_point;
 
     /// A client says hello within two round trips; this leaves room for a machine that is busy.
     static constexpr std::chrono::seconds patience{10};
 
-    explicit UnidentifiedConnections(std::size_t most_at_once = places_for_unidentified())
-        : places_(most_at_once) {}
+    explicit UnidentifiedConnections(std::size_t most_at_once = unidentified_quota())
+        : quota_(most_at_once) {}
 
-    /// Who has to go before another can be added, if anyone.
-    std::optional<Id> in_the_way() const { return places_.in_the_way(); }
+    /// The connection that has to go before another can be added; none where there is room.
+    std::optional<Id> next_to_go() const { return quota_.next_to_go(); }
     void add(Id id, const Origin& origin, Time now) {
-        places_.add(id, origin);
+        quota_.add(id, origin);
         since_.emplace(id, now);
     }
 
     /// It has said hello, or has gone. False if it was none of these.
-    bool remove(Id id) { return since_.erase(id) != 0 && places_.remove(id); }
+    bool remove(Id id) { return since_.erase(id) != 0 && quota_.remove(id); }
 
     bool contains(Id id) const { return since_.contains(id); }
     /// Who has been silent for that long.
@@ -48,7 +48,7 @@ class UnidentifiedConnections {
 
   private:
     std::map<Id, Time> since_;
-    FairPlaces places_;
+    ConnectionQuota quota_;
 };
 
 }  // namespace osteomill

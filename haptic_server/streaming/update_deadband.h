@@ -1,7 +1,7 @@
 // A deadband on updates of the tool: one that rests need not be sent to a client thirty times a second.
 #pragma once
 
-#include "common/wire/tool_look.h"
+#include "common/wire/tool_appearance.h"
 
 namespace osteomill {
 

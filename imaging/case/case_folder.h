@@ -76,7 +76,7 @@ std::filesystem::path bone_of_case(const std::filesystem::path& folder);
 
 /// Completes a case whose bone is there: makes a tissue of each segment that lies in the bone's box, writes
 /// them on the bone's grid as the case's segmentation, chooses where the tool starts, and writes case.toml,
-/// last. Segments outside are told of in `messages`. Throws std::runtime_error in one line, also where a
+/// last. Segments outside are named in `messages`. Throws std::runtime_error in one line, also where a
 /// tissue that is protected or the target lies outside. `go_on`: see ImportSurroundings.
 void finish_case(
     const std::filesystem::path& folder, const BegunCase& begun, std::ostream& messages,

@@ -77,8 +77,8 @@ void add_structures_in_bone(const Scene& scene, const Bone& bone, std::vector<St
     std::ranges::sort(structures, {}, &Structure::tissue);
 }
 
-std::vector<Structure> not_told_by_bone(const std::vector<Structure>& structures, const Scene& scene,
-                                        const Bone& bone) {
+std::vector<Structure> structures_outside_bone_labels(const std::vector<Structure>& structures,
+                                                      const Scene& scene, const Bone& bone) {
     std::vector<Structure> others;
     for (const Structure& one : structures) {
         const Tissue& tissue = scene.tissues[one.tissue];

@@ -26,7 +26,7 @@ FillLabels label_painter(const Scene& scene, const std::vector<Structure>& struc
 void add_structures_in_bone(const Scene& scene, const Bone& bone, std::vector<Structure>& structures);
 
 /// Of these structures, those that are elsewhere than where the bone has their label.
-std::vector<Structure> not_told_by_bone(const std::vector<Structure>& structures, const Scene& scene,
-                                        const Bone& bone);
+std::vector<Structure> structures_outside_bone_labels(const std::vector<Structure>& structures,
+                                                      const Scene& scene, const Bone& bone);
 
 }  // namespace osteomill

@@ -146,7 +146,7 @@ class Walker {
             items_in_values_ += items_between(element.value, end);
             return end;
         }
-        // What begins with an item GDCM takes for a sequence when it is asked for one, in either coding.
+        // What begins with an item GDCM takes for a sequence when it is requested one, in either coding.
         std::vector<Syntax> codings{is_sequence ? syntax : Syntax{.is_explicit = false}};
         if (!is_sequence && depth == 0) codings.push_back({.is_explicit = true});
         const std::uint64_t before = items_in_values_;

@@ -37,7 +37,7 @@ struct DicomSeries {
 /// read_dicom_header refuses.
 std::vector<DicomSeries> find_series(const std::filesystem::path& folder, std::vector<std::string>& left_out);
 
-/// The series asked for, or else the largest. `others` gets one line about each series passed over. Throws
+/// The series requested, or else the largest. `others` gets one line about each series passed over. Throws
 /// ImagingError, listing the UIDs there are, where there is none of that UID.
 const DicomSeries& choose_series(const std::filesystem::path& folder, const std::vector<DicomSeries>& series,
                                  const std::optional<std::string>& uid, std::vector<std::string>& others);

@@ -1,4 +1,4 @@
-// CT numbers of an anatomy that is told by distances, filled on all cores.
+// CT numbers of an anatomy that is given by distance functions, filled on all cores.
 //
 // An anatomy is a class with
 //

@@ -279,7 +279,7 @@ bool SliceShapes::may_move(const glm::ivec3& cell) const {
     }
     const auto least = [&](int slice) { return std::max({low[slice], -high[slice], 0.0F}); };
     const auto most = [&](int slice) { return std::max(high[slice], -low[slice]); };
-    // A contour that ends is not told by these two slices alone.
+    // These two slices alone do not show how a contour ends.
     if (std::max(out_of_reach(most(0)), out_of_reach(most(1))) > 0.0)
         return out_of_reach(least(0)) == 0.0 || out_of_reach(least(1)) == 0.0;
     const double way_mm = std::max(high[1] - low[0], high[0] - low[1]);

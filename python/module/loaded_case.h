@@ -27,8 +27,8 @@ class LoadedCase {
     const Scene& settings() const { return scene_.scene; }
     std::uint64_t bone_checksum() const { return bone_checksum_; }
 
-    /// The tissues that removed bone is told by, and the label of each; "unlabelled" is one of them where the
-    /// bone has such voxels.
+    /// The tissues by which removed bone is counted, and the label of each; "unlabelled" is one of them where
+    /// the bone has such voxels.
     struct NamedLabel {
         std::string name;
         std::size_t label;

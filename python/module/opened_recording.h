@@ -28,7 +28,7 @@ class OpenedRecording {
 
     const std::filesystem::path& file() const { return file_; }
 
-    // One thread at a time: whoever calls these holds `busy`.
+    // One thread at a time: the caller of these holds `busy`.
     std::mutex& busy() { return busy_; }
 
     /// Reads the recording through, the first time.
@@ -36,7 +36,7 @@ class OpenedRecording {
     const RecordingSummary& summary() { return read(), *summary_; }
 
     /// After the last frame that is no later than `time_s`, seconds since the recording began. Goes on from
-    /// where it was asked for last, or begins anew where that is later. Throws RecordingError for what cannot
+    /// where it was requested last, or begins anew where that is later. Throws RecordingError for what cannot
     /// be right until then.
     const Bone& bone_at(double time_s);
 

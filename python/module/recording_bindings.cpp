@@ -91,7 +91,7 @@ void bind_recording(py::module_& module) {
     py::class_<OpenedRecording, SharedRecording>(
         module, "Recording", R"(A recording of a session: its states, and its bone at any instant.
 
-It is read through when the first array is asked for. Arrays have a row a state, thirty a second; they are copies, in
+It is read through when the first array is requested. Arrays have a row a state, thirty a second; they are copies, in
 patient LPS.)")
         .def(py::init([](std::filesystem::path file) {
                  return std::make_shared<OpenedRecording>(std::move(file));

@@ -90,7 +90,7 @@ void SteppedSession::begin() {
     assembly_ = std::make_unique<SessionAssembly>(std::move(scene), std::move(parts), std::move(session));
     assembly_->start();
     assembly_->advance(1);
-    tool_ = assembly_->session().told();
+    tool_ = assembly_->session().newest_state();
     fed_.clear();
 }
 
@@ -102,7 +102,7 @@ void SteppedSession::make_ticks(const HandInput& input) {
         if (input.burr >= 0) prescribed_->take_burr(static_cast<std::size_t>(input.burr));
     }
     assembly_->advance(input.ticks);
-    tool_ = assembly_->session().told();
+    tool_ = assembly_->session().newest_state();
 }
 
 void SteppedSession::step(const HandInput& input) {

@@ -37,7 +37,7 @@ struct SteppedOptions {
 struct HandInput {
     ToolPose pose{};
     bool pedal = false;
-    std::int32_t burr = -1;  ///< number in the scene's set that is asked for; -1: none
+    std::int32_t burr = -1;  ///< number in the scene's set that is requested; -1: none
     std::uint64_t ticks = 1;
 
     bool is_as(const HandInput& other) const {
@@ -68,7 +68,7 @@ class SteppedSession {
     SteppedSession(const SteppedSession&) = delete;
     SteppedSession& operator=(const SteppedSession&) = delete;
 
-    // One thread at a time: whoever calls these holds `busy`.
+    // One thread at a time: the caller of these holds `busy`.
     std::mutex& busy() { return busy_; }
 
     /// Makes the ticks of `input`. Throws std::logic_error once it has ended.

@@ -86,7 +86,7 @@ void bind_tick(py::module_& module) {
             "Why the force is off and the tool out of the bone; empty while all is well.")
         .def_property_readonly(
             "notice", [](const Tick& tick) { return std::string(tick.state.tool.notice.text()); },
-            "What something that was asked for waits for, such as a pedal that was held too long; empty: "
+            "What something that was requested waits for, such as a pedal that was held too long; empty: "
             "nothing.")
         .def("__repr__", [](const Tick& tick) {
             const glm::dvec3& force_n = tick.state.tool.force_n;

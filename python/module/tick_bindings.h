@@ -1,4 +1,4 @@
-// What ticks of a session knew, in Python: of one, a Step; of many, a dict of arrays.
+// Ticks of a session in Python: one as a Step, many as a dict of arrays.
 #pragma once
 
 #include <pybind11/pybind11.h>

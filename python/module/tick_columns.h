@@ -1,4 +1,4 @@
-// What many ticks knew, column by column: the arrays of a rollout.
+// Columns of many ticks: the arrays of a rollout.
 #pragma once
 
 #include <cstddef>

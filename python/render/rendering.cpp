@@ -34,10 +34,10 @@ Rendering::~Rendering() {
     frames_.reset();
 }
 
-std::optional<Rendering::Frame> Rendering::next(const std::function<bool()>& stop_asked) {
+std::optional<Rendering::Frame> Rendering::next(const std::function<bool()>& stop_requested) {
     const std::scoped_lock held(busy_);
     const Current current(context_);
-    auto drawn = frames_->next(stop_asked);
+    auto drawn = frames_->next(stop_requested);
     if (!drawn) return std::nullopt;
     Frame frame{.drawn = *std::move(drawn), .instant = {}, .views = {}};
     frame.instant = instant_json(frame.drawn, frames_->playhead());

@@ -28,7 +28,7 @@ class Rendering {
         std::vector<nlohmann::ordered_json> views;  ///< a camera each
     };
     /// As DatasetFrames::next. One thread at a time; another waits.
-    std::optional<Frame> next(const std::function<bool()>& stop_asked);
+    std::optional<Frame> next(const std::function<bool()>& stop_requested);
 
     /// The sessions that have begun so far, as the index has them.
     nlohmann::ordered_json sessions();

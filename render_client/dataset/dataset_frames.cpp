@@ -15,8 +15,8 @@ DatasetFrames::DatasetFrames(std::filesystem::path recording, DatasetContents co
     begin_session();
 }
 
-std::optional<DatasetFrame> DatasetFrames::next(const std::function<bool()>& stop_asked) {
-    while (!stop_asked()) {
+std::optional<DatasetFrame> DatasetFrames::next(const std::function<bool()>& stop_requested) {
+    while (!stop_requested()) {
         const Playhead::Step step = playhead_.step(std::numeric_limits<double>::infinity());
         if (step == Playhead::Step::end) return std::nullopt;
         if (step == Playhead::Step::new_bone) begin_session();

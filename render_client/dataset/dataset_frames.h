@@ -34,9 +34,9 @@ class DatasetFrames {
     DatasetFrames(std::filesystem::path recording, DatasetContents contents,
                   std::function<void(const Playhead&)> on_session);
 
-    /// The next of this part; nothing at the recording's end, and where `stop_asked` says so, which is asked
+    /// The next of this part; nothing at the recording's end, and where `stop_requested` says so, which is asked
     /// at every state. Throws RecordingError for what cannot be read.
-    std::optional<DatasetFrame> next(const std::function<bool()>& stop_asked);
+    std::optional<DatasetFrame> next(const std::function<bool()>& stop_requested);
 
     /// The instant of the last frame.
     const Playhead& playhead() const { return playhead_; }

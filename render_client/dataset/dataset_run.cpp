@@ -46,7 +46,7 @@ nlohmann::ordered_json written(const std::filesystem::path& folder, const Datase
 }  // namespace
 
 RenderReport run_dataset(const RenderOptions& options, const std::string& version,
-                         const std::function<bool()>& stop_asked) {
+                         const std::function<bool()>& stop_requested) {
     const std::filesystem::path& recording = *options.replay;
     const std::filesystem::path& folder = options.dataset->folder;
     const DatasetContents contents = contents_of(options);
@@ -61,7 +61,7 @@ RenderReport run_dataset(const RenderOptions& options, const std::string& versio
     try {
         for (;;) {
             const Clock::time_point start = Clock::now();
-            const auto frame = frames.next(stop_asked);
+            const auto frame = frames.next(stop_requested);
             if (!frame) break;
             index.add_frame(*frame, frames.playhead(), written(folder, *frame, frames));
             report.frame_times.add(std::chrono::duration<double, std::milli>(Clock::now() - start).count());

@@ -48,7 +48,7 @@ struct LinkUpdate {
     std::vector<BrickChange> changes;      ///< of bone(), ascending; empty if bone_replaced
     std::optional<ToolState> tool;         ///< the newest since the last poll, if any came
     std::vector<Structure> structures{};   ///< that came since the last poll, or with bone()
-    std::shared_ptr<const CtVolume> ct{};  ///< that was asked for, once it is here
+    std::shared_ptr<const CtVolume> ct{};  ///< that was requested, once it is here
     std::vector<ControlEvent> events{};    ///< since the last poll
     /// Of protected structures that are near the burr or were touched, as of the newest tool.
     std::vector<StructureDistance> distances{};

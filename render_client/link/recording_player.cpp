@@ -102,7 +102,7 @@ void RecordingPlayer::go_towards_target(LinkUpdate& update) {
             case Playhead::Step::new_bone:
                 keys_.emplace(playhead_->mark());
                 session_begins_s_ = playhead_->time_s();
-                // At once: whoever makes textures of the one before may not read another in its place.
+                // At once: a thread that makes textures of the bone before may not read another in its place.
                 announce_bone(update);
                 return;
             case Playhead::Step::goodbye:

@@ -82,7 +82,7 @@ class ServerConnection {
   private:
     using tcp = boost::asio::ip::tcp;
 
-    /// A recording has none: what a frame said that is missing there cannot be asked for in years.
+    /// A recording has none: what a frame said that is missing there cannot be requested in years.
     Gaps gaps() const { return recorder_ ? Gaps::refused : Gaps::reported; }
 
     void run();
@@ -142,7 +142,7 @@ class ServerConnection {
     bool accepts_controls_ = false;
     std::size_t burr_count_ = 0;
 
-    // What whoever reads the operator's mouse has before it: the newest state, though it may not be drawn
+    // What the reader of the operator's mouse has before it: the newest state, though it may not be drawn
     // yet.
     mutable std::mutex seen_mutex_;
     std::uint64_t seen_generation_ = 0;

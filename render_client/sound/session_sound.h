@@ -1,4 +1,4 @@
-// The sound of the session that a client shows: off until it is asked for. Without a loudspeaker it says so
+// The sound of the session that a client shows: off until it is requested. Without a loudspeaker it says so
 // in one line, and everything else goes on.
 #pragma once
 

@@ -55,7 +55,7 @@ void arrive(SessionPicture& session, const RecordingPlayer& player) {
 }  // namespace
 
 RenderReport run_film(const RenderOptions& options, SessionSource& source,
-                      const std::function<bool()>& stop_asked) {
+                      const std::function<bool()>& stop_requested) {
     RecordingPlayer& player = *source.player();
     player.pause();
     const gl::OffscreenContext context(options.gpu);
@@ -76,7 +76,7 @@ RenderReport run_film(const RenderOptions& options, SessionSource& source,
     const double lasts_s = player.duration_s() - begins_s;
     const double frame_s = options.speed / frames_per_s;
     for (int frame = 0; frame * frame_s <= lasts_s; ++frame) {
-        if (stop_asked()) throw std::runtime_error("was told to stop; no film was written");
+        if (stop_requested()) throw std::runtime_error("interrupted; no film was written");
         const auto start = std::chrono::steady_clock::now();
         player.seek(begins_s + frame * frame_s);
         arrive(session, player);

@@ -31,10 +31,10 @@ double seconds(Clock::duration duration) {
 }
 
 /// Polls until the first bone is there. False where the run was asked to stop before.
-bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_asked) {
+bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_requested) {
     const Clock::time_point start = Clock::now();
     double says_at_s = silent_wait_for_bone_s;
-    while (!stop_asked()) {
+    while (!stop_requested()) {
         session.take_in();
         if (const double waited_s = seconds(Clock::now() - start); waited_s > says_at_s) {
             spdlog::info("waiting for a bone, {:.0f} of at most {:.0f} s: {}", waited_s,
@@ -57,7 +57,7 @@ bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_as
 }  // namespace
 
 RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
-                           const std::function<bool()>& stop_asked) {
+                           const std::function<bool()>& stop_requested) {
     Screenshots screenshots(options.screenshots, screenshot_interval(options));
     const gl::OffscreenContext context(options.gpu);
     gl::require_opengl_3_3();
@@ -70,7 +70,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     if (options.sound) sound.switch_to(true);
     FrameTimes frame_times;
 
-    bool going_on = wait_for_bone(session, stop_asked);
+    bool going_on = wait_for_bone(session, stop_requested);
     Redraw redraw;
     redraw.note_change(Clock::now());
     const gl::Framebuffer* framebuffer = nullptr;  // of the last frame that was drawn
@@ -84,7 +84,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
         if (news == SessionNews::figures) redraw.note_figures();
         const LinkStatus status = session.link().status;
         going_on = frame < options.frames && status != LinkStatus::finished &&
-                   status != LinkStatus::refused && !stop_asked();
+                   status != LinkStatus::refused && !stop_requested();
 
         // What is written shows the newest figures, too.
         const bool is_written = !going_on || screenshots.is_next_due();

@@ -82,8 +82,8 @@ bool can_start_here(const RenderOptions& options) {
 struct Shared {
     InputMailbox mailbox{};
     HandInput desk;
-    std::atomic<bool> is_over{false};      ///< asked for by either thread
-    std::atomic<bool> close_asked{false};  ///< somebody wants to close the window
+    std::atomic<bool> is_over{false};          ///< asked for by either thread
+    std::atomic<bool> close_requested{false};  ///< somebody wants to close the window
     std::atomic<bool> is_fullscreen{false};
 };
 
@@ -138,7 +138,7 @@ class Drawing {
   private:
     void take_in(Clock::time_point now) {
         WindowInput happened = shared_.mailbox.take();
-        if (shared_.close_asked.exchange(false)) {
+        if (shared_.close_requested.exchange(false)) {
             commands_.ask_to_end();
             redraw_.note_change(now);
         }
@@ -184,7 +184,7 @@ class Drawing {
         if (news == SessionNews::figures || !session_.view().notice.empty()) redraw_.note_figures();
     }
 
-    /// Another case brings another look; one that was edited is saved where that is asked for.
+    /// Another case brings another look; one that was edited is saved where that is requested.
     void work_look(double now_s) {
         ViewSettings& view = session_.view();
         try {
@@ -337,7 +337,7 @@ class DrawingThread {
 }  // namespace
 
 RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
-                           const std::function<bool()>& stop_asked) {
+                           const std::function<bool()>& stop_requested) {
     Window window(options.window_size_px.value_or(default_size_px), "Osteomill",
                   options.stereo.layout == StereoLayout::quad_buffer);
     Shared shared{.desk = HandInput(source)};
@@ -348,7 +348,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         gl::require_opengl_3_3();
         report = Drawing(options, source, window, shared).run();
     });
-    for (Clock::time_point previous = Clock::now(); !shared.is_over && !stop_asked();) {
+    for (Clock::time_point previous = Clock::now(); !shared.is_over && !stop_requested();) {
         if (shared.desk.is_driving()) {
             std::this_thread::sleep_until(previous + driving_period);
             window.read_events(0.0);
@@ -362,8 +362,8 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         // Pointed at is the left eye's picture, which is the left, or the upper, half of the window.
         if (options.stereo.layout == StereoLayout::side_by_side) input.cursor.x *= 2.0;
         if (options.stereo.layout == StereoLayout::top_bottom) input.cursor.y *= 2.0;
-        if (window.take_close_asked()) {
-            shared.close_asked = true;
+        if (window.take_close_request()) {
+            shared.close_requested = true;
             input.has_news = true;
         }
         shared.desk.step(input, std::chrono::duration<double>(now - previous).count());

@@ -11,9 +11,9 @@
 
 namespace osteomill {
 
-/// Draws until the window is closed, ESC is pressed or `stop_asked` says so. Throws gl::NoOpenGl where there
-/// is no display or no OpenGL 3.3.
+/// Draws until the window is closed, ESC is pressed or `stop_requested` says so. Throws gl::NoOpenGl where
+/// there is no display or no OpenGL 3.3.
 RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
-                           const std::function<bool()>& stop_asked);
+                           const std::function<bool()>& stop_requested);
 
 }  // namespace osteomill

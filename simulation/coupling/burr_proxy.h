@@ -96,7 +96,7 @@ class BurrProxy {
     int iterations() const { return iterations_; }
     const SolveCounts& counts() const { return counts_; }
     /// Whether, in the last advance, bone pushed on the shank, or on the head without being cut. With the
-    /// spindle off only the first is told.
+    /// spindle off only the first is reported.
     bool touches_wall() const { return walls_.force_n != glm::dvec3(0.0); }
     /// Moment of the push on the shank about the burr's centre, N mm, patient axes.
     const glm::dvec3& shank_torque_n_mm() const { return walls_.torque_n_mm; }

@@ -1,4 +1,4 @@
-// The ordered queue of changes from the milling loop to whoever keeps a copy of the bone.
+// Ordered queue of changes from the milling loop to the thread that keeps a copy of the bone.
 //
 // It is a ring of bytes, and a change takes no more of it than it says: 16 bytes for the brick and for which
 // words of the mask hold a voxel, 8 for each of these words, one for the fraction of each voxel.

@@ -4,9 +4,9 @@
 
 namespace osteomill {
 
-void BurrChanger::tick(const std::optional<std::size_t>& asked, bool spindle_on,
+void BurrChanger::tick(const std::optional<std::size_t>& request, bool spindle_on,
                        const glm::dvec3& position_mm, const MillingResult& latest) noexcept {
-    if (asked && *asked < count_) wanted_ = *asked;
+    if (request && *request < count_) wanted_ = *request;
     waits_for_ = BurrChange::none;
     if (wanted_ == burr_) return;
     const bool is_clear = latest.burr == burr_ && latest.wanted_burr == wanted_ &&

@@ -32,10 +32,10 @@ class BurrChanger {
   public:
     BurrChanger(std::size_t burr, std::size_t count) : burr_(burr), wanted_(burr), count_(count) {}
 
-    /// Once a tick, with what the device asks for: a burr that is not of the set, or none, changes no wish.
+    /// Once a tick, with what the device asks for: a burr that is not of the set, or none, changes nothing.
     /// The tool is at `position_mm` (patient LPS); `latest` says whether the wanted burr would be clear of
     /// bone there. Real-time safe.
-    void tick(const std::optional<std::size_t>& asked, bool spindle_on, const glm::dvec3& position_mm,
+    void tick(const std::optional<std::size_t>& request, bool spindle_on, const glm::dvec3& position_mm,
               const MillingResult& latest) noexcept;
 
     /// The one in the tool.

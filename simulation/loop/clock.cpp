@@ -27,7 +27,7 @@ void RealClock::sleep_until(double time_s) noexcept {
         const double wake_s = seconds_of(CLOCK_MONOTONIC) + left_s;
         const double whole_s = std::floor(wake_s);
         const timespec wake{static_cast<time_t>(whole_s), static_cast<long>(1e9 * (wake_s - whole_s))};
-        // Interrupted by a signal it sleeps on: whoever wants to stop says so to the loop, not to its clock.
+        // Interrupted by a signal it sleeps on: a request to stop goes to the loop, not to its clock.
         while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) != 0) {
         }
     }

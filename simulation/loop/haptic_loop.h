@@ -41,7 +41,7 @@ struct HapticLoopParts {
     TripleBuffer<MillingResult>& results;           ///< read
     TripleBuffer<BurrCommand>& commands;            ///< written
     TripleBuffer<ToolState>& tool;                  ///< written, for the streaming loop
-    TripleBuffer<ToolState>& status;                ///< written, for whoever shows progress
+    TripleBuffer<ToolState>& status;                ///< written, for a display of progress
     SampleLog<TickSample>* log = nullptr;           ///< written; null: no log
     HandpieceVibration* vibration = nullptr;        ///< added to the coupling's force; null: none
     SessionGate* gate = nullptr;                    ///< read and written; null: the session never holds still
@@ -54,8 +54,8 @@ struct HapticLoopOptions {
     std::size_t burr_count = 1;  ///< of the scene's set
     std::size_t start_burr = 0;
     std::vector<double> spindle_rev_per_s{};  ///< of each burr; empty: no other can be chosen
-    bool has_shank = false;                   ///< any burr of the set: its torque is told
-    double removed_before_mm3 = 0.0;          ///< by the sessions before: what is told goes on from there
+    bool has_shank = false;                   ///< any burr of the set: its torque is reported
+    double removed_before_mm3 = 0.0;  ///< by the sessions before: the reported volume continues from there
     /// What the hand did before the first tick.
     ToolPose start_pose{};
 };

@@ -24,7 +24,7 @@ constexpr double chore_period_s = 0.02;
 constexpr std::uint64_t chore_ticks = 33;  // the rate of a streaming server's frames: 30 Hz
 /// For the rounding of a number of periods against one of ticks.
 constexpr double rounding_s = 1e-7;
-/// How long a session waits for whoever consumes its changes before it gives up on them.
+/// Time that a session waits for the reader of its changes before it gives up on it.
 constexpr std::chrono::seconds longest_wait_for_consumer{10};
 /// A loop that has not faded its force by then stands still, and its device ends the force by itself.
 constexpr double longest_letting_go_s = 0.2;

@@ -45,7 +45,7 @@ struct MillingSessionOptions {
         force_model_names().front();  ///< one without a cutting law: not with "implicit"
     bool vibration = false;           ///< of the handpiece; only with a cutting law
     double duration_s = std::numeric_limits<double>::infinity();
-    /// What is told of removed volume goes on from here: of a bone that was carved before.
+    /// The reported removed volume continues from here: of a bone that was carved before.
     RemovedByTissue removed_before_mm3{};
     /// Somebody may pause it, and undo what was milled: see gate() and restored().
     bool can_be_controlled = false;
@@ -135,7 +135,7 @@ class MillingSession {
     RemovedByTissue removed_mm3() const { return model_->removed_mm3(); }
     // For who steps it, on the virtual clock between two calls of advance(): what the last tick said, and
     // what it knew of the milling loop.
-    const ToolState& told() {
+    const ToolState& newest_state() {
         status_.refresh();
         return status_.front();
     }

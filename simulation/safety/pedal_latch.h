@@ -8,8 +8,8 @@
 //
 // A statement lapses where it is older than longest_age_s, where the loop itself stood still for so long (who
 // stops a program stops its clock, and finds what was held before), and where another speaks. Silence is no
-// release: whoever held the pedal through it may not mean the bone that the burr is at afterwards. It begins
-// locked.
+// release: a person who held the pedal through it may not mean the bone that the burr is at afterwards. It
+// begins locked.
 #pragma once
 
 #include <cstdint>

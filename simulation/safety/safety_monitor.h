@@ -34,7 +34,7 @@
 //
 // The spindle turns while the pedal is down, its latch (pedal_latch.h) is free and the tool touches bone. It
 // is locked, besides by what pedal_latch.h says, where the device was lost or jumped, the force gave the hand
-// energy, or the session was paused: whoever pressed the pedal then did not mean the bone it is in now.
+// energy, or the session was paused: the pedal pressed then was not meant for the bone it is in now.
 //
 // From no state does a fault lead to a force: in the tick of a fault and in all that follow until settle_s
 // have passed without one and clear of bone, the force only shrinks, and within fade_out_s it is zero.
@@ -63,8 +63,8 @@ class SafetyMonitor {
         begin(watchdog_.check(seen), pedal_date_.look(seen.device.pedal, seen.now_s), seen.clearance);
     }
 
-    /// Begins a tick with what was found, for whoever looks otherwise. `pedal` counts only of a device that
-    /// is there, `clearance` while the force is off or untried.
+    /// Begins a tick with what was found, for callers that look otherwise. `pedal` counts only of a device
+    /// that is there, `clearance` while the force is off or untried.
     void begin(Fault found, PedalSeen pedal, Clearance clearance) noexcept;
 
     /// Whether what the device reads can be used in this tick.
@@ -82,7 +82,7 @@ class SafetyMonitor {
     bool has_just_let_go() const { return was_engaged_ && !guard_.is_engaged(); }
     /// After pass(): the spindle turns in this tick.
     bool spindle_turns() const { return holds_tool() && wants_spindle(); }
-    /// What the coupling is told before pass() of the spindle.
+    /// State of the spindle for the coupling, before pass().
     bool wants_spindle() const { return pedal_.is_pressed() && has_hand() && !is_untried_; }
 
     ForceGuard::State state() const { return guard_.state(); }

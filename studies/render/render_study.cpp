@@ -43,7 +43,7 @@ std::string name_of(const DrawingCase& c) {
 }
 
 /// How smooth a cut looks.
-ordered_json told_of_cut_wall(double p95_deg, const std::vector<double>& found_db, const StudyRun& run) {
+ordered_json cut_wall_figures(double p95_deg, const std::vector<double>& found_db, const StudyRun& run) {
     run.say("wall cut by a sphere: normals {:.2f} degrees at the 95th percentile (goal: within 1)", p95_deg);
     ordered_json pictures = ordered_json::array();
     for (std::size_t i = 0; i < found_db.size(); ++i) {
@@ -57,9 +57,9 @@ ordered_json told_of_cut_wall(double p95_deg, const std::vector<double>& found_d
 void draw_zooms(TrialBones& bones, const glm::ivec2& size_px, StudyRun& run) {
     const std::filesystem::path folder = run.out() / "zooms";
     make_folder(folder);
-    const auto planned =
-        run.plan(zoom_cases(bones.has_scans()), [](const ZoomCase& c) { return c.bone + ", look" + c.suffix; },
-                 [&](const ZoomCase& c) { return write_zooms(c, bones, size_px, folder).string(); });
+    const auto planned = run.plan(
+        zoom_cases(bones.has_scans()), [](const ZoomCase& c) { return c.bone + ", look" + c.suffix; },
+        [&](const ZoomCase& c) { return write_zooms(c, bones, size_px, folder).string(); });
     if (!run.perform()) return;
     for (const std::string& picture : planned.outcomes()) run.say("{}", picture);
     if (!bones.has_scans())
@@ -87,9 +87,9 @@ void run_render_study(const RenderStudyOptions& options, const StudySurroundings
     const bool has_skull = options.scans && !options.quick;
     if (has_skull)
         for (DrawingCase& c : drawing_cases(skull_trial, options.quick)) cases.push_back(std::move(c));
-    const auto wall_normals =
-        run.plan(std::vector{0}, [](int) { return "normals of a cut wall"; },
-                 [](int) { return carved_sphere_normals_p95_deg(); });
+    const auto wall_normals = run.plan(
+        std::vector{0}, [](int) { return "normals of a cut wall"; },
+        [](int) { return carved_sphere_normals_p95_deg(); });
     const auto wall_pictures = run.plan(
         px_per_voxel, [](double px) { return fmt::format("cut wall at {} pixels a voxel", px); },
         carved_sphere_psnr_db);
@@ -102,7 +102,7 @@ void run_render_study(const RenderStudyOptions& options, const StudySurroundings
 
     ordered_json found{
         {"gl_renderer", gl::renderer_name()},
-        {"cut_wall", told_of_cut_wall(wall_normals.outcomes().front(), wall_pictures.outcomes(), run)}};
+        {"cut_wall", cut_wall_figures(wall_normals.outcomes().front(), wall_pictures.outcomes(), run)}};
     std::vector<DrawingPoint> points;
     auto c = cases.begin();
     for (const std::vector<Drawn>& drawn : planned.outcomes()) {
@@ -113,8 +113,8 @@ void run_render_study(const RenderStudyOptions& options, const StudySurroundings
     for (const DrawingPoint& p : points)
         if (p.setting.is_default)
             run.say("{}, {}: full quality {:.1f} dB (goal {:.0f}), SSIM {:.4f}, {:.0f} ms a frame of {} x {}",
-                    p.bone, p.view, p.drawn.psnr_db, full_quality_goal_db, p.drawn.ssim, p.drawn.frame.wall_ms,
-                    size_px.x, size_px.y);
+                    p.bone, p.view, p.drawn.psnr_db, full_quality_goal_db, p.drawn.ssim,
+                    p.drawn.frame.wall_ms, size_px.x, size_px.y);
     if (!has_skull)
         run.say("real CT skipped: {}",
                 options.quick ? "--quick" : "OSTEOMILL_SCANS does not name the folder of trial scans");

@@ -55,7 +55,7 @@ void run(const SessionScene& loaded, const std::vector<Instant>& motion) {
         hand.move_to({at.position_mm, at.axis});
         hand.press(at.pedal != 0.0);
         assembly.advance(1);
-        sum_n += assembly.session().told().force_n.z;
+        sum_n += assembly.session().newest_state().force_n.z;
     }
     const double done_s = cpu_s();
     assembly.end();

@@ -78,8 +78,8 @@ void server_session(Bytes input) {
     BoneReplica mirror(bone);
     static FeedPackers packers;
     OperatorChannel output;
-    ControlLease lease(output);
-    constexpr ControlLease::ClientId id = 1;
+    ToolLease lease(output);
+    constexpr ToolLease::ClientId id = 1;
     boost::asio::io_context io;
     const auto stream = std::make_shared<ScriptedStream>(io);
     const auto session =
@@ -137,7 +137,7 @@ void server_session(Bytes input) {
         require(session->feed().is_finished(), "a session that cannot be ended");
         session->close("the end", false);
     }
-    // Hello, begin, bricks, end, a state each time it was asked for or a message was answered, and the
+    // Hello, begin, bricks, end, a state each time it was requested or a message was answered, and the
     // goodbye.
     require(stream->frames_written() <= states + messages + 8, "a client made the server write without end");
     stream->drop_handlers();

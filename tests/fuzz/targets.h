@@ -25,7 +25,7 @@ inline void require(bool holds, const std::string& what) {
 /// that they came from, or that are longer than allowed; a complaint that is not one line.
 void frame_decoder(Bytes input);
 
-/// What a client sends, against ClientConnection, ClientFeed and ControlLease. Finding: a bone changed by a
+/// What a client sends, against ClientConnection, ClientFeed and ToolLease. Finding: a bone changed by a
 /// client; a tool moved to where no number is; an answer that is no frame, or more frames than the client may
 /// cause; a client dropped without a line.
 void server_session(Bytes input);
@@ -44,7 +44,7 @@ void recording(Bytes input);
 void scene(Bytes input);
 
 /// What Haply's service says, against parse_haply_state. Finding: any exception; an arm or a grip where no
-/// number is; an arm of another name than was asked for; a force for it that is no JSON.
+/// number is; an arm of another name than was requested; a force for it that is no JSON.
 void haply_state(Bytes input);
 
 /// The first bytes of an image file, against our own readers of headers (GDCM never sees what these

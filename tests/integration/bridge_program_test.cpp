@@ -19,8 +19,8 @@
 
 #include "bridge/osteomill_bridge.h"
 #include "tests/support/child_process.h"
+#include "tests/support/logged_removal.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/told_removal.h"
 
 namespace osteomill::testing {
 namespace {
@@ -48,7 +48,7 @@ class BridgePrograms : public ::testing::Test {
     Command arm(const std::string& seconds, const std::string& key = {}) const {
         return {SIMULATED_ARM, socket(), key, seconds};
     }
-    double removed_mm3() const { return told_removal_mm3(folder_ / "force.part.csv"); }
+    double removed_mm3() const { return logged_removal_mm3(folder_ / "force.part.csv"); }
     bool has_removed(double least_mm3) const {
         return testing::has_removed(folder_ / "force.part.csv", least_mm3);
     }
@@ -98,13 +98,13 @@ TEST_F(BridgePrograms, AnArmThatIsKilledTurnsAllOffAndItsSuccessorGoesOn) {
         killed.send_signal(SIGKILL);
         killed.wait();
     }
-    ASSERT_TRUE(has_told(running, lost)) << running.err();
+    ASSERT_TRUE(has_logged(running, lost)) << running.err();
     const double before_mm3 = removed_mm3();
     ChildProcess hand(arm("600"));
     EXPECT_TRUE(has_removed(before_mm3 + 0.5)) << running.err();
     hand.send_signal(SIGINT);
     EXPECT_EQ(hand.wait(), 0) << hand.err();
-    EXPECT_TRUE(has_told(running, lost, 2)) << running.err();
+    EXPECT_TRUE(has_logged(running, lost, 2)) << running.err();
     running.send_signal(SIGINT);
     ASSERT_EQ(running.wait(), 0) << running.err();
     expect_no_jump(hand.out());
@@ -138,7 +138,7 @@ TEST_F(BridgePrograms, AnArmThatStandsStillTakesTheForceAwayAndComesBack) {
     ASSERT_TRUE(has_removed(0.1)) << running.err();
     const double before_mm3 = removed_mm3();
     hand.send_signal(SIGSTOP);
-    EXPECT_TRUE(has_told(running, lost)) << running.err();
+    EXPECT_TRUE(has_logged(running, lost)) << running.err();
     hand.send_signal(SIGCONT);
     EXPECT_TRUE(has_removed(before_mm3 + 0.1)) << "it comes back: " << running.err();
     hand.send_signal(SIGINT);

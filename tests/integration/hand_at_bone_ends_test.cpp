@@ -97,7 +97,7 @@ TEST_F(HandAtBoneEnds, ALargerBurrIsNotPutIntoTheHoleOfASmallerOne) {
     EXPECT_LT(felt.largest_jump_n, 0.3);
     ASSERT_FALSE(log_.empty());
     for (const testing::ForceLogLine& line : log_) {
-        if (line.time_s < 4.9) continue;  // 4.81 s is when it is asked for
+        if (line.time_s < 4.9) continue;  // 4.81 s is when it is requested
         ASSERT_LT(glm::distance(line.burr_mm, log_.back().burr_mm), 0.2) << line.time_s;
         ASSERT_LT(glm::length(line.force_n), 0.1) << line.time_s;
     }

@@ -13,8 +13,8 @@
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
 #include "tests/support/haply_service.h"
+#include "tests/support/logged_removal.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/told_removal.h"
 
 namespace osteomill::testing {
 namespace {
@@ -146,8 +146,8 @@ TEST_F(HaplyPrograms, WhateverBefallsTheServiceTurnsAllOffAndTheArmComesBack) {
         const bool is_dead = i == 2;
         faults[i].first();
         EXPECT_TRUE(is_dead || feels_nothing()) << i;
-        ASSERT_TRUE(has_told(running, lost, static_cast<int>(i) + 1)) << i << ": " << running.err();
-        ASSERT_TRUE(has_told(running, faults[i].second, 1)) << i << ": " << running.err();
+        ASSERT_TRUE(has_logged(running, lost, static_cast<int>(i) + 1)) << i << ": " << running.err();
+        ASSERT_TRUE(has_logged(running, faults[i].second, 1)) << i << ": " << running.err();
         recovery(is_dead);
     }
     ASSERT_TRUE(feels(0.2)) << running.err();

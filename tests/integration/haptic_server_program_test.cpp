@@ -12,7 +12,7 @@
 #include <sstream>
 #include <string>
 
-#include "tests/support/told_removal.h"
+#include "tests/support/logged_removal.h"
 
 namespace {
 
@@ -199,7 +199,7 @@ TEST_F(HapticServerProgram, SaysWhereItListensAndStopsCleanlyOnSigint) {
     osteomill::testing::ChildProcess server(
         {HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--json", file("a.json")});
     EXPECT_TRUE(server.line_after("listening on 127.0.0.1:")) << server.err();
-    EXPECT_TRUE(osteomill::testing::has_told(server, " s   force ")) << server.err();
+    EXPECT_TRUE(osteomill::testing::has_logged(server, " s   force ")) << server.err();
     server.send_signal(SIGINT);
     EXPECT_EQ(server.wait(), 0) << server.err();
     EXPECT_GT(measured("a.json").at("ticks").get<int>(), 0);

@@ -20,10 +20,10 @@
 #include "tests/support/eventually.h"
 #include "tests/support/force_log_file.h"
 #include "tests/support/held_pedal.h"
+#include "tests/support/logged_removal.h"
 #include "tests/support/milling_motion.h"
 #include "tests/support/stopped_terminal.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/told_removal.h"
 #include "tests/support/unread_pipe.h"
 
 namespace osteomill::testing {

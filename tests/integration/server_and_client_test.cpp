@@ -11,7 +11,7 @@
 #include <string>
 
 #include "tests/support/child_process.h"
-#include "tests/support/told_removal.h"
+#include "tests/support/logged_removal.h"
 
 namespace osteomill::testing {
 namespace {
@@ -78,9 +78,9 @@ TEST_F(Programs, AfterASessionTheClientsBoneIsTheServersBitForBit) {
     const auto address = server.line_after("listening on ");
     ASSERT_TRUE(address) << server.err();
     ChildProcess early(client(*address, "early.json"));
-    ASSERT_TRUE(has_told(server, "joined"));
+    ASSERT_TRUE(has_logged(server, "joined"));
     ChildProcess late(client(*address, "late.json"));  // joins while the first is drawing
-    ASSERT_TRUE(has_told(server, "joined", 2));
+    ASSERT_TRUE(has_logged(server, "joined", 2));
     EXPECT_TRUE(has_removed(folder_ / "forces.part.csv", 1.0)) << server.err();
     server.send_signal(SIGINT);
     ASSERT_EQ(server.wait(), 0) << server.err();
@@ -118,7 +118,7 @@ TEST_F(Programs, AClientThatIsKilledDisturbsNobody) {
     ChildProcess steady(client(*address, "steady.json"));
     {
         ChildProcess killed(client(*address, "killed.json"));
-        ASSERT_TRUE(has_told(server, "joined", 2)) << killed.err();
+        ASSERT_TRUE(has_logged(server, "joined", 2)) << killed.err();
     }
     EXPECT_TRUE(has_removed(folder_ / "forces.part.csv", 0.1)) << server.err();
     server.send_signal(SIGINT);
@@ -133,7 +133,7 @@ TEST_F(Programs, StopOnSigintCleanlyAndStillReport) {
     const auto address = server.line_after("listening on ");
     ASSERT_TRUE(address) << server.err();
     ChildProcess viewer(client(*address, "client.json"));
-    ASSERT_TRUE(has_told(server, "joined")) << viewer.err();
+    ASSERT_TRUE(has_logged(server, "joined")) << viewer.err();
     viewer.send_signal(SIGINT);
     EXPECT_EQ(viewer.wait(), 0) << viewer.err();
     server.send_signal(SIGINT);
@@ -201,7 +201,7 @@ TEST_F(Programs, FailuresAreOneLineWithStatus1) {
 
 TEST_F(Programs, AnOffscreenClientSaysThatItWaitsForAServer) {
     ChildProcess waiting(client("127.0.0.1:1", "none.json"));
-    EXPECT_TRUE(has_told(waiting, "waiting for a bone"));
+    EXPECT_TRUE(has_logged(waiting, "waiting for a bone"));
     EXPECT_THAT(waiting.err(), AllOf(HasSubstr("waiting for a bone"), HasSubstr("127.0.0.1:1")));
 }
 

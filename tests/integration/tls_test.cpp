@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tests/support/lab_certificates.h"
-#include "tests/support/told_removal.h"
+#include "tests/support/logged_removal.h"
 
 namespace osteomill::testing {
 namespace {
@@ -68,7 +68,7 @@ TEST_F(TlsPrograms, ServeTheLabOnAllAddressesAndTheBonesAreEqual) {
     const auto address = server.line_after("listening on ");
     ASSERT_TRUE(address) << server.err();
     ChildProcess member(with(client(*address, "member.json"), viewer));
-    EXPECT_TRUE(has_told(server, "(viewer) joined")) << server.err();
+    EXPECT_TRUE(has_logged(server, "(viewer) joined")) << server.err();
     EXPECT_TRUE(has_removed(folder_ / "force.part.csv", 0.1)) << server.err();
     server.send_signal(SIGINT);
     ASSERT_EQ(server.wait(), 0) << server.err();

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "tests/support/child_process.h"
+#include "tests/support/logged_removal.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/told_removal.h"
 #include "tests/support/tracker_server.h"
 
 namespace osteomill::testing {
@@ -215,7 +215,7 @@ TEST_F(TrackerPrograms, StopsTheSpindleWhenTheTrackerIsSilentAndGoesOn) {
         ChildProcess running(server());
         ASSERT_TRUE(tracker_.accept());
         play(groove, 2.7, {});  // half of it
-        EXPECT_TRUE(has_told(running, "the haptic device does not answer: force off")) << running.err();
+        EXPECT_TRUE(has_logged(running, "the haptic device does not answer: force off")) << running.err();
         tracker_.hang_up();
         ASSERT_TRUE(tracker_.accept()) << "it comes again by itself";
         play([](double) { return Moment{{0.0, 0.0, 5.0}, false}; }, 1.0, {});

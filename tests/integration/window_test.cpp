@@ -19,7 +19,7 @@
 #include "common/recording/playhead.h"
 #include "render_client/volume/png_file.h"
 #include "tests/support/block_file.h"
-#include "tests/support/told_removal.h"
+#include "tests/support/logged_removal.h"
 #include "tests/support/virtual_display.h"
 
 namespace osteomill::testing {
@@ -96,7 +96,7 @@ class WindowTest : public ::testing::Test {
             return false;
         });
     }
-    /// Until what was asked for is on the screen, and nothing moves there but figures and a cursor of text.
+    /// Until what was requested is on the screen, and nothing moves there but figures and a cursor of text.
     bool stands_still() const {
         return comes_true([&] {
             const Picture before = display_->screen();
@@ -263,7 +263,7 @@ TEST_F(WindowTest, UndoesMarksAndFinishesASessionByKeys) {
         const bool has_cut = eventually(
             [&] {
                 server_->read_output();
-                return told_removal_mm3(server_->err()) > 0.0;
+                return logged_removal_mm3(server_->err()) > 0.0;
             },
             12s);
         display_->xdotool({"keyup", "w", "keyup", "space"});

@@ -1,8 +1,8 @@
-// How different two colours look, CIEDE2000, also to the colour-blind.
+// Difference of two colours by CIEDE2000, also for the colour-blind.
 //
-// The formula, with the names of Sharma, Wu and Dalal 2005, Color Res Appl 30:21. What a dichromat sees:
-// Machado, Oliveira and Fernandes 2009, IEEE Trans Vis Comput Graph 15:1291, table 1 at severity 1.0, applied
-// to linear sRGB.
+// The formula, with the names of Sharma, Wu and Dalal 2005, Color Res Appl 30:21. Colours as a dichromat sees
+// them: Machado, Oliveira and Fernandes 2009, IEEE Trans Vis Comput Graph 15:1291, table 1 at severity 1.0,
+// applied to linear sRGB.
 #pragma once
 
 #include <algorithm>

@@ -30,7 +30,7 @@ class HalfOpenFlood {
     HalfOpenFlood(const HalfOpenFlood&) = delete;
     HalfOpenFlood& operator=(const HalfOpenFlood&) = delete;
 
-    /// So many connections were begun a second, since it began: fewer than was asked for where the machine is
+    /// So many connections were begun a second, since it began: fewer than was requested where the machine is
     /// busy.
     double rate_per_s() const {
         const std::chrono::duration<double> time = Clock::now() - began_;

@@ -29,7 +29,7 @@ class ServedBone {
             StreamingOptions{.port = port,
                              .tls = std::move(tls),
                              .handshake_deadline = std::chrono::milliseconds(300),
-                             .places_for_unidentified = 48,
+                             .unidentified_quota = 48,
                              .record = std::move(record)},
             session_info(scene, takes_operator, 3.3, "0.0.test"), bone_, shown_,
             takes_operator ? &operator_ : nullptr);

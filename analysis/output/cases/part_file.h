@@ -5,7 +5,7 @@
 //     {"case":17,"outcome":{"is_stable":true,...}}
 //
 // A line is written at once, so that a process that is killed loses the cases it was at, and at most the last
-// line is torn; whoever takes the file up again cuts that off. Numbers come back to the last bit; one that is
+// line is torn; a run that continues the file cuts that off. Numbers come back to the last bit; one that is
 // not finite is a text such as "number nan", since JSON knows none.
 #pragma once
 

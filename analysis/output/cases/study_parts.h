@@ -1,4 +1,5 @@
-// How the cases of a study are run: which part, how many at a time, or joined from parts that ran before.
+// Choice of the cases of a study to run: all or one part, how many at a time, or joined from parts that ran
+// before.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -19,7 +19,7 @@ class Commands {
              const std::filesystem::path& pictures_folder);
 
     void take(Action action);
-    /// Passes on what was asked for with buttons.
+    /// Passes on what was requested with buttons.
     void take(const SessionRequests& requests);
     /// Where the burr stands clear of the bone that is seen at a pixel, the handpiece upright on it; nothing
     /// beside the bone, and without a tool.
@@ -35,7 +35,7 @@ class Commands {
     void turn_bone(double azimuth_change_rad, double elevation_change_rad);
     /// Says what came of what was asked of the session.
     void tell(const std::vector<ControlEvent>& events, double now_s);
-    /// Call after each frame: writes what was asked for, and says so, or what went wrong, for a few seconds.
+    /// Call after each frame: writes what was requested, and says so, or what went wrong, for a few seconds.
     void write_pictures(const gl::Framebuffer& picture, double now_s);
 
     bool end_wanted() const { return end_wanted_; }
@@ -59,7 +59,7 @@ class Commands {
     PictureExport pictures_;
     BoneClutch clutch_;
     bool clutch_paused_ = false;    // the session, which goes on afterwards
-    bool waits_for_place_ = false;  // what was asked for is shown until the server has answered
+    bool waits_for_place_ = false;  // what was requested is shown until the server has answered
     bool picture_wanted_ = false;
     bool export_wanted_ = false;
     bool end_wanted_ = false;

@@ -41,7 +41,7 @@ void HandInput::step(const WindowInput& input, double elapsed_s) {
             // tool, so that the first message says it, unless the key was held before, as through a loss of
             // the connection.
             if (request && !had_tool_ && !space_was_down_) request->pedal = false;
-            // It may be asked for, but must not jump to where this hand has gone meanwhile.
+            // It may be requested, but must not jump to where this hand has gone meanwhile.
             if (tool->driver == ToolDriver::another) let_go();
         } else {
             let_go();

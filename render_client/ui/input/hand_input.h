@@ -53,7 +53,7 @@ class HandInput {
 
     /// These: any thread.
     void show(const HandInputPicture& picture);
-    /// The pedal of whoever has only a mouse: down until it is switched up.
+    /// The pedal of an operator who has only a mouse: down until it is switched up.
     void switch_pedal();
     void choose_burr(std::size_t burr);
     /// Lets go of the tool, which has been put elsewhere.

@@ -99,12 +99,12 @@ Places lay_out(std::span<const PanelRequest> requests, const glm::vec2& picture,
         Places places = lay_out_from(first_choices, requests, picture, margin, burr);
         // The largest of those that were opened shrinks for one that has no place, until none can.
         const bool all_are_there = std::none_of(places.begin(), places.end(), [&](const auto& place) {
-            return !place && requests[static_cast<std::size_t>(&place - places.data())].is_asked_for;
+            return !place && requests[static_cast<std::size_t>(&place - places.data())].is_requested;
         });
         std::optional<std::size_t> largest;
         const auto area = [&](std::size_t i) { return places[i]->size.x * places[i]->size.y; };
         for (std::size_t i = 0; i < places.size() && !all_are_there; ++i)
-            if (places[i] && requests[i].is_asked_for && places[i]->choice + 1 < requests[i].sizes.size() &&
+            if (places[i] && requests[i].is_requested && places[i]->choice + 1 < requests[i].sizes.size() &&
                 (!largest || area(i) > area(*largest)))
                 largest = i;
         if (!largest) return places;

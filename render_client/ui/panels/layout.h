@@ -16,7 +16,7 @@ struct PanelRequest {
     std::vector<glm::vec2> sizes;
     bool may_cover_middle = false;  ///< a page or a question: it wants to be read and answered
     bool is_kept = false;           ///< room for its last size is kept, whatever is more important
-    bool is_asked_for = false;      ///< the user opened it: others that were opened shrink for it
+    bool is_requested = false;      ///< the user opened it: others that were opened shrink for it
     bool gives_way = false;         ///< to the burr, wherever that is; what is pressed must not flee
 };
 

@@ -41,9 +41,9 @@ class PanelList {
         add(anchor, {size}, std::move(draw));
         requests_.back().may_cover_middle = true;
     }
-    void add_asked_for(Anchor anchor, std::vector<glm::vec2> sizes, Draw draw) {
+    void add_requested(Anchor anchor, std::vector<glm::vec2> sizes, Draw draw) {
         add(anchor, std::move(sizes), std::move(draw));
-        requests_.back().is_asked_for = true;
+        requests_.back().is_requested = true;
     }
     void keep_last() { requests_.back().is_kept = true; }
     void let_last_give_way() { requests_.back().gives_way = true; }
@@ -101,15 +101,15 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
         std::vector<glm::vec2> sizes = slices_panel_sizes(painter);
         const auto smaller = shrunk(sizes.back());
         sizes.insert(sizes.end(), smaller.begin() + 1, smaller.end());
-        panels.add_asked_for(Anchor::lower_left, std::move(sizes),
+        panels.add_requested(Anchor::lower_left, std::move(sizes),
                              [&](const PanelPlace& place) { draw_slices_panel(content, place); });
     }
     if (view.cuts_panel_shown)
-        panels.add_asked_for(
+        panels.add_requested(
             Anchor::upper_left, shrunk(cuts_panel_size(painter)),
             [&](const PanelPlace& place) { draw_cuts_panel(view.cuts, *content.camera, place); });
     if (view.transfer_panel_shown)
-        panels.add_asked_for(Anchor::upper_left, shrunk(transfer_panel_size(painter)),
+        panels.add_requested(Anchor::upper_left, shrunk(transfer_panel_size(painter)),
                              [&](const PanelPlace& place) { draw_transfer_panel(painter, view, place); });
     if (content.operator_command)
         panels.add_text(painter, Anchor::lower_left, operator_text(content), side_width);

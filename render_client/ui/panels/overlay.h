@@ -35,7 +35,7 @@ struct OverlayContent {
     const gl::Framebuffer* inset = nullptr;  ///< null where no second view is shown
     const Bone* bone = nullptr;              ///< null until one has come
     std::uint64_t bone_version = 0;
-    /// Takes what is asked for with buttons; null where there is nobody to press them, as in offscreen
+    /// Takes what is requested with buttons; null where there is nobody to press them, as in offscreen
     /// pictures.
     SessionRequests* requests = nullptr;
     /// Null where no session is started from here.

@@ -91,7 +91,7 @@ void BoneOnScreen::fail(const std::string& problem, Outcome& outcome) {
 }
 
 void BoneOnScreen::drop_shown(Outcome& outcome) {
-    // What a context has bound lives on, whoever deletes it.
+    // What a context has bound lives on, even where another deletes it.
     gl::Texture3D::unbind_all();
     drop(std::exchange(shown_, nullptr));
     unshown_.clear();

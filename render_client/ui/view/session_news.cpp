@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/wire/tool_look.h"
+#include "common/wire/tool_appearance.h"
 
 namespace osteomill {
 

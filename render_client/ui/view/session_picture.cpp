@@ -75,8 +75,9 @@ void SessionPicture::forget_session() {
 }
 
 void SessionPicture::ask_for_ct() {
-    if (!view_.slices_shown || link_.status != LinkStatus::live || ct_asked_in_ == link_.connections) return;
-    ct_asked_in_ = link_.connections;
+    if (!view_.slices_shown || link_.status != LinkStatus::live || ct_requested_in_ == link_.connections)
+        return;
+    ct_requested_in_ = link_.connections;
     slices_.set_ct(nullptr);
     if (tool() && !slices_.cross_mm()) slices_.cross_at(tool()->burr_position_mm);
     source_.ask_for_ct();

@@ -71,7 +71,7 @@ class SessionPicture {
     void offer_controls() { takes_requests_ = true; }
     /// Where there is no session, one can be started with this, which outlives the picture.
     void offer_start(StartScreen& start) { start_ = &start; }
-    /// What was asked for since the last call.
+    /// What was requested since the last call.
     SessionRequests take_requests() { return std::exchange(requests_, {}); }
     void show_operator(const std::optional<OperatorCommand>& command) { operator_command_ = command; }
 
@@ -132,7 +132,7 @@ class SessionPicture {
     ViewSettings view_;
     SlicesView slices_;
     std::uint64_t bone_version_ = 0;
-    std::uint64_t ct_asked_in_ = 0;  // which connection; 0: none
+    std::uint64_t ct_requested_in_ = 0;  // which connection; 0: none
     SessionRequests requests_;
     bool takes_requests_ = false;
     StartScreen* start_ = nullptr;

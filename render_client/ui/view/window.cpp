@@ -182,7 +182,7 @@ void Window::fill_screen(bool wanted) {
     glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-bool Window::take_close_asked() {
+bool Window::take_close_request() {
     const bool is_asked = glfwWindowShouldClose(window_) != 0;
     glfwSetWindowShouldClose(window_, GLFW_FALSE);
     return is_asked;

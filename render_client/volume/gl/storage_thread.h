@@ -19,7 +19,7 @@ namespace osteomill::gl {
 class StorageThread {
   public:
     explicit StorageThread(std::unique_ptr<SecondContext> context);
-    /// After all that was asked for.
+    /// After all that was requested.
     ~StorageThread();
     StorageThread(const StorageThread&) = delete;
     StorageThread& operator=(const StorageThread&) = delete;

@@ -48,7 +48,7 @@ BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, con
       colours_(table_.by_code) {}
 
 Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
-    // All are asked for at first: while they are made, what needs none is done.
+    // All are requested at first: while they are made, what needs none is done.
     const glm::ivec3 texels = places_.texture_size();
     auto fraction = make_texture(storage, gl::VoxelFormat::interpolated_byte, texels);
     auto blocks = make_texture(storage, gl::VoxelFormat::interpolated_bytes, empty_space_.size_blocks());

@@ -28,7 +28,7 @@ class CoarseBone {
     /// Of a bone that is yet to be copied: see fill.
     explicit CoarseBone(int coarsening) : coarsening_(coarsening) {}
 
-    /// Copies the bone, once. Bricks that change meanwhile are to be told to update afterwards.
+    /// Copies the bone, once. Pass bricks that change meanwhile to update afterwards.
     Steps fill(const Bone& fine);
 
     /// Follows changes of the fine bone (that of the constructor, milled or refilled since). Returns what

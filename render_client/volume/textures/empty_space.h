@@ -30,7 +30,7 @@ class EmptySpace {
     /// Of a bone that is yet to be taken in: see fill.
     explicit EmptySpace(const VoxelBox& box);
 
-    /// Takes all of the bone in, once. Bricks that change meanwhile are to be told to update afterwards.
+    /// Takes all of the bone in, once. Pass bricks that change meanwhile to update afterwards.
     Steps fill(const Bone& bone);
 
     /// Brings the maps up to date after fractions were lowered or raised. Bricks that are not

@@ -19,7 +19,7 @@ class SurfaceTexture {
     SurfaceTexture(const TransferTable& table, gl::Texture3D texture)
         : shader_(table), texture_(std::move(texture)) {}
 
-    /// Shades all of the bone. What changes meanwhile is to be told to update afterwards.
+    /// Shades all of the bone. Pass what changes meanwhile to update afterwards.
     Steps fill(const Bone& bone, const AtlasLayout& places);
 
     /// Shades again what a change of these voxels can have changed: themselves and what is near them.

@@ -1,9 +1,9 @@
 // The making of a bone's textures in steps of a few milliseconds: a head of 2048^3 voxels takes seconds, and
-// whoever draws has a window to answer for meanwhile.
+// the drawing thread has a window to keep answering meanwhile.
 //
 // The bone may be carved between steps. A step reads it as it then is, so what changed since the beginning
-// must be told to BoneTextures::update at the end; then they are as if made of the bone as it ended up. (Two
-// things may differ: distances of empty space may be shorter than they might be, and of a coarser copy,
+// must be passed to BoneTextures::update at the end; then they are as if made of the bone as it ended up.
+// (Two things may differ: distances of empty space may be shorter than they might be, and of a coarser copy,
 // voxels keep the code of what was fullest when they were read.)
 #pragma once
 

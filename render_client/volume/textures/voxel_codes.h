@@ -1,7 +1,7 @@
 // Codes of voxels: the byte by which a voxel's colour and opacity are looked up.
 //
 // A code is a voxel's stiffness, or the label of its tissue, or both in one: then each tissue whose stiffness
-// varies has a run of codes, from its softest bone to its hardest, so that dentine is told from enamel within
+// varies has a run of codes, from its softest bone to its hardest, so that dentine differs from enamel within
 // a tooth, at one byte a voxel as before.
 #pragma once
 

@@ -65,7 +65,7 @@ class FullRate {
         const std::vector<CarveUpload> uploads_of = uploaded.outcomes();
         const std::vector<WindowFrames> frames_of = drawn.outcomes();
         for (std::size_t i = 0; i < phantoms.size(); ++i) {
-            found["bones"][phantoms[i]] = told_of_upload(phantoms[i], uploads_of[i]);
+            found["bones"][phantoms[i]] = upload_figures(phantoms[i], uploads_of[i]);
             add_rows(phantoms[i], frames_of[i]);
         }
         say("");
@@ -111,7 +111,7 @@ class FullRate {
                 full_size_px.x, full_size_px.y, full_frames, full_size_px.x, full_size_px.y, full_frames);
     }
 
-    ordered_json told_of_upload(const std::string& phantom, const CarveUpload& found) const {
+    ordered_json upload_figures(const std::string& phantom, const CarveUpload& found) const {
         ordered_json textures;
         std::string parts;
         for (const TextureSize& each : found.textures) {

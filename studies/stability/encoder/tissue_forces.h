@@ -1,5 +1,4 @@
-// What a hand feels of each tissue of the tooth with each shipped arm, in newtons and in just noticeable
-// differences.
+// Forces of each tissue of the tooth through each shipped arm, in newtons and in just noticeable differences.
 //
 // A hand tells two forces apart that differ by 7 % between 2.5 and 10 N (Pang, Tan and Durlach 1991, Percept
 // Psychophys 49:531), by about 10 % between 2 and 5 N where one finger matches the other. Taken here is 10 %.

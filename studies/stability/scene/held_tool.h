@@ -32,7 +32,7 @@ struct HeldTool {
 /// The arm of arm_model.h, without its Coulomb friction, in that grip. A bare arm has 0.5 N s/m and no hand.
 HeldTool held_tool(MapGrip grip);
 
-/// What whoever holds the tool means to do.
+/// Intended motion of the hand that holds the tool.
 struct HandIntent {
     glm::dvec3 target_mm{0.0};  ///< at time 0
     glm::dvec3 velocity_mm_per_s{0.0};

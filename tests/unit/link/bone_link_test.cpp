@@ -185,12 +185,12 @@ TEST(BoneLink, CarriesTheOperatorsWishes) {
     BoneLink second("127.0.0.1", served.port());
     ASSERT_TRUE(reaches(second, LinkStatus::live));
     for (int i = 0; i < 10; ++i) second.send_operator({.burr = 0});
-    // However long that takes: who asks for nothing for 3 s loses the seat.
+    // However long that takes: who asks for nothing for 3 s loses the lease.
     ASSERT_TRUE(eventually([&] {
         link->send_operator(command);
         return second.poll().checksums_verified >= 2;
     }));
-    EXPECT_EQ(served.operator_command()->burr, 1U) << "the first holds the seat";
+    EXPECT_EQ(served.operator_command()->burr, 1U) << "the first holds the lease";
     const auto is_told = [&](BoneLink& client, ToolDriver driver) {
         return eventually([&] {
             link->send_operator(command);
@@ -207,7 +207,7 @@ TEST(BoneLink, CarriesTheOperatorsWishes) {
     EXPECT_TRUE(eventually([&] {
         second.send_operator({.burr = 0});
         return served.operator_command().has_value();
-    })) << "the seat is free again";
+    })) << "the lease is free again";
 }
 
 /// Reads a recording to its end, every checksum with it.

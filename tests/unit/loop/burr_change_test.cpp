@@ -48,7 +48,7 @@ TEST(BurrChanger, WaitsForTheSpindleAndThenForRoom) {
     tool.room_mm = 0.1;
     tool.tick(std::nullopt);
     tool.tick(std::nullopt);
-    EXPECT_EQ(tool.burr.burr(), 1U) << "the wish is not lost";
+    EXPECT_EQ(tool.burr.burr(), 1U) << "the request is not lost";
 }
 
 TEST(BurrChanger, DoesNotTrustRoomThatTheToolHasLeft) {

@@ -108,7 +108,7 @@ TEST_F(ClientFeedTest, TellsASlowClientLaterWhatItMissed) {
         feed_->request_state({.tool = {.time_s = 0.1 * i}}, i == 50);
     }
     EXPECT_LE(drain(), 2) << "frames that could not be sent are skipped";
-    EXPECT_EQ(replica_.checksums(), 1U) << "a checksum once asked for is stated";
+    EXPECT_EQ(replica_.checksums(), 1U) << "a checksum once requested is stated";
     expect_equal();
 }
 

@@ -5,90 +5,21 @@
 namespace osteomill {
 namespace {
 
-using std::chrono::milliseconds;
+using std::chrono::seconds;
 
-class ControlLeaseTest : public ::testing::Test {
-  protected:
-    const std::optional<OperatorCommand>& newest() {
-        output_.refresh();
-        return output_.front().command;
-    }
-
-    OperatorChannel output_;
-    ControlLease lease_{output_};
-    const ControlLease::Time start_{};
-    const OperatorCommand pressed_{.hand_target_mm = {1, 2, 3}, .pedal = true, .burr = 2};
-};
-
-TEST_F(ControlLeaseTest, PublishesWhatTheOperatorWants) {
-    EXPECT_FALSE(newest());
-    EXPECT_TRUE(lease_.take_input(1, pressed_, start_));
-    EXPECT_EQ(newest(), pressed_);
-}
-
-TEST_F(ControlLeaseTest, BelongsToTheFirstUntilItLeaves) {
-    EXPECT_TRUE(lease_.take_input(1, pressed_, start_));
-    EXPECT_FALSE(lease_.take_input(2, {.burr = 0}, start_));
-    EXPECT_EQ(newest()->burr, 2U);
-    lease_.leave(2);
-    EXPECT_TRUE(newest());
-    lease_.leave(1);
-    EXPECT_FALSE(newest());
-    EXPECT_TRUE(lease_.take_input(2, {.burr = 1}, start_));
-    EXPECT_EQ(newest()->burr, 1U);
-}
-
-TEST_F(ControlLeaseTest, SaysNothingNewOnBehalfOfASilentOperator) {
-    lease_.take_input(1, pressed_, start_);
-    ASSERT_TRUE(output_.refresh());
-    lease_.check_silence(start_ + milliseconds(900));
-    EXPECT_FALSE(output_.refresh()) << "or the device would take it for fresh";
-    EXPECT_FALSE(lease_.take_input(2, pressed_, start_ + milliseconds(900))) << "the tool is not free";
-    lease_.check_silence(start_ + ControlLease::duration + milliseconds(1));
-    EXPECT_FALSE(newest());
-}
-
-TEST_F(ControlLeaseTest, GoesToTheNextWhenItsLeaseRunsOut) {
-    EXPECT_EQ(lease_.driver_for(1), ToolDriver::nobody);
-    lease_.take_input(1, pressed_, start_);
-    lease_.take_input(1, pressed_, start_ + milliseconds(1000));  // renews it
-    EXPECT_EQ(lease_.driver_for(1), ToolDriver::you);
-    EXPECT_EQ(lease_.driver_for(2), ToolDriver::another);
-    const auto end = start_ + milliseconds(1000) + ControlLease::duration;
-    lease_.check_silence(end);
-    EXPECT_FALSE(lease_.take_input(2, pressed_, end));
-    lease_.check_silence(end + milliseconds(1));
-    EXPECT_EQ(lease_.driver_for(1), ToolDriver::nobody);
-    EXPECT_TRUE(lease_.take_input(2, {.burr = 1}, end + milliseconds(1)));
-    EXPECT_EQ(lease_.driver_for(1), ToolDriver::another);
-    EXPECT_FALSE(lease_.take_input(1, pressed_, end + milliseconds(2)));
-    EXPECT_EQ(newest()->burr, 1U);
-}
-
-TEST_F(ControlLeaseTest, IsTakenOverAtTheEndOfTheLeaseWithoutWaitingForTheNextCheck) {
-    lease_.take_input(1, pressed_, start_);
-    EXPECT_TRUE(lease_.take_input(2, {.burr = 1}, start_ + ControlLease::duration + milliseconds(1)));
-    EXPECT_EQ(lease_.driver_for(2), ToolDriver::you);
-}
-
-TEST_F(ControlLeaseTest, IsKeptByOneWhoRestsUntilAnotherAsksForIt) {
-    const OperatorCommand resting{.hand_target_mm = {1, 2, 3}};
-    auto now = start_;
-    const auto rest_for = [&](std::chrono::seconds time) {
-        for (const auto end = now + time; now < end; now += milliseconds(100))
-            EXPECT_TRUE(lease_.take_input(1, resting, now));
-    };
-    rest_for(std::chrono::seconds(30));
-    EXPECT_FALSE(lease_.take_input(2, pressed_, now)) << "not yet";
-    rest_for(std::chrono::seconds(1));
-    EXPECT_EQ(lease_.holder(), 1U);
-    EXPECT_TRUE(lease_.take_input(2, pressed_, now));
-    EXPECT_EQ(lease_.holder(), 2U);
-    EXPECT_EQ(newest()->burr, 2U);
-    EXPECT_FALSE(lease_.take_input(1, resting, now)) << "the new one has just begun";
-    now += ControlLease::duration;
-    EXPECT_TRUE(lease_.take_input(2, {.burr = 1}, now));
-    EXPECT_FALSE(lease_.take_input(1, resting, now + OperatorActivity::longest_rest / 10));
+TEST(ControlLease, BelongsToTheFirstUntilItLeavesOrRests) {
+    ControlLease lease;
+    const ControlLease::Time now{};
+    EXPECT_TRUE(lease.is_open_to(1, now));
+    EXPECT_TRUE(lease.is_open_to(2, now));
+    lease.use(1, now);
+    EXPECT_TRUE(lease.is_open_to(1, now));
+    EXPECT_FALSE(lease.is_open_to(2, now + seconds(30)));
+    EXPECT_TRUE(lease.is_open_to(2, now + seconds(31)));
+    lease.leave(2);
+    EXPECT_FALSE(lease.is_open_to(2, now));
+    lease.leave(1);
+    EXPECT_TRUE(lease.is_open_to(2, now));
 }
 
 }  // namespace

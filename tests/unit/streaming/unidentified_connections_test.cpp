@@ -13,13 +13,13 @@ const UnidentifiedConnections::Time opening{};
 TEST(UnidentifiedConnections, GiveWayOldestFirstWhenTheirPlacesAreShort) {
     UnidentifiedConnections unidentified(48);
     for (UnidentifiedConnections::Id id = 1; id <= 48; ++id) {
-        EXPECT_FALSE(unidentified.in_the_way());
+        EXPECT_FALSE(unidentified.next_to_go());
         unidentified.add(id, Origin{}, opening);
     }
-    EXPECT_EQ(unidentified.in_the_way(), 1U);
+    EXPECT_EQ(unidentified.next_to_go(), 1U);
     EXPECT_TRUE(unidentified.remove(2)) << "it has spoken";
     EXPECT_FALSE(unidentified.remove(2));
-    EXPECT_FALSE(unidentified.in_the_way());
+    EXPECT_FALSE(unidentified.next_to_go());
 }
 
 TEST(UnidentifiedConnections, AreOverdueOnceTheyHaveBeenSilentForAWhile) {

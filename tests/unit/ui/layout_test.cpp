@@ -78,7 +78,7 @@ TEST(Layout, KeepsScaleBarAndForceWhateverIsOpen) {
                         requests.push_back(
                             {i < 2 ? Anchor::upper_left : Anchor::lower_left,
                              shrinking_sizes(scale * controls[i][0], picture, gap, 36.0f * scale)});
-                for (std::size_t i = 1; i < requests.size(); ++i) requests[i].is_asked_for = true;
+                for (std::size_t i = 1; i < requests.size(); ++i) requests[i].is_requested = true;
                 const std::size_t bar = requests.size();
                 requests.push_back(
                     {.anchor = Anchor::bottom, .sizes = {scale * glm::vec2(110, 32)}, .is_kept = true});

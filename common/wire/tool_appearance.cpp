@@ -1,4 +1,4 @@
-#include "common/wire/tool_look.h"
+#include "common/wire/tool_appearance.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,4 +1,4 @@
-// Check that two states of a tool look the same to whoever is shown them.
+// Appearance of a tool: whether two states of it look the same in a picture.
 #pragma once
 
 #include "common/scene/tool_state.h"

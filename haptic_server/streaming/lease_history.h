@@ -1,4 +1,4 @@
-// Log lines about who moves the tool.
+// Log lines about changes of the client that moves the tool.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,16 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "haptic_server/streaming/control_lease.h"
+#include "haptic_server/streaming/tool_lease.h"
 
 namespace osteomill {
 
-class ChangesOfHands {
+class LeaseHistory {
   public:
-    /// A line for who has let go since the last look, then one for who has it now; none where it is the same.
-    /// `peer_of` gives the name of a client that is there.
+    /// A line for the client that has let go since the last call, then one for the client that has the tool
+    /// now; none where nothing changed. `peer_of` gives the name of a client that is connected.
     template <typename PeerOf>
-    std::vector<std::string> look(std::optional<ControlLease::ClientId> holder, PeerOf&& peer_of) {
+    std::vector<std::string> update(std::optional<ToolLease::ClientId> holder, PeerOf&& peer_of) {
         std::vector<std::string> lines;
         if (holder == holder_) return lines;
         if (holder_) lines.push_back(fmt::format("client {} no longer moves the tool", peer_));
@@ -28,8 +28,8 @@ class ChangesOfHands {
     }
 
   private:
-    std::optional<ControlLease::ClientId> holder_;
-    std::string peer_;  // theirs, who may have gone
+    std::optional<ToolLease::ClientId> holder_;
+    std::string peer_;  // of that client, which may have gone
 };
 
 }  // namespace osteomill

@@ -19,7 +19,7 @@ inline int count(const std::string& text, const std::string& words) {
 }
 
 /// True as soon as it has said so as often as that; false after a time that only a defect can take.
-inline bool has_told(ChildProcess& server, const std::string& words, int times = 1) {
+inline bool has_logged(ChildProcess& server, const std::string& words, int times = 1) {
     return eventually([&] {
         server.read_output();
         return count(server.err(), words) >= times;
@@ -27,13 +27,13 @@ inline bool has_told(ChildProcess& server, const std::string& words, int times =
 }
 
 /// The newest figure in its log, of every five seconds; 0 before the first.
-inline double told_removal_mm3(const std::string& log) {
+inline double logged_removal_mm3(const std::string& log) {
     const std::size_t at = log.rfind("removed ");
     return at == std::string::npos ? 0.0 : std::stod(log.substr(at + 8));
 }
 
 /// The newest figure in the part that becomes its force log, of many times a second; 0 before the first.
-inline double told_removal_mm3(const std::filesystem::path& force_log_part) {
+inline double logged_removal_mm3(const std::filesystem::path& force_log_part) {
     constexpr std::streamoff some_lines = 4096;
     std::ifstream in(force_log_part, std::ios::ate);
     in.seekg(std::max<std::streamoff>(0, static_cast<std::streamoff>(in.tellg()) - some_lines));
@@ -46,11 +46,11 @@ inline double told_removal_mm3(const std::filesystem::path& force_log_part) {
 inline bool has_removed(ChildProcess& server, double least_mm3) {
     return eventually([&] {
         server.read_output();
-        return told_removal_mm3(server.err()) > least_mm3;
+        return logged_removal_mm3(server.err()) > least_mm3;
     });
 }
 inline bool has_removed(const std::filesystem::path& force_log_part, double least_mm3) {
-    return eventually([&] { return told_removal_mm3(force_log_part) > least_mm3; });
+    return eventually([&] { return logged_removal_mm3(force_log_part) > least_mm3; });
 }
 
 }  // namespace osteomill::testing

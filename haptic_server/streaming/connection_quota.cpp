@@ -1,4 +1,4 @@
-#include "haptic_server/streaming/fair_places.h"
+#include "haptic_server/streaming/connection_quota.h"
 
 #include <sys/resource.h>
 
@@ -18,7 +18,7 @@ Origin origin_of(const boost::asio::ip::address& address) {
     return origin;
 }
 
-std::optional<FairPlaces::Id> FairPlaces::in_the_way() const {
+std::optional<ConnectionQuota::Id> ConnectionQuota::next_to_go() const {
     if (origins_.size() < most_) return std::nullopt;
     // Of those who hold equally many, whose oldest is the oldest.
     const auto most = std::ranges::max_element(holders_, [](const auto& a, const auto& b) {
@@ -28,12 +28,12 @@ std::optional<FairPlaces::Id> FairPlaces::in_the_way() const {
     return *most->second.begin();
 }
 
-void FairPlaces::add(Id id, const Origin& origin) {
+void ConnectionQuota::add(Id id, const Origin& origin) {
     origins_.emplace(id, origin);
     holders_[origin].insert(id);
 }
 
-bool FairPlaces::remove(Id id) {
+bool ConnectionQuota::remove(Id id) {
     const auto found = origins_.find(id);
     if (found == origins_.end()) return false;
     const auto holder = holders_.find(found->second);
@@ -43,12 +43,12 @@ bool FairPlaces::remove(Id id) {
     return true;
 }
 
-void FairPlaces::clear() {
+void ConnectionQuota::clear() {
     origins_.clear();
     holders_.clear();
 }
 
-std::size_t places_for_unidentified() {
+std::size_t unidentified_quota() {
     constexpr std::size_t plenty = 512;
     rlimit files{};
     if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return plenty;

@@ -1,8 +1,8 @@
-#include "haptic_server/streaming/control_lease.h"
+#include "haptic_server/streaming/tool_lease.h"
 
 namespace osteomill {
 
-bool ControlLease::take_input(ClientId client, const OperatorCommand& command, Time now) {
+bool ToolLease::take_input(ClientId client, const OperatorCommand& command, Time now) {
     if (holder_ && *holder_ != client && is_kept(now)) return false;
     if (holder_ != client) activity_.begin();
     activity_.note(command, now);
@@ -13,21 +13,21 @@ bool ControlLease::take_input(ClientId client, const OperatorCommand& command, T
     return true;
 }
 
-void ControlLease::leave(ClientId client) {
+void ToolLease::leave(ClientId client) {
     if (holder_ == client) end();
 }
 
-void ControlLease::end() {
+void ToolLease::end() {
     holder_.reset();
     output_.back() = {};
     output_.publish();
 }
 
-void ControlLease::check_silence(Time now) {
+void ToolLease::check_silence(Time now) {
     if (holder_ && now - last_heard_ > duration) end();
 }
 
-ToolDriver ControlLease::driver_for(ClientId client) const {
+ToolDriver ToolLease::driver_for(ClientId client) const {
     if (!holder_) return ToolDriver::nobody;
     return *holder_ == client ? ToolDriver::you : ToolDriver::another;
 }

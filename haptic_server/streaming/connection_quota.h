@@ -1,0 +1,56 @@
+// Quota of connections that have not said yet who they are, shared by the addresses they come from.
+//
+// When it is full, the oldest connection of the address that holds most goes. So one address, however fast it
+// connects, never costs another its connection. Behind one address, or from very many, a connection is kept
+// until N newer ones have come, N being the quota: with 512, and 1000 new ones a second, for half a second. A
+// handshake takes two round trips, of 50 ms say.
+#pragma once
+
+#include <boost/asio/ip/address.hpp>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace osteomill {
+
+/// Origin of a connection: an IPv4 address, or the 64 bits of an IPv6 address that name a network, since one
+/// machine may use all addresses of its network.
+struct Origin {
+    bool is_v6 = false;
+    std::uint64_t network = 0;
+
+    auto operator<=>(const Origin&) const = default;
+};
+
+/// An IPv4 address within IPv6 is an IPv4 address.
+Origin origin_of(const boost::asio::ip::address& address);
+
+class ConnectionQuota {
+  public:
+    using Id = std::uint64_t;  ///< ascending in the order in which they came
+
+    /// At least one.
+    explicit ConnectionQuota(std::size_t most) : most_(most) {}
+
+    /// The connection that has to go before another can be added; none where there is room.
+    std::optional<Id> next_to_go() const;
+    void add(Id id, const Origin& origin);
+    /// False if it has none.
+    bool remove(Id id);
+    std::size_t size() const { return origins_.size(); }
+    void clear();
+
+  private:
+    std::size_t most_;
+    std::map<Id, Origin> origins_;
+    std::map<Origin, std::set<Id>> holders_;  // none is empty
+};
+
+/// The quota: 512, or half of the files that the system lets this program open, so that clients, recordings
+/// and devices have theirs.
+std::size_t unidentified_quota();
+
+}  // namespace osteomill
