@@ -53,13 +53,13 @@ SessionInfo info_of(const ShownOptions& options, const SessionScene& scene, cons
 ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirror, MillingSession& session,
                            const DeviceParts& device)
     : keeper_(save_into(options.save_bone, scene.source)),
-      controls_(*session.gate(), *session.restored(), session.placements(),
+      controls_(session.exchange().gate, *session.exchange().restored, session.exchange().placements,
                 requests(options, scene.scene, device)),
-      live_(session.tool(), session.changes(), &controls_, std::move(options.script)),
+      live_(session.exchange().tool, session.exchange().changes, &controls_, std::move(options.script)),
       server_(options.streaming, info_of(options, scene, session.bone().grid(), device), std::move(mirror),
               live_, device.operator_channel.get(),
               structures_outside_bone_labels(scene.structures, scene.scene, session.bone())) {
-    live_.listen_to(session.cuts());
+    live_.listen_to(session.exchange().cuts);
     if (has_ct(scene.source, session.bone().grid()))
         live_.offer_ct([&source = scene.source] { return ct_of(source, most_ct_voxels); });
     live_.watch(StructureWatch(std::move(scene.structures), scene.scene.tissues, scene.scene.burrs),

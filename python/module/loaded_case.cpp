@@ -42,12 +42,6 @@ LoadedCase::LoadedCase(std::string name, SceneChoice choice)
     }
 }
 
-double LoadedCase::in_all_mm3(const RemovedByTissue& removed_mm3) const noexcept {
-    double sum_mm3 = 0.0;
-    for (const std::size_t label : labels_of_bone_) sum_mm3 += removed_mm3[label];
-    return sum_mm3;
-}
-
 double LoadedCase::distance_mm(std::size_t i, const ToolState& tool) const noexcept {
     const std::optional<double> distance_mm =
         heads_[tool.burr].clearance_mm(fields_[i], {tool.burr_position_mm, tool.spindle_axis});

@@ -34,8 +34,8 @@ class LoadedCase {
         std::size_t label;
     };
     const std::vector<NamedLabel>& labels() const { return labels_; }
-    /// Of all tissues that the bone had.
-    double in_all_mm3(const RemovedByTissue& removed_mm3) const noexcept;
+    /// Of the tissues that the bone had.
+    const std::vector<std::size_t>& labels_of_bone() const { return labels_of_bone_; }
 
     /// Names of the protected structures.
     const std::vector<std::string>& structures() const { return structure_names_; }

@@ -115,14 +115,18 @@ void SteppedSession::step(const HandInput& input) {
 }
 
 TickState SteppedSession::state() const {
-    const RemovedByTissue removed_mm3 = this->removed_mm3();
-    TickState state{.tool = tool_,
-                    .milling_force_n = milling_force_n(),
-                    .removed_in_all_mm3 = loaded_->in_all_mm3(removed_mm3)};
+    TickState state{
+        .tool = tool_, .milling_force_n = milling_force_n(), .removed_in_all_mm3 = removed_in_all_mm3()};
     state.removed_mm3.reserve(loaded_->labels().size());
     for (const LoadedCase::NamedLabel& one : loaded_->labels())
-        state.removed_mm3.push_back(removed_mm3[one.label]);
+        state.removed_mm3.push_back(removed_mm3(one.label));
     return state;
+}
+
+double SteppedSession::removed_in_all_mm3() const {
+    double sum_mm3 = 0.0;
+    for (const std::size_t label : loaded_->labels_of_bone()) sum_mm3 += removed_mm3(label);
+    return sum_mm3;
 }
 
 void SteppedSession::replay(const FedMotion& motion) {

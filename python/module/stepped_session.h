@@ -77,7 +77,9 @@ class SteppedSession {
     TickState state() const;
     const ToolState& tool() const { return tool_; }
     const glm::dvec3& milling_force_n() const { return assembly_->session().known_result().force_n; }
-    RemovedByTissue removed_mm3() const { return assembly_->session().removed_mm3(); }
+    /// So far, of one tissue, and of all that the bone had.
+    double removed_mm3(std::size_t label) const { return assembly_->session().removed_mm3(label); }
+    double removed_in_all_mm3() const;
 
     /// The hand that was prescribed last, or where the session starts.
     const ToolPose& hand() const { return hand_; }

@@ -29,10 +29,9 @@ void TickColumns::add(const SteppedSession& session) {
     depth_mm.push_back(tool.depth_mm.value_or(0.0));
     spindle_on.push_back(tool.spindle_on ? 1 : 0);
     fault.push_back(fault_number(tool));
-    const RemovedByTissue removed = session.removed_mm3();
-    removed_in_all_mm3.push_back(loaded_.in_all_mm3(removed));
+    removed_in_all_mm3.push_back(session.removed_in_all_mm3());
     for (std::size_t i = 0; i < removed_mm3.size(); ++i)
-        removed_mm3[i].push_back(removed[loaded_.labels()[i].label]);
+        removed_mm3[i].push_back(session.removed_mm3(loaded_.labels()[i].label));
     for (std::size_t i = 0; i < distance_mm.size(); ++i)
         distance_mm[i].push_back(loaded_.distance_mm(i, tool));
 }

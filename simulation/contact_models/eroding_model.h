@@ -36,6 +36,7 @@ class ErodingModel final : public ForceModel {
 
     const Bone& bone() const override { return bone_; }
     RemovedByTissue removed_mm3() const override { return account_.removed_mm3(); }
+    double removed_mm3(std::size_t label) const override { return account_.removed_mm3(label); }
 
   private:
     void erode(const glm::dvec3& position_mm, double dose, ChangeSink& changes) noexcept;

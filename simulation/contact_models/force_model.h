@@ -28,6 +28,8 @@ class ForceModel {
     virtual const Bone& bone() const = 0;
     /// Since the start, less what was restored.
     virtual RemovedByTissue removed_mm3() const = 0;
+    /// Of one tissue, below 256.
+    virtual double removed_mm3(std::size_t label) const = 0;
 };
 
 }  // namespace osteomill

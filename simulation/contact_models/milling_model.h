@@ -42,6 +42,7 @@ class MillingModel final : public ForceModel {
 
     const Bone& bone() const override { return bone_; }
     RemovedByTissue removed_mm3() const override { return account_.removed_mm3(); }
+    double removed_mm3(std::size_t label) const override { return account_.removed_mm3(label); }
 
   private:
     /// How far the farthest point of the burr moves from where it is to the command's pose: along the path

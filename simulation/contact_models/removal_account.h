@@ -61,6 +61,7 @@ class RemovalAccount {
         result.spindle_on = command.spindle_on;
     }
 
+    double removed_mm3(std::size_t label) const { return levels_[label] * mm3_per_level_; }
     RemovedByTissue removed_mm3() const {
         RemovedByTissue removed = levels_;
         for (double& volume : removed) volume *= mm3_per_level_;

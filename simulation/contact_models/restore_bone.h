@@ -1,4 +1,4 @@
-// Gives bone back that was milled, or takes it again: what undo and redo do to the milling loop's bone.
+// Undo and redo in the milling loop's bone: milled bone is given back, or taken again.
 #pragma once
 
 #include "common/bone/bone.h"

@@ -117,23 +117,18 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
            .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
            .model_holds_wall = !find_force_model(options.force_model).has_cutting_law,
            .wall_friction = find_force_model(options.force_model).has_friction ? scene.wall_friction : 0.0})),
-      changes_(change_queue_bytes, model_->bone().shared_content()),
-      restored_(options.can_be_controlled
-                    ? std::make_unique<ChangeQueue>(restored_queue_bytes, model_->bone().shared_content())
-                    : nullptr),
-      tool_(tool_at_start(scene)),
-      status_(tool_at_start(scene)),
+      exchange_(model_->bone(), tool_at_start(scene), options.can_be_controlled),
       vibration_(make_vibration(scene, device, options)),
       haptic_loop_({.device = device,
                     .coupling = *coupling_,
-                    .results = results_,
-                    .commands = commands_,
-                    .tool = tool_,
-                    .status = status_,
+                    .results = exchange_.results,
+                    .commands = exchange_.commands,
+                    .tool = exchange_.tool,
+                    .status = exchange_.status,
                     .log = log,
                     .vibration = vibration_ ? &*vibration_ : nullptr,
-                    .gate = gate(),
-                    .placements = restored_ ? &placements_ : nullptr},
+                    .gate = exchange_.restored ? &exchange_.gate : nullptr,
+                    .placements = exchange_.restored ? &exchange_.placements : nullptr},
                    {.tick_s = tick_s,
                     .mapping = scene.device,
                     .burr_count = scene.burrs.size(),
@@ -145,14 +140,14 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .start_pose = scene.start_pose}),
       burrs_(felt_burrs(scene)),
       milling_loop_({.model = *model_,
-                     .commands = commands_,
-                     .results = results_,
-                     .changes = changes_,
+                     .commands = exchange_.commands,
+                     .results = exchange_.results,
+                     .changes = exchange_.changes,
                      .log = milling_log,
                      .burrs = burrs_,
-                     .restored = restored(),
-                     .gate = gate(),
-                     .cuts = options.changes_are_consumed ? &cuts_ : nullptr,
+                     .restored = exchange_.restored.get(),
+                     .gate = exchange_.restored ? &exchange_.gate : nullptr,
+                     .cuts = options.changes_are_consumed ? &exchange_.cuts : nullptr,
                      .motor = scene.motor},
                     tick_s),
       haptic_ticks_(tick_s, 0.0,
@@ -242,7 +237,7 @@ std::uint64_t MillingSession::advance(std::uint64_t ticks, const OnProgress& on_
         haptic_ticks_.tick_now(stopwatch);
         while (milling_steps_.due_s() <= now_s_ + rounding_s) {
             milling_steps_.tick_now(stopwatch);
-            if (changes_.has_overflowed()) wait_for_room_in_queue(stop, on_progress);
+            if (exchange_.changes.has_overflowed()) wait_for_room_in_queue(stop, on_progress);
         }
         if (ticks_++ % chore_ticks == 0) do_chores(on_progress);
     }
@@ -257,27 +252,28 @@ void MillingSession::do_chores(const OnProgress& on_progress) {
     drain(log_);
     drain(milling_log_);
     drop_changes_nobody_wants();
-    status_.refresh();
-    if (on_progress) on_progress(status_.front());
+    exchange_.status.refresh();
+    if (on_progress) on_progress(exchange_.status.front());
 }
 
 void MillingSession::drop_changes_nobody_wants() {
-    if (!options_.changes_are_consumed) changes_.consume_all([](const BrickChange&, BrickFractions) {});
+    if (!options_.changes_are_consumed)
+        exchange_.changes.consume_all([](const BrickChange&, BrickFractions) {});
 }
 
 void MillingSession::wait_for_room_in_queue(const std::atomic<bool>* stop, const OnProgress& on_progress) {
     do_chores(on_progress);
     wait_for_consumer(stop, [this] {
-        changes_.resend_overflowed(model_->bone());
-        return !changes_.has_overflowed();
+        exchange_.changes.resend_overflowed(model_->bone());
+        return !exchange_.changes.has_overflowed();
     });
 }
 
 void MillingSession::send_what_overflowed() {
     wait_for_consumer(nullptr, [this] {
         drop_changes_nobody_wants();
-        changes_.resend_overflowed(model_->bone());
-        return !changes_.has_overflowed();
+        exchange_.changes.resend_overflowed(model_->bone());
+        return !exchange_.changes.has_overflowed();
     });
 }
 
@@ -291,7 +287,7 @@ MillingSessionReport MillingSession::report() const {
             .most_energy_to_hand_mj = haptic_loop_.most_energy_to_hand_mj(),
             .solve = coupling_->solve_counts(),
             .fault_counts = haptic_loop_.fault_counts(),
-            .change_overflows = changes_.overflow_count(),
+            .change_overflows = exchange_.changes.overflow_count(),
             .bone_checksum = checksum(model_->bone()),
             .real_time_priority = haptic_thread_.has_real_time_priority,
             .memory_locked = is_memory_locked_,

@@ -22,8 +22,8 @@
 #include "simulation/contact_models/force_models.h"
 #include "simulation/coupling/couplings.h"
 #include "simulation/device/haptic_device.h"
-#include "simulation/exchange/change_queue.h"
 #include "simulation/exchange/sample_log.h"
+#include "simulation/exchange/session_exchange.h"
 #include "simulation/loop/haptic_loop.h"
 #include "simulation/loop/milling_loop.h"
 #include "simulation/loop/periodic_loop.h"
@@ -47,9 +47,9 @@ struct MillingSessionOptions {
     double duration_s = std::numeric_limits<double>::infinity();
     /// The reported removed volume continues from here: of a bone that was carved before.
     RemovedByTissue removed_before_mm3{};
-    /// Somebody may pause it, and undo what was milled: see gate() and restored().
+    /// Somebody may pause it, and undo what was milled: see SessionExchange.
     bool can_be_controlled = false;
-    /// Somebody consumes changes() while the session runs. If not, the session empties the queue itself.
+    /// Somebody consumes the changes while the session runs. If not, the session empties the queue itself.
     bool changes_are_consumed = false;
     /// Processors that the loops are bound to, of those that this process may use; absent: the system's
     /// choice.
@@ -81,29 +81,14 @@ class MillingSession {
     static constexpr double tick_s = 0.001;
     /// Ticks after which a loop has touched what it works with.
     static constexpr std::uint64_t settling_ticks = 100;
-    /// Over half a second of the heaviest carving (5 mm burr, half immersed, at 1 kHz: 6 kB a step).
-    static constexpr std::size_t change_queue_bytes = std::size_t{1} << 22;
-    /// What a tenth of a second restores.
-    static constexpr std::size_t restored_queue_bytes = std::size_t{1} << 21;
-
     /// `device` and the logs (may be null) outlive the session. Throws std::invalid_argument for a milling
     /// rate out of range, a processor that this process may not use, an unknown coupling or force model, a
     /// coupling that the force model has no law for, or a scene that the parts refuse.
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
                    SampleLog<TickSample>* log = nullptr, SampleLog<MillingSample>* milling_log = nullptr);
 
-    /// For the streaming server: the tool's newest state (the start pose before the first tick), and the
-    /// changes in order (each one reader).
-    TripleBuffer<ToolState>& tool() { return tool_; }
-    ChangeQueue& changes() { return changes_; }
-    /// For who looks after the session (one writer each): whether it holds still, and the bone that is to be
-    /// given back, which it is while the spindle is off. Null where the session cannot be controlled.
-    SessionGate* gate() { return restored_ ? &gate_ : nullptr; }
-    ChangeQueue* restored() { return restored_.get(); }
-    TripleBuffer<Placement>& placements() { return placements_; }
-    /// For the streaming server, too: what the edges cut, for people to hear. Stays empty where nobody
-    /// consumes changes.
-    TripleBuffer<std::optional<CutState>>& cuts() { return cuts_; }
+    /// For the streaming server and others that follow or control the session.
+    SessionExchange& exchange() { return exchange_; }
 
     /// Called on the caller's thread: about every 20 ms, on the virtual clock every 33 ms of the session,
     /// where it may consume the changes.
@@ -133,13 +118,14 @@ class MillingSession {
     const Bone& bone() const { return model_->bone(); }
     /// By this session so far.
     RemovedByTissue removed_mm3() const { return model_->removed_mm3(); }
+    double removed_mm3(std::size_t label) const { return model_->removed_mm3(label); }
     // For who steps it, on the virtual clock between two calls of advance(): what the last tick said, and
     // what it knew of the milling loop.
     const ToolState& newest_state() {
-        status_.refresh();
-        return status_.front();
+        exchange_.status.refresh();
+        return exchange_.status.front();
     }
-    const MillingResult& known_result() const { return results_.front(); }
+    const MillingResult& known_result() const { return exchange_.results.front(); }
 
   private:
     /// What the system gave the thread of a loop, on the real clock.
@@ -159,15 +145,7 @@ class MillingSession {
     SampleLog<MillingSample>* milling_log_;
     std::unique_ptr<ForceModel> model_;
     std::unique_ptr<Coupling> coupling_;
-    ChangeQueue changes_;
-    SessionGate gate_;
-    std::unique_ptr<ChangeQueue> restored_;
-    TripleBuffer<Placement> placements_;
-    TripleBuffer<MillingResult> results_;
-    TripleBuffer<BurrCommand> commands_;
-    TripleBuffer<ToolState> tool_;
-    TripleBuffer<std::optional<CutState>> cuts_;
-    TripleBuffer<ToolState> status_;
+    SessionExchange exchange_;
     std::optional<HandpieceVibration> vibration_;
     HapticLoop haptic_loop_;
     std::vector<Burr> burrs_;

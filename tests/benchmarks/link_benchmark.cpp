@@ -120,7 +120,7 @@ Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, double 
         scene, bone, device,
         MillingSessionOptions{
             .clock = ClockKind::virtual_time, .duration_s = to_s, .changes_are_consumed = true});
-    LiveSession shown(session->tool(), session->changes());
+    LiveSession shown(session->exchange().tool, session->exchange().changes);
     BoneReplica mirror(bone);
     FeedPackers packers;
     ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packers);
@@ -216,7 +216,7 @@ void measure_motion(Targets& targets, Scene scene, const Bone& bone) {
     SteppingDevice device(scene.start_pose.position_mm);
     const auto session = std::make_unique<MillingSession>(
         scene, bone, device, MillingSessionOptions{.changes_are_consumed = true});
-    LiveSession shown(session->tool(), session->changes());
+    LiveSession shown(session->exchange().tool, session->exchange().changes);
     StreamingServer server({.port = 0}, session_info(scene, false, 3.3, ""), bone, shown);
     server.start();
     std::atomic<bool> is_over{false};

@@ -60,8 +60,8 @@ RunRecord run_session(const MapCase& c, const ScenePlan& plan, const Bone& bone,
     const double most_off_mm = most_off_the_truth_mm(plan, truth);
     std::atomic<bool> stop{false};
     device.on_tick([&](const std::vector<DeviceTick>& record) {
-        session.tool().refresh();
-        const ToolState& last = session.tool().front();
+        session.exchange().tool.refresh();
+        const ToolState& last = session.exchange().tool.front();
         if (!last.fault.empty()) run.is_astray = true;
         if (record.empty() || run.burr_mm.size() == record.size()) return;
         // What the loop made of the tick before.

@@ -101,10 +101,10 @@ SiteRun run_site(const Site& site, const SiteHand& hand) {
     std::atomic<bool> stop{false};
     device.on_tick([&](std::vector<SiteTick>& record) {
         if (record.empty()) return;
-        session.tool().refresh();
-        record.back().burr_mm = session.tool().front().burr_position_mm;
-        record.back().spindle_axis = session.tool().front().spindle_axis;
-        record.back().spindle_on = session.tool().front().spindle_on;
+        session.exchange().tool.refresh();
+        record.back().burr_mm = session.exchange().tool.front().burr_position_mm;
+        record.back().spindle_axis = session.exchange().tool.front().spindle_axis;
+        record.back().spindle_on = session.exchange().tool.front().spindle_on;
         if (device.is_finished()) stop.store(true);
     });
     session.run(stop);

@@ -150,7 +150,7 @@ TEST(MillingSession, AtAChosenSpeedIsTheSameAsWithABurrOfThatSpeed) {
         MillingSessionOptions options = virtual_options(2.0);
         options.can_be_controlled = true;
         const auto session = std::make_unique<MillingSession>(scene, block(), device, options);
-        session->gate()->spindle_rev_per_s = chosen_rev_per_s;
+        session->exchange().gate.spindle_rev_per_s = chosen_rev_per_s;
         const std::atomic<bool> never{false};
         session->run(never);
         return session->report();
@@ -188,7 +188,7 @@ TEST(MillingSession, TellsWhoeverCopiesTheBoneEveryChange) {
     std::thread consumer([&] {
         for (bool last_round = false; !last_round;) {
             last_round = done.load();
-            follow(session->changes(), copy);
+            follow(session->exchange().changes, copy);
             std::this_thread::yield();
         }
     });
@@ -211,8 +211,8 @@ TEST(MillingSession, RunsInThreadsOnTheRealClockAndStopsWhenTold) {
     std::thread streaming([&] {  // what the streaming loop would do
         for (bool last_round = false; !last_round;) {
             last_round = done.load();
-            follow(session->changes(), copy);
-            shown += session->tool().refresh() ? 1 : 0;
+            follow(session->exchange().changes, copy);
+            shown += session->exchange().tool.refresh() ? 1 : 0;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
     });
@@ -278,8 +278,8 @@ TEST(MillingSession, ShowsTheStartPoseBeforeTheFirstTick) {
     scene.burrs.push_back(scene.burrs.front());
     scene.start_burr = 1;
     const auto session = std::make_unique<MillingSession>(scene, block(), device, virtual_options(0.5));
-    EXPECT_FALSE(session->tool().refresh());
-    const ToolState& tool = session->tool().front();
+    EXPECT_FALSE(session->exchange().tool.refresh());
+    const ToolState& tool = session->exchange().tool.front();
     EXPECT_EQ(tool.burr_position_mm, scene.start_pose.position_mm);
     EXPECT_EQ(tool.spindle_axis, scene.start_pose.spindle_axis);
     EXPECT_EQ(tool.hand_position_mm, scene.start_pose.position_mm);

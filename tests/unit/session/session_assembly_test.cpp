@@ -107,8 +107,8 @@ TEST_F(SessionAssemblyTest, FollowsAHandThatIsPrescribedTickByTick) {
     assembly.end();
     EXPECT_GT(assembly.session().report().removed_mm3[0], 0.1);
     EXPECT_GT(assembly.session().report().peak_force_n, 0.0);
-    assembly.session().tool().refresh();
-    EXPECT_NEAR(assembly.session().tool().front().hand_position_mm.z, 0.501, 1e-9);
+    assembly.session().exchange().tool.refresh();
+    EXPECT_NEAR(assembly.session().exchange().tool.front().hand_position_mm.z, 0.501, 1e-9);
 }
 
 TEST_F(SessionAssemblyTest, IsRecordedFrameByFrameAlsoWhenItIsAdvanced) {

@@ -1,0 +1,54 @@
+// Data that the threads of a session hand over: the newest values through triple buffers, changes of the bone
+// through ordered queues. Each has one writer and one reader.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include "common/bone/bone.h"
+#include "common/scene/cut_state.h"
+#include "common/scene/tool_state.h"
+#include "simulation/exchange/change_queue.h"
+#include "simulation/exchange/milling_step.h"
+#include "simulation/exchange/session_gate.h"
+#include "simulation/exchange/triple_buffer.h"
+
+namespace osteomill {
+
+struct SessionExchange {
+    /// Over half a second of the heaviest carving (5 mm burr, half immersed, at 1 kHz: 6 kB a step).
+    static constexpr std::size_t change_queue_bytes = std::size_t{1} << 22;
+    /// The changes that a tenth of a second restores.
+    static constexpr std::size_t restored_queue_bytes = std::size_t{1} << 21;
+
+    /// `at_start`: the tool before the first tick. `is_controlled`: the session can be paused, and strokes
+    /// undone.
+    SessionExchange(const Bone& bone, const ToolState& at_start, bool is_controlled)
+        : changes(change_queue_bytes, bone.shared_content()),
+          tool(at_start),
+          restored(is_controlled ? std::make_unique<ChangeQueue>(restored_queue_bytes, bone.shared_content())
+                                 : nullptr),
+          status(at_start) {}
+
+    // Between the loops.
+    TripleBuffer<MillingResult> results;  ///< milling to haptic
+    TripleBuffer<BurrCommand> commands;   ///< haptic to milling
+
+    // To streaming.
+    ChangeQueue changes;           ///< of milling, in order
+    TripleBuffer<ToolState> tool;  ///< of haptic
+    TripleBuffer<std::optional<CutState>>
+        cuts;  ///< of milling, for sound; empty where nobody consumes changes
+
+    // From streaming. `gate` goes both ways.
+    SessionGate gate;
+    std::unique_ptr<ChangeQueue>
+        restored;  ///< to milling, applied while the spindle is off; null: not controlled
+    TripleBuffer<Placement> placements;  ///< to haptic
+
+    // To the main thread.
+    TripleBuffer<ToolState> status;
+};
+
+}  // namespace osteomill
