@@ -1,7 +1,7 @@
-// Tells people how it goes: a status line a second on a terminal, a line every five seconds elsewhere, and a
-// line of its own whenever the force goes off or comes back, or a change of burr has to wait. How it went
-// while the terminal took nothing is out of date: there is no status line until the earlier lines have been
-// taken.
+// Progress of a session for people: a status line a second on a terminal, a line every five seconds
+// elsewhere, and a line of its own whenever the force goes off or comes back, or a change of burr has to
+// wait. How it went while the terminal took nothing is out of date: there is no status line until the earlier
+// lines have been taken.
 #pragma once
 
 #include <chrono>
