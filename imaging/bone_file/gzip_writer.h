@@ -1,4 +1,4 @@
-// Writes a gzip stream (RFC 1952) on all cores.
+// Writer of a gzip stream (RFC 1952) on all cores.
 //
 // Deflated pieces that end on a byte (Z_SYNC_FLUSH) and refer to nothing before themselves follow each other
 // within one member, as pigz does it: every reader takes it for plain gzip. Pieces of 1 MiB cost next to

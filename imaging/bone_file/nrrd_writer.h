@@ -1,5 +1,5 @@
-// Writes a NRRD as a stream, gzip inside: neither the voxels nor what they are compressed to are ever held as
-// a whole.
+// Writer of a NRRD as a stream, gzip inside: neither the voxels nor what they are compressed to are ever held
+// as a whole.
 #pragma once
 
 #include <cstddef>

@@ -1,15 +1,15 @@
 #include "imaging/dicom/dicom_scan.h"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <new>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
+
+#include "imaging/dicom/dicom_walker.h"
 
 namespace osteomill {
 
@@ -17,291 +17,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::uint32_t undefined_length = 0xffffffff;
-constexpr std::uint32_t tag(std::uint32_t group, std::uint32_t element) {
-    return group << 16U | element;
-}
-constexpr std::uint32_t item_tag = tag(0xfffe, 0xe000);
-constexpr std::uint32_t item_end_tag = tag(0xfffe, 0xe00d);
-constexpr std::uint32_t sequence_end_tag = tag(0xfffe, 0xe0dd);
-constexpr std::uint32_t pixel_data_tag = tag(0x7fe0, 0x0010);
-/// A value that is not taken apart here may be by GDCM. How deep that may go is bounded by the items that
-/// could be in it; so many are far from filling a stack.
-constexpr std::uint64_t most_items_in_values = 1000;
-/// Within an item that states its length GDCM computes the length of what does not, several times over at
-/// every level; where no item states its length it need not. Files state all lengths or none.
-constexpr std::uint64_t most_effort = std::uint64_t{1} << 21U;
-constexpr std::uint64_t effort_of_level = 6;
-constexpr int none_open = -1;
 constexpr std::uint64_t most_inflated_bytes = std::uint64_t{1} << 28U;
-
-struct Damaged : std::invalid_argument {
-    Damaged() : std::invalid_argument("is DICOM but cannot be parsed: cut off or damaged") {}
-};
-
-struct Syntax {
-    bool is_explicit = true;
-    bool big_endian = false;
-};
-
-struct Element {
-    std::uint32_t tag = 0;
-    std::array<char, 2> representation{};  ///< "SQ"; zeros when implicit
-    std::uint32_t length = 0;
-    std::size_t value = 0;  ///< where it begins
-};
-
-class Walker {
-  public:
-    Walker(Bytes bytes, std::uint64_t file_bytes) : bytes_(bytes), file_bytes_(file_bytes) {}
-
-    DicomScan scan;
-
-    /// Elements of the file itself, from an offset on, up to one of another group where `only_group` is one.
-    std::size_t walk_file(std::size_t at, const Syntax& syntax, std::optional<std::uint32_t> only_group) {
-        while (at < bytes_.size()) {
-            // What follows the pixels, such as a filled-up block, is GDCM's to judge.
-            if (scan.has_pixel_data && bytes_.size() - at < 8) break;
-            if (only_group && number<std::uint16_t>(at, false) != *only_group) break;
-            const Element element = element_at(at, syntax);
-            at = reaches_beyond(element) ? bytes_.size() : after(element, syntax, 0, none_open);
-            note(element, syntax);
-        }
-        return at;
-    }
-    void require_few_hidden_items() const {
-        if (items_in_values_ > most_items_in_values)
-            throw std::invalid_argument(fmt::format(
-                "is DICOM with {} items within values that are no sequences; damaged", items_in_values_));
-    }
-
-  private:
-    template <typename T>
-    T number(std::size_t at, bool big_endian) const {
-        if (at > bytes_.size() || bytes_.size() - at < sizeof(T)) throw Damaged();
-        T value = 0;
-        for (std::size_t i = 0; i < sizeof(T); ++i)
-            value = static_cast<T>(value | static_cast<T>(bytes_[at + i])
-                                               << (8U * (big_endian ? sizeof(T) - 1 - i : i)));
-        return value;
-    }
-
-    Element element_at(std::size_t at, const Syntax& syntax) const {
-        Element element;
-        element.tag = tag(number<std::uint16_t>(at, syntax.big_endian),
-                          number<std::uint16_t>(at + 2, syntax.big_endian));
-        const bool is_item = element.tag >> 16U == 0xfffe;
-        if (!syntax.is_explicit || is_item) {
-            element.length = number<std::uint32_t>(at + 4, syntax.big_endian);
-            element.value = at + 8;
-            return element;
-        }
-        element.representation = {static_cast<char>(number<std::uint8_t>(at + 4, false)),
-                                  static_cast<char>(number<std::uint8_t>(at + 5, false))};
-        const std::string_view name(element.representation.data(), 2);
-        for (const char letter : name)
-            if (letter < 'A' || letter > 'Z') throw Damaged();
-        constexpr std::array<std::string_view, 13> with_long_length{"OB", "OD", "OF", "OL", "OV", "OW", "SQ",
-                                                                    "SV", "UC", "UN", "UR", "UT", "UV"};
-        if (std::find(with_long_length.begin(), with_long_length.end(), name) != with_long_length.end()) {
-            element.length = number<std::uint32_t>(at + 8, syntax.big_endian);
-            element.value = at + 12;
-        } else {
-            element.length = number<std::uint16_t>(at + 6, syntax.big_endian);
-            element.value = at + 8;
-        }
-        return element;
-    }
-
-    /// Whether these are uncompressed pixels that the file has and `bytes_` has not, or not all.
-    bool reaches_beyond(const Element& element) const {
-        const std::uint64_t end = element.value + std::uint64_t{element.length};
-        return element.tag == pixel_data_tag && element.length != undefined_length && end > bytes_.size() &&
-               end <= file_bytes_;
-    }
-
-    std::size_t end_of(const Element& element) const {
-        if (element.value > bytes_.size() || bytes_.size() - element.value < element.length) throw Damaged();
-        return element.value + element.length;
-    }
-
-    bool is(const Element& element, std::string_view representation) const {
-        return std::string_view(element.representation.data(), 2) == representation;
-    }
-
-    /// Where the element ends; goes through what is nested in it.
-    std::size_t after(const Element& element, const Syntax& syntax, int depth, int open_levels) {
-        if (element.length == undefined_length) {
-            // Also of a picture within a sequence, an icon.
-            if (element.tag == pixel_data_tag) return after_fragments(element, syntax, depth == 0);
-            // Of unknown form and length: coded as implicit, whatever the file is.
-            const Syntax inner =
-                is(element, "UN") ? Syntax{.is_explicit = false, .big_endian = false} : syntax;
-            return after_items(element.value, std::nullopt, inner, depth,
-                               open_levels == none_open ? none_open : open_levels + 1);
-        }
-        const std::size_t end = end_of(element);
-        const bool is_sequence = is(element, "SQ");
-        if (element.tag == pixel_data_tag || (!is_sequence && !begins_with_item(element))) {
-            items_in_values_ += items_between(element.value, end);
-            return end;
-        }
-        // What begins with an item GDCM takes for a sequence when it is requested one, in either coding.
-        std::vector<Syntax> codings{is_sequence ? syntax : Syntax{.is_explicit = false}};
-        if (!is_sequence && depth == 0) codings.push_back({.is_explicit = true});
-        const std::uint64_t before = items_in_values_;
-        for (const Syntax& coding : codings) {
-            try {
-                if (after_items(element.value, end, coding, depth, none_open) == end) {
-                    require_few_hidden(element, items_in_values_ - before);
-                    return end;
-                }
-            } catch (const Damaged&) {
-                // Its length says where it ends, whatever is in it.
-            }
-            items_in_values_ = before;
-        }
-        items_in_values_ += items_between(element.value, end);
-        require_few_hidden(element, items_in_values_ - before);
-        return end;
-    }
-
-    static std::uint64_t effort_of_item(int open_levels) {
-        std::uint64_t effort = 1;
-        for (int level = 0; level < open_levels; ++level) effort *= effort_of_level;
-        return effort;
-    }
-
-    bool begins_with_item(const Element& element) const {
-        return element.length >= 8 && items_between(element.value, element.value + 4) == 1;
-    }
-
-    /// GDCM looks into no private element.
-    static void require_few_hidden(const Element& element, std::uint64_t items) {
-        if ((element.tag >> 16U) % 2 == 0 && items > most_dicom_nesting)
-            throw std::invalid_argument(fmt::format(
-                "is DICOM with {} items in ({:04x},{:04x}) that are no readable sequence; damaged", items,
-                element.tag >> 16U, element.tag & 0xffffU));
-    }
-
-    std::size_t after_items(std::size_t at, std::optional<std::size_t> end, const Syntax& syntax, int depth,
-                            int open_levels) {
-        if (depth >= most_dicom_nesting)
-            throw std::invalid_argument(
-                fmt::format("is DICOM with more than {} sequences within one another", most_dicom_nesting));
-        while (!end || at < *end) {
-            const Element item = element_at(at, syntax);
-            if (item.tag == sequence_end_tag) return item.value;
-            if (item.tag != item_tag) throw Damaged();
-            effort_ += effort_of_item(open_levels);
-            if (effort_ > most_effort)
-                throw std::invalid_argument(
-                    "is DICOM with too many sequences within one another to be a scan");
-            const bool open = item.length == undefined_length;
-            const std::size_t item_end = open ? bytes_.size() : end_of(item);
-            if (end && !open && item_end > *end) throw Damaged();
-            at = item.value;
-            bool closed = !open;
-            while (at < item_end) {
-                const Element element = element_at(at, syntax);
-                if (element.tag == item_end_tag) {
-                    at = element.value;
-                    closed = true;
-                    break;
-                }
-                if (element.tag >> 16U == 0xfffe) throw Damaged();
-                at = after(element, syntax, depth + 1, open ? open_levels : 0);
-            }
-            if (!closed || (!open && at > item_end)) throw Damaged();
-        }
-        return at;
-    }
-
-    std::size_t after_fragments(const Element& element, const Syntax& syntax, bool is_noted) {
-        std::size_t at = element.value;
-        for (bool is_table = true;; is_table = false) {
-            const Element fragment = element_at(at, syntax);
-            if (fragment.tag == sequence_end_tag) return fragment.value;
-            if (fragment.tag != item_tag) throw Damaged();
-            at = end_of(fragment);
-            if (is_table || !is_noted) continue;
-            if (scan.pixel_bytes == 0) first_fragment_ = bytes_.subspan(fragment.value, fragment.length);
-            scan.pixel_bytes += fragment.length;
-        }
-    }
-
-    /// In either byte order.
-    std::uint64_t items_between(std::size_t begin, std::size_t end) const {
-        const std::array<std::uint8_t, 4> little{0xfe, 0xff, 0x00, 0xe0};
-        const std::array<std::uint8_t, 4> big{0xff, 0xfe, 0xe0, 0x00};
-        const Bytes value = bytes_.subspan(begin, end - begin);
-        std::uint64_t items = 0;
-        for (const auto& pattern : {little, big}) {
-            auto at = value.begin();
-            while ((at = std::search(at, value.end(), pattern.begin(), pattern.end())) != value.end()) {
-                ++items;
-                at += 4;
-            }
-        }
-        return items;
-    }
-
-    std::string text(const Element& element) const {
-        const std::size_t length = std::min<std::size_t>(element.length, 64);
-        std::string text(reinterpret_cast<const char*>(bytes_.data()) + element.value, length);
-        while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
-        return text;
-    }
-
-    void note(const Element& element, const Syntax& syntax) {
-        if (element.tag == pixel_data_tag) {
-            scan.is_encapsulated = element.length == undefined_length;
-            if (!scan.is_encapsulated) scan.pixel_bytes = element.length;
-            scan.has_pixel_data = scan.is_encapsulated || element.length > 0;
-            if (scan.is_encapsulated) scan.codestream = codestream_of(first_fragment_);
-            return;
-        }
-        if (element.length == undefined_length) return;
-        const auto set_text = [&](std::string& into) {
-            if (into.empty()) into = text(element);
-        };
-        const auto set_number = [&](std::optional<int>& into) {
-            if (!into && element.length >= 2) into = number<std::uint16_t>(element.value, syntax.big_endian);
-        };
-        switch (element.tag) {
-            case tag(0x0002, 0x0010):
-                return set_text(scan.transfer_syntax);
-            case tag(0x0008, 0x0016):
-                return set_text(scan.sop_class);
-            case tag(0x0008, 0x0060):
-                return set_text(scan.modality);
-            case tag(0x0028, 0x0002):
-                return set_number(scan.samples_per_pixel);
-            case tag(0x0028, 0x0008):
-                return set_text(scan.frames);
-            case tag(0x0028, 0x0010):
-                return set_number(scan.rows);
-            case tag(0x0028, 0x0011):
-                return set_number(scan.columns);
-            case tag(0x0028, 0x0100):
-                return set_number(scan.bits_allocated);
-            case tag(0x0028, 0x0101):
-                return set_number(scan.bits_stored);
-            case tag(0x0028, 0x0102):
-                return set_number(scan.high_bit);
-            case tag(0x0028, 0x0103):
-                return set_number(scan.pixel_representation);
-            default:
-                return;
-        }
-    }
-
-    Bytes bytes_;
-    std::uint64_t file_bytes_;
-    Bytes first_fragment_;
-    std::uint64_t items_in_values_ = 0;
-    std::uint64_t effort_ = 0;
-};
 
 std::vector<std::uint8_t> inflated(Bytes bytes) {
     z_stream stream{};
@@ -324,7 +40,7 @@ std::vector<std::uint8_t> inflated(Bytes bytes) {
         stream.avail_out = static_cast<unsigned>(piece.size());
         result = inflate(&stream, Z_NO_FLUSH);
         const std::size_t made = piece.size() - stream.avail_out;
-        if (result != Z_OK && result != Z_STREAM_END) throw Damaged();
+        if (result != Z_OK && result != Z_STREAM_END) throw DamagedDicom();
         if (out.size() + made > most_inflated_bytes)
             throw std::invalid_argument(
                 "is deflated DICOM of more than 256 MiB; save it without (transfer syntax explicit little "
@@ -339,7 +55,7 @@ constexpr std::string_view implicit_of_ge = "1.2.840.113619.5.2";
 constexpr std::string_view explicit_big = "1.2.840.10008.1.2.2";
 constexpr std::string_view deflated = "1.2.840.10008.1.2.1.99";
 
-Syntax syntax_of(const std::string& uid) {
+DicomSyntax syntax_of(const std::string& uid) {
     return {.is_explicit = uid != implicit_little && uid != implicit_of_ge,
             .big_endian = uid == explicit_big};
 }
@@ -348,17 +64,17 @@ Syntax syntax_of(const std::string& uid) {
 std::optional<DicomScan> scan_bare(Bytes bytes, std::uint64_t file_bytes) {
     for (const bool is_explicit : {true, false}) {
         try {
-            Walker walker(bytes, file_bytes);
+            DicomWalker walker(bytes, file_bytes);
             std::size_t at = 0;
-            Syntax syntax{.is_explicit = is_explicit};
+            DicomSyntax syntax{.is_explicit = is_explicit};
             if (bytes[0] == 0x02) {
                 at = walker.walk_file(0, syntax, 0x0002);
-                if (!walker.scan.transfer_syntax.empty()) syntax = syntax_of(walker.scan.transfer_syntax);
+                if (!walker.scan().transfer_syntax.empty()) syntax = syntax_of(walker.scan().transfer_syntax);
             }
             walker.walk_file(at, syntax, std::nullopt);
             walker.require_few_hidden_items();
-            return walker.scan;
-        } catch (const Damaged&) {
+            return walker.scan();
+        } catch (const DamagedDicom&) {
             // Then it is coded in the other way, or it is none.
         }
     }
@@ -380,20 +96,21 @@ bool may_be_dicom(Bytes bytes) {
 std::optional<DicomScan> scan_dicom(Bytes bytes, std::uint64_t file_bytes) {
     if (!may_be_dicom(bytes)) return std::nullopt;
     if (!has_mark(bytes)) return scan_bare(bytes, file_bytes);
-    Walker walker(bytes, file_bytes);
+    DicomWalker walker(bytes, file_bytes);
     const std::size_t body = walker.walk_file(dicom_mark_bytes, {}, 0x0002);
-    const std::string uid = walker.scan.transfer_syntax;
+    const std::string uid = walker.scan().transfer_syntax;
     if (uid == deflated) {
         const std::vector<std::uint8_t> plain = inflated(bytes.subspan(body));
-        Walker inner(plain, plain.size());
-        inner.scan.transfer_syntax = uid;
+        DicomWalker inner(plain, plain.size());
         inner.walk_file(0, {}, std::nullopt);
         inner.require_few_hidden_items();
-        return inner.scan;
+        DicomScan scan = inner.scan();
+        scan.transfer_syntax = uid;
+        return scan;
     }
     walker.walk_file(body, syntax_of(uid), std::nullopt);
     walker.require_few_hidden_items();
-    return walker.scan;
+    return walker.scan();
 }
 
 }  // namespace osteomill

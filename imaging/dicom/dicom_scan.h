@@ -1,7 +1,7 @@
-// Walks through a DICOM file element by element, before GDCM reads it. GDCM calls itself for every sequence
-// within a sequence, some of it twice, makes room for whatever length an element claims, and decodes pixels
-// of any format; so what it is given has been seen to nest little, to hold the bytes that it claims, and to
-// be an image that it decodes (dicom_pixels.h). Pure functions over bytes.
+// Scan of a DICOM file, element by element, before GDCM reads it. GDCM recurses into every sequence within a
+// sequence, sometimes twice, makes room for any length that an element claims, and decodes pixels of any
+// format. So GDCM only gets files that nest little, hold the bytes that they claim, and are images that it
+// decodes (dicom_pixels.h). Pure functions over bytes.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Keeps image libraries from writing to standard error while they work: what they find wrong comes back as
-// one line of ours.
+// Silence of image libraries on standard error while they work: what they find wrong comes back as one line
+// of ours.
 #pragma once
 
 #include <exception>

@@ -1,5 +1,5 @@
-// Opens an image of any kind that is read, scan or labels: a DICOM folder or file, NRRD, NIfTI, MetaImage or
-// a stack of pictures, by what it holds.
+// Reader of images of every format, scan or labels: a DICOM folder or file, NRRD, NIfTI, MetaImage or a stack
+// of pictures, by what it holds.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Runs a filter along every line of an image, in place: what separable filters are made of.
+// Filter along every line of an image, in place: the parts of separable filters.
 #pragma once
 
 #include <algorithm>

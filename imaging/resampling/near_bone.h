@@ -1,4 +1,4 @@
-// Clears what lies far from bone, so that a bone file is small.
+// Clearing of values far from bone, so that a bone file is small.
 #pragma once
 
 #include <atomic>
