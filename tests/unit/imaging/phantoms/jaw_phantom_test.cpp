@@ -7,6 +7,7 @@
 
 #include "imaging/phantoms/phantom.h"
 #include "imaging/phantoms/tooth_shape.h"
+#include "tests/unit/imaging/phantoms/made_bones.h"
 
 namespace osteomill {
 namespace {
@@ -15,8 +16,7 @@ constexpr std::array<glm::ivec3, 6> sides{glm::ivec3(-1, 0, 0), glm::ivec3(1, 0,
                                           glm::ivec3(0, 1, 0),  glm::ivec3(0, 0, -1), glm::ivec3(0, 0, 1)};
 
 const Bone& jaw() {
-    static const Bone bone =
-        bone_from_hu(make_jaw_phantom(), phantom_threshold_hu, stiffness_of(phantom_scene("jaw")));
+    static const Bone& bone = testing::made_bone("jaw");
     return bone;
 }
 
@@ -166,8 +166,7 @@ TEST(JawPhantom, CariesIsSoftestInTheMiddleAndFarFromThePulp) {
 }
 
 TEST(JawPhantom, IsTheSameBoneEverywhereInUnder60Megabytes) {
-    const Bone again =
-        bone_from_hu(make_jaw_phantom(), phantom_threshold_hu, stiffness_of(phantom_scene("jaw")));
+    const Bone again = testing::make_bone("jaw");
     EXPECT_EQ(checksum(again), checksum(jaw()));
     EXPECT_EQ(again.content().tissue, jaw().content().tissue);
     EXPECT_EQ(again.content().stiffness, jaw().content().stiffness);

@@ -11,13 +11,13 @@
 
 #include "imaging/phantoms/phantom.h"
 #include "imaging/phantoms/temporal_bone.h"
+#include "tests/unit/imaging/phantoms/made_bones.h"
 
 namespace osteomill {
 namespace {
 
 const Bone& temporal_bone() {
-    static const Bone bone =
-        bone_from_hu(make_mastoid_phantom(), phantom_threshold_hu, stiffness_of(phantom_scene("mastoid")));
+    static const Bone& bone = testing::made_bone("mastoid");
     return bone;
 }
 
@@ -153,8 +153,7 @@ TEST(MastoidPhantom, OssiclesReachFromTheDrumToTheOvalWindow) {
 }
 
 TEST(MastoidPhantom, IsTheSameBoneEverywhere) {
-    const Bone again =
-        bone_from_hu(make_mastoid_phantom(), phantom_threshold_hu, stiffness_of(phantom_scene("mastoid")));
+    const Bone again = testing::make_bone("mastoid");
     EXPECT_EQ(checksum(again), checksum(temporal_bone()));
     EXPECT_EQ(again.content().tissue, temporal_bone().content().tissue);
     EXPECT_LT(memory_bytes(temporal_bone()), 80'000'000U);

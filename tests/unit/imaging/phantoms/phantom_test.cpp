@@ -11,12 +11,14 @@
 #include "common/scene/phantom_names.h"
 #include "common/scene/scene_file.h"
 #include "imaging/phantoms/distance_fields.h"
+#include "tests/unit/imaging/phantoms/made_bones.h"
 
 namespace osteomill {
 namespace {
 
-Bone tooth_bone() {
-    return bone_from_hu(make_tooth_phantom(), phantom_threshold_hu, default_stiffness_relation());
+const Bone& tooth_bone() {
+    static const Bone& bone = testing::made_bone("tooth");
+    return bone;
 }
 
 TEST(ToothPhantom, IsTheSameBoneEverywhere) {
@@ -37,7 +39,7 @@ TEST(ToothPhantom, HasEveryTissueInPlausibleAmounts) {
 }
 
 TEST(ToothPhantom, FillsSurfaceVoxelsByTheirDistanceFromIt) {
-    const Bone bone = tooth_bone();
+    const Bone& bone = tooth_bone();
     const Grid& grid = bone.grid();
     int on_surface = 0;
     // The end of the jaw, far from tooth and nerve, is a box with rounded edges.
@@ -56,7 +58,7 @@ TEST(ToothPhantom, FillsSurfaceVoxelsByTheirDistanceFromIt) {
 }
 
 TEST(ToothPhantom, HasPlausibleStiffness) {
-    const Bone bone = tooth_bone();
+    const Bone& bone = tooth_bone();
     const auto stiffness = [&](const glm::dvec3& place_mm) {
         return bone.stiffness_at(glm::ivec3(to_voxel_coordinates(bone.grid(), place_mm) + 0.5));
     };
@@ -67,7 +69,7 @@ TEST(ToothPhantom, HasPlausibleStiffness) {
 }
 
 TEST(ToothPhantom, LesionOpensAtTheTopAndLiesWithinTheHoleThatTheSceneDrills) {
-    const Bone bone = tooth_bone();
+    const Bone& bone = tooth_bone();
     const Scene scene = phantom_scene("tooth");
     const TrajectorySpec& hole = scene.trajectory;
     bool opens = false;
@@ -86,7 +88,7 @@ TEST(ToothPhantom, LesionOpensAtTheTopAndLiesWithinTheHoleThatTheSceneDrills) {
 }
 
 TEST(ToothPhantom, StoresOnlyTheBricksThatHoldBone) {
-    const Bone bone = tooth_bone();
+    const Bone& bone = tooth_bone();
     constexpr std::size_t channels = 3;  // fraction, stiffness, tissue
     EXPECT_LT(bone.stored_bricks(), 32U * 32U * 8U / 5U) << "most of the grid is air";
     EXPECT_LT(memory_bytes(bone), (channels * bone.stored_bricks() + 16U) * sizeof(ByteBrick));

@@ -9,6 +9,7 @@
 
 #include "imaging/phantoms/phantom.h"
 #include "tests/support/colour_difference.h"
+#include "tests/unit/imaging/phantoms/made_bones.h"
 
 namespace osteomill {
 namespace {
@@ -71,8 +72,7 @@ std::set<std::pair<std::uint8_t, std::uint8_t>> tissues_in_touch(const Bone& bon
 TEST(TissueColours, OfTissuesInTouchAreToldApartByTheColourBlind) {
     for (const std::string name : {"jaw", "tooth"}) {
         const Scene scene = phantom_scene(name);
-        const Bone bone =
-            bone_from_hu(std::get<HuSlices>(make_phantom(name)), phantom_threshold_hu, stiffness_of(scene));
+        const Bone& bone = testing::made_bone(name);
         const auto tissue_of = [&](std::uint8_t label) -> const Tissue& {
             return *std::ranges::find(scene.tissues, label, &Tissue::label);
         };
