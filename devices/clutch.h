@@ -1,5 +1,5 @@
-// Lets the hand move while the tool stays, as one lifts a mouse: while engaged the position does not follow,
-// and afterwards it goes on from there.
+// Clutch: the hand moves while the tool stays, as one lifts a mouse. While engaged the position does not
+// follow, and afterwards it goes on from there.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,4 +1,4 @@
-// Writes triangles as a file that other programs open: STL, PLY or OBJ, by the name's ending.
+// Mesh file writer: triangles for other programs to open, as STL, PLY or OBJ, by the name's ending.
 //
 // All are in mm and say SPACE=LPS, from which 3D Slicer knows that they are in patient LPS; binary numbers
 // are little endian.

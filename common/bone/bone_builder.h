@@ -1,6 +1,6 @@
-// Builds a bone brick by brick, so that no dense copy of the grid is ever needed, and what is built costs no
-// more memory on the way than the bone that comes out: bricks are kept in pieces, which never move while they
-// grow in number, and are let go one by one as the bone is put together.
+// Builder of a bone, brick by brick, so that no dense copy of the grid is ever needed, and what is built
+// costs no more memory on the way than the bone that comes out: bricks are kept in pieces, which never move
+// while they grow in number, and are let go one by one as the bone is put together.
 #pragma once
 
 #include <cstddef>

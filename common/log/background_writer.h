@@ -1,4 +1,5 @@
-// Writes text to a file, a pipe or a terminal on a thread of its own, for threads that must not wait for it.
+// Writer of text to a file, a pipe or a terminal, on a thread of its own, for threads that must not wait for
+// it.
 //
 // What waits to be written is bounded. A descriptor that fails is given up for good: what comes later is
 // forgotten. One that blocks (a terminal that Ctrl-S stopped, a pipe that nobody reads, a disk that does not

@@ -39,7 +39,7 @@ TlsContext::TlsContext(const TlsFiles& files, Role role)
     SSL_CTX_set_num_tickets(native, 0);
 
     error_code error;
-    // Nobody is there to be requested a passphrase.
+    // Nobody is there to type a passphrase.
     context_.set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); },
                                    error);
     context_.use_certificate_chain(boost::asio::buffer(certificate), error);

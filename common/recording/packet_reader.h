@@ -1,4 +1,4 @@
-// Reads the packets of a recording (see packet.h), or of what editcap and mergecap made of recordings.
+// Reader of the packets of a recording (see packet.h), or of what editcap and mergecap made of recordings.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Writes a recording on a thread of its own, for loops that must not wait for a disk.
+// Writer of a recording on a thread of its own, for loops that must not wait for a disk.
 //
 // A disk that is full may have room later. Who can tell later what it could not tell now takes it for a slow
 // disk: the frame that did not fit is tried again every while, frames behind it wait, and once all that may

@@ -1,4 +1,4 @@
-// Finds which of the valid names somebody meant who wrote another.
+// The valid name nearest to a mistyped one, for error messages.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
-// Reads and writes scenes as TOML (scenes/*.toml are examples). Strict: an unknown, missing or ill-typed key
-// and a value out of range are errors with file, line and the valid choices; nothing is silently defaulted
-// that was written down.
+// Scene files: scenes read and written as TOML (scenes/*.toml are examples). Strict: an unknown, missing or
+// ill-typed key and a value out of range are errors with file, line and the valid choices; nothing is
+// silently defaulted that was written down.
 //
 //     name = "jaw"
 //     start_burr = "1.5 mm"

@@ -1,5 +1,5 @@
-// Watches how near the burr comes to the protected structures of a session, state by state, and keeps account
-// of every touch: how often, how long, how much.
+// Watch over the distances from the burr to the protected structures of a session, state by state. It keeps
+// account of every touch: how often, how long, how much.
 //
 // The distance is that from the burr's head to the structure, from a distance field of the structure's own
 // (burr_clearance.h): within half a voxel for a ball. A touch is where they overlap, or bone of the structure

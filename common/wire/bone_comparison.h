@@ -1,4 +1,4 @@
-// Finds the bricks in which two copies of a bone differ, without sending either.
+// Search for the bricks in which two copies of a bone differ, without sending either.
 //
 // Checksums of bricks add up, so a range of bricks has one, too. Who doubts its copy sends the checksums of a
 // hundred parts of the grid; the other side says which parts differ; these are cut into smaller parts, and

@@ -1,4 +1,4 @@
-// Reads a message that came from outside.
+// Parsing of a message that came from outside.
 #pragma once
 
 #include <cstdint>

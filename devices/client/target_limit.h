@@ -1,4 +1,4 @@
-// Holds the targets that come by message to what a hand does: each within reach of the burr, and their path
+// Limits on the targets that come by message, those of a hand: each within reach of the burr, and their path
 // no longer than a hand could have gone.
 //
 //     path since time 0  <=  room_mm + fastest_hand_mm_per_s * time,    room_mm = 2 longest_reach_mm

@@ -1,4 +1,4 @@
-// Wakes a thread that has nothing to do yet, from a loop that must not wait.
+// Wake-up of a thread that waits for work, from a loop that must not wait.
 #pragma once
 
 namespace osteomill {

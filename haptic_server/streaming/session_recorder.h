@@ -1,4 +1,4 @@
-// Records a session as one more client sees it: the very frames that it would be sent, into a file.
+// Recorder of a session, one more client of it: the frames that a client would be sent go into a file.
 //
 // Its feed is that of any client, so what the disk is too slow for collapses into what is sent later, and the
 // streaming thread never waits. A disk that is full is one that is slow: the session goes on, and once there

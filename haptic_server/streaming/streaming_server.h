@@ -1,4 +1,4 @@
-// Shows the bone and the tool to every client that connects: a snapshot, then state frames at 30 Hz.
+// Server that shows the bone and the tool to every client: a snapshot, then state frames at 30 Hz.
 //
 // One thread of its own. It keeps its own copy of the bone (the mirror), so it never touches the milling
 // loop's, and takes over what has changed at every frame whether or not anybody watches. Memory is bounded:

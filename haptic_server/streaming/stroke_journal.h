@@ -1,4 +1,4 @@
-// Remembers what each stroke took of the bone, so that strokes can be undone and redone, any number of them.
+// Journal of the bone that each stroke took, so that strokes can be undone and redone, any number of them.
 //
 // Where a stroke ends is its owner's business (common/scene/stroke_span.h). For each brick that it changed
 // the journal keeps the mask of its voxels and, compressed, what was left of them before: no second copy of

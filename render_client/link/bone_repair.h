@@ -1,4 +1,4 @@
-// Brings a copy of the bone that differs from the server's level with it again, without a new snapshot.
+// Repair of a copy of the bone that differs from the server's, without a new snapshot.
 //
 // The copy is compared with the server's in ever smaller parts; bricks that differ come with the state
 // frames, which go on meanwhile. The next checksum that the server states then must hold. A copy that still

@@ -1,5 +1,5 @@
-// Keeps OpenAL and ALSA from writing to standard error by themselves: about a sound card that is not there
-// they have ten lines, and the program has one.
+// Silence of OpenAL and ALSA on standard error: about a sound card that is not there they have ten lines, and
+// the program has one.
 #pragma once
 
 namespace osteomill {

@@ -184,7 +184,7 @@ class Drawing {
         if (news == SessionNews::figures || !session_.view().notice.empty()) redraw_.note_figures();
     }
 
-    /// Another case brings another look; one that was edited is saved where that is requested.
+    /// Another case brings another transfer table; an edited one is saved where that is requested.
     void work_look(double now_s) {
         ViewSettings& view = session_.view();
         try {

@@ -1,5 +1,5 @@
-// Hands the latest value from one thread to another without locks: the writer never waits, the reader never
-// sees a half-written value, values in between are skipped.
+// Triple buffer: the latest value goes from one thread to another without locks. The writer never waits, the
+// reader never sees a half-written value, values in between are skipped.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Looks for what must turn the force off. It only tells; force_guard.h acts.
+// Watchdog: finds what must turn the force off. It only reports; force_guard.h acts.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Moves a model along a path, step by step, and keeps what it reports and how long it took.
+// Run of a model along a path, step by step, with what it reports and how long it took.
 #pragma once
 
 #include <span>

@@ -44,7 +44,7 @@ class Texture3D {
     static void unbind_all();
 
     const glm::ivec3& size() const { return size_; }
-    /// As the driver was requested them.
+    /// As they were requested of the driver.
     std::size_t bytes() const;
 
   private:

@@ -22,7 +22,7 @@ struct TextureLimits {
 struct TexturePlan {
     BoneLayout layout = BoneLayout::dense;
     int coarsening = 1;     ///< voxels of the bone along an edge of a voxel that is drawn
-    std::size_t bytes = 0;  ///< of all textures together, as the driver is requested them
+    std::size_t bytes = 0;  ///< of all textures together, as requested of the driver
     bool smoothed = false;  ///< with a texture of smoothed fractions, for normals (smoothed_fraction.h)
 
     bool operator==(const TexturePlan&) const = default;

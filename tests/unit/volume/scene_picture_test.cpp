@@ -150,7 +150,7 @@ Bone hills() {
     });
 }
 
-/// Passes everything on and counts the pixels that it was requested.
+/// Passes everything on and counts the pixels that were requested of it.
 class CountingRenderer final : public BoneRenderer {
   public:
     void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size) override {
