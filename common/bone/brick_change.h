@@ -1,11 +1,12 @@
-// Changed voxels of one brick: what says, from the carve to the picture, where the bone has changed.
+// Changed voxels of one brick: the one type, from the carve to the picture, that says where the bone has
+// changed.
 //
-// How it has changed is in a brick of fractions that goes with the change: the voxels of the mask hold what
-// is left of them, the others anything. These values are absolute, so a later change overrides an earlier
-// one, and a change that is applied twice does no more than once.
+// The new values are in a brick of fractions that goes with the change: the voxels of the mask hold the
+// fraction that is left, all others anything. Values are absolute, so a later change overrides an earlier
+// one, and a change may be applied twice.
 //
-// Milling only lowers what is left. Undo gives bone back, and redo takes it again: such a change says that it
-// restores, so that a copy that would rise otherwise is known to have been wrong.
+// Milling only lowers fractions. Undo returns bone, and redo removes it again; such a change is marked as
+// restored. A rise in any other change shows that the receiving copy was wrong.
 #pragma once
 
 #include <cstdint>

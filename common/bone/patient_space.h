@@ -8,7 +8,7 @@
 namespace osteomill {
 
 /// No patient and no operating theatre is larger than ten metres, and scanners place the patient within
-/// metres of their centre. What lies farther is a slip of the unit, or made to spoil the arithmetic.
+/// metres of their centre. A larger coordinate is a wrong unit, or an attempt to break the arithmetic.
 inline constexpr double farthest_place_mm = 10'000.0;
 
 /// Within farthest_place_mm of the origin; false for what is not a number.
@@ -16,8 +16,8 @@ inline bool is_place(const glm::dvec3& position_mm) {
     return glm::length(position_mm) <= farthest_place_mm;
 }
 
-/// Of unit length; nothing for what has none, is not a number, or is so long that it would lose its digits.
-/// What is of unit length already stays as it is, bit for bit.
+/// The vector scaled to unit length; nothing if it has no length, is not finite, or is so long that its
+/// digits would be lost. A vector of unit length is returned bit for bit.
 inline std::optional<glm::dvec3> unit_direction(const glm::dvec3& v) {
     const double length = glm::length(v);
     if (!(length >= 1e-6 && length <= 1e6)) return std::nullopt;

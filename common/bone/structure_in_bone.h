@@ -1,4 +1,4 @@
-// The structure that has a tissue's label in a bone: where nothing else says where it is.
+// The structure made of a tissue's labels in a bone: for structures without a mask of their own.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace osteomill {
 
-/// The voxels of the bone's bricks that bear the label, whatever is left of them; empty where none does.
+/// All voxels of the bone's bricks with this label, whatever fraction is left; empty if there are none.
 StructureMask structure_in_bone(const Bone& bone, std::uint8_t label);
 
 /// Whether any bone that is left in the brick of that slot has the label. Brick by brick: a large bone takes

@@ -1,10 +1,10 @@
-// A file that is either as it was or whole and new, whenever the program or the machine stops.
+// A file that is replaced as a whole: after a stop of the program or the machine it is either old or new.
 //
-// The content is written to a part beside it of a name that nobody knows before (NAME.part-1f2e3d4c.EXT, the
-// extension kept since some libraries choose the format by it), synced to the disk, and renamed over the old
-// file once. A full disk, an error or a kill leaves the old file untouched. The part is made anew and never
-// through a link, so that nothing that lies in the folder already is written to. While it is written it is
-// locked (flock), which tells it from one that a killed program has left.
+// The content is written to a part beside it with an unpredictable name (NAME.part-1f2e3d4c.EXT; the
+// extension is kept since some libraries choose the format by it), synced to the disk, and renamed over the
+// old file. A full disk, an error or a kill leaves the old file untouched. The part is created anew and never
+// through a link, so no existing file of the folder is written to. While it is written it is locked (flock),
+// which distinguishes it from the part of a killed program.
 #pragma once
 
 #include <cstddef>
@@ -51,11 +51,11 @@ class AtomicFile {
     /// Syncs the part and makes it the file. Throws std::runtime_error with one line that names the file and
     /// the reason; the old file is then as it was.
     void commit();
-    /// The same without a sync, which takes a disk's time: for what may go with the machine but not with the
-    /// program, such as a picture that is written between two drawn frames.
+    /// The same without a sync, which waits for the disk: for files that may be lost with the machine but not
+    /// with the program, such as a picture written between two frames.
     void commit_unsynced();
-    /// Leaves the part where it is, under its own name: an incomplete file that is worth something (a torn
-    /// recording) although it must not take the old one's place.
+    /// Leaves the part where it is, under its own name: an incomplete file that is still useful (a torn
+    /// recording) but must not replace the old one.
     void keep_part() noexcept { owns_part_ = false; }
 
   private:
@@ -66,8 +66,8 @@ class AtomicFile {
     int descriptor_ = -1;  // of the part, locked, where this has made it
 };
 
-/// Removes parts of this file that programs have left which were killed: of the name above, and locked by
-/// nobody. What cannot be removed stays.
+/// Removes parts of this file that killed programs left behind: parts of the name above that are not locked.
+/// Parts that cannot be removed stay.
 void remove_abandoned_parts(const std::filesystem::path& path, Link link = Link::follow);
 
 /// Replaces the file by `text` as a whole. Throws std::runtime_error as AtomicFile does.

@@ -1,4 +1,4 @@
-// Files of a command line that must not be the same: of two that are written to one path, one is lost.
+// Files of a command line that must differ: of two outputs at one path, one would be lost.
 #pragma once
 
 #include <filesystem>

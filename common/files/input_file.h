@@ -1,7 +1,7 @@
-// A file that somebody names, opened for reading: a regular file and nothing else.
+// A file named by a user, opened for reading: a regular file and nothing else.
 //
 // A pipe, a device or a folder is refused before it is opened, so that opening never waits and reading always
-// ends. What is read whole has a bound by its kind, so that a file never takes more memory than it should.
+// ends. Reading a whole file has a size limit by its kind, which bounds the memory.
 #pragma once
 
 #include <cstddef>

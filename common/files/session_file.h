@@ -1,8 +1,8 @@
-// A file that is written over a whole session: what has come so far lies in a part beside it, NAME.part.EXT,
-// which becomes the file when the session ends (atomic_file.h).
+// A file that is written during a whole session. Until the session ends the content is in a part beside it,
+// NAME.part.EXT, which then becomes the file (atomic_file.h).
 //
-// Its name is known, since what a killed session left is worth keeping, a torn recording above all: the next
-// session of that name moves it to NAME.torn-N.EXT. Two sessions at a time cannot write the same file.
+// The part's name is fixed, since the part of a killed session is worth keeping, above all a torn recording:
+// the next session of that name moves it to NAME.torn-N.EXT. Two sessions cannot write the same file at once.
 #pragma once
 
 #include <filesystem>

@@ -1,8 +1,8 @@
-// Lines for people, on a terminal or wherever they want to read them, from threads that must not wait for it.
+// Lines for people, on a terminal or in a file, from threads that must not wait for it.
 //
-// Lines that find no room are dropped and counted, and the count is said as soon as there is room again. A
-// stream that fails (a full disk, a closed pipe, a terminal that is gone) is given up quietly: a log is no
-// reason to end.
+// Lines that find no room are dropped and counted, and the count is reported as soon as there is room again.
+// A stream that fails (a full disk, a closed pipe, a terminal that is gone) is given up quietly: a failing
+// log must not end the program.
 #pragma once
 
 #include <cstddef>
@@ -35,8 +35,8 @@ class LineStream {
     /// One line, whatever is in it: printable (plain_text.h), and a line break behind it. `level`, as of a
     /// log, is for JSON.
     void say(std::string_view line, const char* level = "info");
-    /// Whether all is written that was, or never will be: what is worth saying only now is best not said
-    /// while older lines wait.
+    /// Whether everything is written, or never will be: a line that matters only now should not queue behind
+    /// older lines.
     bool has_caught_up() const { return writer_.is_idle(); }
     /// Whether a line can be overwritten.
     bool is_terminal() const { return is_terminal_ && !is_json_; }

@@ -1,5 +1,5 @@
-// Check of a program's own certificate and key, made before anybody connects: what is
-// wrong here would else come up as a refusal at the other end, or never.
+// Check of a program's own certificate and key at its start. An error would otherwise show as a refusal at
+// the other end, or never.
 #pragma once
 
 #include <openssl/x509.h>

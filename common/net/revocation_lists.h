@@ -1,9 +1,9 @@
 // The certificates that the lab has revoked: lists of its CA in a file, read again when that changes.
 //
-// A list that has expired revokes nobody and vouches for nobody: while the newest one is of that kind, every
-// certificate is refused, because somebody who can keep a new list away could otherwise use a lost key again.
-// A file that changed and cannot be used (torn while it is written, of another CA, expired, older than the
-// list that holds) is reported once, and the lists before hold on.
+// An expired list revokes nobody and vouches for nobody: while the newest list has expired, every certificate
+// is refused, because an attacker who withholds a new list could otherwise use a lost key again. A changed
+// file that cannot be used (torn during writing, of another CA, expired, older than the current list) is
+// reported once, and the previous lists stay in force.
 #pragma once
 
 #include <openssl/ssl.h>
@@ -21,7 +21,7 @@ class RevocationLists {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// So often at most it is looked whether the file has changed.
+    /// Shortest time between two checks of the file for changes.
     static constexpr std::chrono::seconds look_period{1};
 
     /// `context` has its CAs already; from now on it accepts nobody whom these lists name, nor whose CA none

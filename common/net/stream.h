@@ -1,7 +1,7 @@
-// One TCP connection, plain or under TLS: who reads from it and writes to it need not know which.
+// One TCP connection, plain or under TLS, with the same calls for both.
 //
-// A stream owns the bytes under way in both directions, so that one who has given it up need not wait for
-// them. All calls and handlers are on the thread of the socket's io_context; handlers keep the stream alive.
+// A stream owns the bytes under way in both directions, so an owner that drops it need not wait for them. All
+// calls and handlers are on the thread of the socket's io_context; handlers keep the stream alive.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>

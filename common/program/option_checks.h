@@ -1,5 +1,5 @@
-// Arguments and checks of an option's value, for CLI11: in words that name no limit which nobody could reach,
-// deaf to no NaN, as the library's own are, and for a choice without C++ containers.
+// Checks of options for CLI11, which correct three of the library's own: error messages name no unreachable
+// limit, NaN is refused, and a choice is shown without C++ containers.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// A main function but for what the program is: parse, run, say in one line what went wrong.
+// The common body of every main function: parse, run, report a failure in one line.
 #pragma once
 
 #include <fmt/format.h>

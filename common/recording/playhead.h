@@ -48,7 +48,7 @@ class Playhead {
     /// Of the haptic loop, up to the last state frame and behind the one before; none in a recording that
     /// does not hold them.
     const std::vector<TickSample>& ticks() const { return ticks_.ticks; }
-    /// What the state frame that was applied last changed; the one that would come next, if one would.
+    /// The changes of the state frame applied last; and of the next one, if the next is a state frame.
     const std::vector<ChangedBrick>& changes() const { return changes_; }
     const StateArrived* next_state() const;
     /// Whether step() would leave this session for another.
@@ -113,9 +113,9 @@ class Playhead {
     std::uint64_t checksums_verified_ = 0;
 };
 
-/// Takes every step that is left: `on_frame()` before each, `on_step(step)` after each but the end. Returns
-/// why the recording cannot be read to its end, empty where it can; what was before that stays as it is.
-/// Passes on what the two throw, but for RecordingError.
+/// Takes all remaining steps: `on_frame()` before each, `on_step(step)` after each but the end. Returns why
+/// the recording cannot be read to its end, empty if it can; everything before that stays valid. Passes on
+/// exceptions of the two callbacks, except RecordingError.
 template <typename OnFrame, typename OnStep>
 std::string play_to_end(Playhead& playhead, const OnFrame& on_frame, const OnStep& on_step) {
     try {

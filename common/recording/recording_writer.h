@@ -1,18 +1,16 @@
 // Writer of a recording on a thread of its own, for loops that must not wait for a disk.
 //
-// A disk that is full may have room later. Who can tell later what it could not tell now takes it for a slow
-// disk: the frame that did not fit is tried again every while, frames behind it wait, and once all that may
-// wait does, nothing more is taken until there is room. So no frame is missing, and the file goes on where it
-// stood. Who cannot, because its frames come from elsewhere and would wait for ever, ends the recording
-// there.
+// A full disk may have room later. A recorder that can send its news later treats it as a slow disk: the
+// frame that did not fit is tried again at intervals, later frames wait, and once the buffer is full no more
+// is taken until there is room. So no frame is missing, and the file continues where it stopped. A recorder
+// that cannot wait, because its frames come from elsewhere, ends the recording.
 //
-// A disk that does not answer at all (a pulled drive, a server that is away, a pipe whose reader has stopped)
-// holds up that thread alone: who waits for it waits a bounded time, and then the recording is given up. The
-// thread, which cannot be joined, is left behind, and touches nothing but what it owns until it ends with the
-// program.
+// A disk that does not answer at all (a pulled drive, a lost server, a pipe whose reader has stopped) holds
+// up only that thread: callers wait a bounded time, then the recording is given up. The thread cannot be
+// joined; it is abandoned, and touches only its own data until the program ends.
 //
-// Until the recording is whole its file is the part beside the one that was requested (session_file.h). That
-// can be read at any time, and stays where the recording is torn.
+// Until the recording is complete it is the part beside the requested file (session_file.h). The part can be
+// read at any time, and remains if the recording is torn.
 #pragma once
 
 #include <chrono>
@@ -59,8 +57,8 @@ class RecordingWriter {
     /// and how long before the end, and for what is in the system's memory to reach the disk.
     static constexpr std::chrono::seconds longest_wait{30};
 
-    /// What may wait for the disk. A second of the fastest loopback snapshot; a caller that finds it full
-    /// tells later what it has to tell, as it would a slow client.
+    /// Limit of the data that wait for the disk: a second of the fastest loopback snapshot. A caller that
+    /// finds it full sends its news later, as to a slow client.
     static constexpr std::size_t capacity_bytes = 8 * 1024 * 1024;
 
     /// Called on the writing thread, with one line for people; must not call the writer.
@@ -73,10 +71,11 @@ class RecordingWriter {
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-    /// Whether push() would take a frame. Once the recording has ended it takes, and forgets, every one.
+    /// Whether push() would take a frame. After the end of the recording it accepts every frame, and drops
+    /// it.
     bool has_room() const;
-    /// Waits until there is room, or the disk is full: for who may wait for a disk. Gives the recording up
-    /// once the disk has taken nothing for so long.
+    /// Waits until there is room, or the disk is full: for callers that may wait for a disk. Gives the
+    /// recording up once the disk has accepted nothing for so long.
     void wait_for_room(std::chrono::milliseconds longest = longest_wait);
     /// Waits until all that was pushed is in the file, or the disk is full; gives up alike.
     void wait_until_written(std::chrono::milliseconds longest = longest_wait);
@@ -91,10 +90,10 @@ class RecordingWriter {
     /// Closes first, and makes the part the file, unless frames are missing. What goes wrong shows in the
     /// report.
     void commit();
-    /// Closes first; what there is goes with the destructor: it is worth nothing.
+    /// Closes first; the destructor then deletes the file: it is worthless.
     void discard();
     RecordingReport report() const;
-    /// Where a recording is now that an earlier session, which was killed, left under the part's name.
+    /// The new place of a recording that an earlier, killed session left under the part's name.
     const std::optional<std::filesystem::path>& torn() const;
 
   private:

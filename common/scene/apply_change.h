@@ -7,8 +7,8 @@
 
 namespace osteomill {
 
-/// Whether there is such a key is for who reads the table then. Throws SceneError, without a place, where the
-/// way to it leads through a value, or a list that has none of that name.
+/// Whether the key exists is checked by the table's reader. Throws SceneError, without file and line, if the
+/// path to the key leads through a value, or through a list without an entry of that name.
 void apply(const SceneChange& change, toml::table& scene);
 
 }  // namespace osteomill

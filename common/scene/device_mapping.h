@@ -39,8 +39,8 @@ inline glm::dvec3 force_in_device_n(const DeviceMapping& mapping, const glm::dve
     return glm::transpose(mapping.rotation) * force_in_patient_n;
 }
 
-/// The mapping that has the tool at `wanted` with the device as it now is at `position_in_device_mm`, its
-/// axis at `axis_in_device`: turned by the least angle that does it, and moved.
+/// The mapping that brings the tool to `wanted` while the device is at `position_in_device_mm` with its axis
+/// at `axis_in_device`: a turn by the least possible angle, and a shift.
 inline DeviceMapping placed(const DeviceMapping& mapping, const glm::dvec3& position_in_device_mm,
                             const glm::dvec3& axis_in_device, const ToolPose& wanted) noexcept {
     const glm::dvec3 from = direction_in_patient(mapping, axis_in_device);

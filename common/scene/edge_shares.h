@@ -1,5 +1,5 @@
-// Factors by which edges rub stronger in a tissue than its stiffness says: by them the edge forces of a scene
-// whose tissues differ in it are weighed by.
+// Factors by which the edge forces in a tissue exceed those that its stiffness implies; the edge forces of
+// scenes with such tissues are weighted by them.
 #pragma once
 
 #include <algorithm>

@@ -1,11 +1,11 @@
-// Limits of what an operator's hand may ask of a tool. The server holds everybody to it, in its haptic tick;
-// a client keeps its own target within reach, too, so that a mouse that comes back moves the tool at once.
+// Limits on the targets of an operator's hand. The server enforces them for every client, in its haptic tick;
+// a client also keeps its own target within reach, so that a returning mouse moves the tool at once.
 #pragma once
 
 namespace osteomill {
 
-/// How far from the burr the target may be, at the arm (ArmScale). Farther off a hand could not feel where it
-/// is any more; the spring of the coupling is long saturated.
+/// Greatest distance of the target from the burr, at the arm (ArmScale). Beyond it a hand could no longer
+/// feel its position; the coupling's spring is long saturated.
 inline constexpr double longest_reach_mm = 6.0;
 
 /// No hand moves an arm faster.

@@ -1,5 +1,5 @@
-// Outcomes of a coupling's contact solves since the start of a session: what was left over, and how often the
-// plain one did not do.
+// Outcomes of a coupling's contact solves since the start of a session: the largest residual, and how often
+// the plain solve failed.
 #pragma once
 
 #include <cstdint>

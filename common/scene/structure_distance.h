@@ -15,7 +15,7 @@ namespace osteomill {
 /// Contact that ends for less than this goes on.
 inline constexpr double touch_gap_s = 0.5;
 
-/// Within this distance of the burr a structure is looked at; what is further has none.
+/// Structures farther than this from the burr get no distance.
 inline double watched_mm(const Tissue& tissue) {
     return std::max(3.0, 2.0 * tissue.warn_mm);
 }

@@ -14,8 +14,8 @@ struct SoundCue {
     double strain = 0.0;              ///< what the load took of the speed, as a share: 1 is a stall
 };
 
-/// `burr`: the tool's. A number that is not finite or out of its range counts as the nearest that is none:
-/// what a stranger sends makes no worse sound than none.
+/// `burr`: the tool's. A number that is not finite or out of range is replaced by the nearest valid one, so
+/// that hostile data makes no unpleasant sound.
 SoundCue cue_of(const ToolState& tool, const Burr& burr) noexcept;
 
 }  // namespace osteomill

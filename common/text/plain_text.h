@@ -1,8 +1,8 @@
-// Names, paths and notes that somebody else wrote: what they must be, and how they are shown.
+// Checks and display of names, paths and notes that come from outside the program.
 //
-// What enters to be kept (a name in a file, an argument, a note) is checked once, there: it is plain, or it
-// is refused. What is shown goes through printable(), whatever it is. So nothing that a file or a peer says
-// can break a log or steer a terminal, and a recording, whose texts are UTF-8, can always be read again.
+// Text that is kept (a name in a file, an argument, a note) is checked once, on entry: it is plain, or
+// refused. All displayed text goes through printable(). So no file or peer can break a log or steer a
+// terminal, and a recording, whose texts are UTF-8, can always be read again.
 #pragma once
 
 #include <optional>

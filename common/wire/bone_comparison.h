@@ -1,12 +1,12 @@
 // Search for the bricks in which two copies of a bone differ, without sending either.
 //
-// Checksums of bricks add up, so a range of bricks has one, too. Who doubts its copy sends the checksums of a
-// hundred parts of the grid; the other side says which parts differ; these are cut into smaller parts, and
-// so on until the parts are bricks. A brick that differs in a bone of 8192 bricks is found with two requests
-// of a kilobyte; in one of two million with three.
+// Checksums of bricks add up, so a range of bricks has one, too. The side in doubt sends the checksums of a
+// hundred parts of its copy; the other side names the differing parts; these are cut into smaller parts, and
+// so on down to single bricks. One differing brick is found in a bone of 8192 bricks with two requests of a
+// kilobyte; in a bone of two million with three.
 //
-// The other side may change meanwhile: then some brick is called different that only lags behind, which does
-// no harm. One that is called equal is equal, but for a chance of 2^-64.
+// If the other side changes meanwhile, a brick that only lags behind may be reported as different, which does
+// no harm. A brick reported as equal is equal, except with probability 2^-64.
 #pragma once
 
 #include <cstdint>

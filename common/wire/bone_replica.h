@@ -1,7 +1,7 @@
 // A replica of a bone that is milled elsewhere: changes go in, what changed and the checksum come out.
 //
-// The server keeps one for its clients, a client one of the server's, and a recording one of what it
-// recorded.
+// A server keeps one for its clients, a client keeps one of the server's bone, and a recording one of the
+// recorded bone.
 #pragma once
 
 #include <map>

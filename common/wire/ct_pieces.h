@@ -1,4 +1,4 @@
-// The CT for people to look at, in and out of messages, in pieces that fit a frame.
+// The CT for display, converted to and from messages, in pieces that fit a frame.
 #pragma once
 
 #include <cstddef>

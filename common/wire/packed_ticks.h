@@ -30,7 +30,7 @@ struct TickBlock {
 };
 
 /// The whole number of a value's last decimal, as packed: rounded as fmt::format rounds it, half to even.
-/// What is beyond 1e15 is 1e15, and so is what is no number.
+/// Values beyond 1e15, and NaN, become 1e15.
 std::int64_t to_code(double value, int decimals);
 double from_code(std::int64_t code, int decimals);
 

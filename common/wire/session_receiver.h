@@ -1,4 +1,4 @@
-// The receiving side of a session, frame by frame: what may come when, checked, and what it means. No
+// The receiving side of a session, frame by frame: checks which frames may come, and interprets them. No
 // sockets, no clock: the same for a connection and for a recording.
 #pragma once
 
@@ -40,11 +40,11 @@ struct StateArrived {
     bool follows_gap = false;  ///< frames before it are missing, and with them what they said of the bone
 };
 
-/// What a receiver makes of a gap in the sequence of frames.
+/// Reaction of a receiver to a gap in the sequence of frames.
 enum class Gaps {
     refused,  ///< an error
-    /// Between state frames it is said with the next one: what it said of the bone can be requested.
-    /// Elsewhere an error.
+    /// Between state frames, the gap is reported with the next one, and the lost changes of the bone can be
+    /// requested. Elsewhere it is an error.
     reported,
 };
 

@@ -10,8 +10,8 @@ inline constexpr double quiet_motion_mm = 0.002;
 /// Less than a plot shows.
 inline constexpr double quiet_force_n = 0.002;
 
-/// Whether a viewer who was sent `sent` would see nothing new in `now`, except for the time. Compare with
-/// what was sent last, not with the frame before: then slow motion is sent, too.
+/// Whether a viewer that received `sent` would see nothing new in `now`, except for the time. Compare with
+/// the state sent last, not with the previous frame, so that slow motion is sent, too.
 bool looks_the_same(const ToolState& sent, const ToolState& now);
 
 }  // namespace osteomill
