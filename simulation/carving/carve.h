@@ -1,6 +1,7 @@
-// Removal of the bone that a sweep of the burr passes through, with word of what went. Idempotent: what is
-// left of a voxel depends on the nearest approach of the burr alone (voxel_coverage.h), so neither order nor
-// number of steps matters and what a step removed is old minus new.
+// Removal of the bone that a sweep of the burr passes through, with a report of the removed voxels.
+// Idempotent: the fraction left of a voxel depends only on the nearest approach of the burr
+// (voxel_coverage.h), so order and number of steps do not matter, and the bone removed by a step is old minus
+// new.
 #pragma once
 
 #include "common/bone/bone.h"
@@ -12,9 +13,9 @@
 
 namespace osteomill {
 
-/// What a carve may take for granted about the bone.
+/// Knowledge about the bone that a carve may rely on.
 enum class CarveHistory {
-    none,           ///< nothing: every voxel of the sweep is looked at
+    none,           ///< nothing: every voxel of the sweep is visited
     carved_at_from  ///< the same ball has already carved at `from`: only the crescent ahead of it can hold
                     ///< bone
 };
@@ -33,8 +34,8 @@ struct CarveSettings {
 void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSettings& settings,
            ChangeSink& changes, RemovalSink& removed) noexcept;
 
-/// Hands to `would_go` what carve() would remove where the ball has carved at `from`, and leaves the bone as
-/// it is. The sweep is no longer than CrescentRows::longest_step_voxels. Real-time safe.
+/// Reports to `would_go` the voxels that carve() would remove with a ball that has carved at `from`, and
+/// leaves the bone unchanged. The sweep must not exceed CrescentRows::longest_step_voxels. Real-time safe.
 void look_ahead(Bone& bone, const Sweep& ball, const CarveSettings& settings, RemovalSink& would_go) noexcept;
 
 }  // namespace osteomill

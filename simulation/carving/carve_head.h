@@ -1,6 +1,6 @@
-// Removal of the bone that a burr's head passes through that is no ball: a body of revolution, swept along a
-// straight line with its spindle held still. As idempotent as carve.h: what is left of a voxel depends on
-// the nearest approach of the head's surface alone.
+// Removal of bone by a burr head other than a ball: a body of revolution, swept along a straight line with
+// its spindle held still. Idempotent like carve.h: the fraction left of a voxel depends only on the nearest
+// approach of the head's surface.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -26,8 +26,8 @@ struct HeadSweep {
 /// voxel for sweeps of up to four voxels. Real-time safe.
 double distance_from(const HeadSweep& sweep, const glm::dvec3& point) noexcept;
 
-/// As carve() with settings.coverage and settings.uncut, but all of the head is looked at in each step: a
-/// brick and a block of four voxels at a time, by their distance from the surface. Real-time safe.
+/// As carve() with settings.coverage and settings.uncut, but each step visits the whole head: a brick and a
+/// block of four voxels at a time, by their distance from the surface. Real-time safe.
 void carve_head(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink& changes,
                 RemovalSink& removed) noexcept;
 

@@ -1,7 +1,6 @@
-// Inner loops of carving one short sweep, brick by brick: they list the voxels that may change with what is
-// left of each, lower the list eight at a time, then write it back row by row. Rows of the crescent are a few
-// voxels long and nobody can predict where they end, so what is done for each voxel runs over the list,
-// without a branch.
+// Inner loops of carving one short sweep, brick by brick: they list the voxels that may change with their
+// fractions, lower the list eight at a time, then write it back row by row. Rows of the crescent are a few
+// voxels long and end unpredictably, so the work for each voxel runs over the list, without a branch.
 #pragma once
 
 #include <array>

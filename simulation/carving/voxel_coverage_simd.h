@@ -1,6 +1,6 @@
-// Coverage of eight voxels at once: the formula of voxel_coverage.h in single precision, which is
-// twice as fast as double, and where its error could round to another of the 255 levels: there (one voxel in
-// a hundred) double precision must be asked.
+// Coverage of eight voxels at once: the formula of voxel_coverage.h in single precision, twice as fast as
+// double, with a flag for the voxels (one in a hundred) whose error could change the rounded level: these
+// need double precision.
 //
 // The margin: with u = 2^-24 and no position more than D = R + 4 from the path, the components of the
 // distance are off by at most u (2 D + 3) (positions are whole numbers, and the whole part of `from` is taken

@@ -1,4 +1,4 @@
-// Check for bone in a ball: in a burr, or in one that would like to be in its place.
+// Check for bone in a ball, the present burr or one that is to replace it.
 #pragma once
 
 #include "common/bone/bone.h"

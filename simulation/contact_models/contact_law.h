@@ -1,5 +1,5 @@
-// Interface of the older contact models: how bone answers a burr that overlaps it. A force from
-// the overlap alone, and a rate at which bone wears off. eroding_model.h makes a contact model of it.
+// Interface of the older contact laws: the force of bone on a burr that overlaps it, and a rate of erosion.
+// eroding_model.h turns a law into a contact model.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct BurrContact {
     static constexpr double margin_voxels = 3.0;
 
     double spacing_mm() const { return bone.grid().spacing_mm; }
-    /// A position for `bricks` to be asked about.
+    /// A position in the coordinates of `bricks`.
     glm::vec3 in_bricks(const glm::dvec3& voxel_coordinates) const {
         return glm::vec3(voxel_coordinates - glm::dvec3(bricks.base()));
     }
@@ -36,9 +36,9 @@ struct ContactReaction {
     double erosion_per_s = 0.0;  ///< erosion.h; counts only while the spindle is on
 };
 
-/// What is left of a sum of vectors, of total length `total`, that nearly cancel as the burr is swallowed by
-/// bone: below a fiftieth it points where the lattice happens to be uneven, and the force fades out with it.
-/// The burr is then within bone but for a fiftieth of it.
+/// Trust in the direction of a sum of vectors, of total length `total`, 0 to 1. As bone swallows the burr the
+/// vectors nearly cancel; below a fiftieth of the total their sum points wherever the lattice is uneven, so
+/// the force fades out with it. The burr is then all but a fiftieth within bone.
 inline double trust_in_direction(double resultant, double total) {
     constexpr double least_trusted_share = 0.02;
     return total > 0.0 ? std::min(1.0, resultant / (least_trusted_share * total)) : 0.0;

@@ -1,8 +1,8 @@
-// Force model made of a contact law and erosion, as before there was a milling law: at each step a ContactLaw
-// says with what force the bone that the burr overlaps pushes back, and erosion.h takes bone away while the
-// spindle is on. The force is that of the bone as it was before the step's erosion; with the spindle off the
-// same force is the wall. The burr erodes halfway along its step, so that a slow step removes what many quick
-// ones do; it sweeps nothing, as these models do not.
+// Force model made of a contact law and erosion, as in the time before milling laws: at each step a
+// ContactLaw gives the force of the overlapped bone, and erosion.h removes bone while the spindle is on. The
+// force is for the bone before the step's erosion; with the spindle off the same force is the wall. The burr
+// erodes at the midpoint of its step, so that one slow step removes as much as many quick ones; it does not
+// sweep, as the published models do not.
 //
 // There is no cutting law here for a coupling to solve: the result's engagement is always empty. One thread
 // at a time.

@@ -1,6 +1,6 @@
 // Interface of the force models, which the milling loop runs. A force model owns the bone, follows the burr,
-// takes bone away and says with what force the bone pushes back. The milling model is one; the older contact
-// models are others. force_models.h makes one by its name.
+// removes bone and computes the force of the bone on the burr. The milling model is one, the older contact
+// models are others. force_models.h makes them by name.
 #pragma once
 
 #include "common/bone/bone.h"

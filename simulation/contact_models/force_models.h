@@ -21,9 +21,9 @@ using ForceModelFactory = std::function<std::unique_ptr<ForceModel>(Bone bone, s
 struct ForceModelEntry {
     std::string name;
     std::string text;  ///< a few words for --help
-    /// It mills: its results carry an engagement and a cutting law, against which a coupling can solve, and
-    /// with the spindle off it has no force, the wall being the coupling's. If not, it has neither, and the
-    /// force of each result is all there is, spindle on or off.
+    /// It mills: its results have an engagement and a cutting law, against which a coupling can solve, and
+    /// with the spindle off it has no force, since the coupling provides the wall. A model without a cutting
+    /// law has only the force of each result, spindle on or off.
     bool has_cutting_law = true;
     bool has_friction = true;  ///< a burr at rest rubs on bone; not as published
     ForceModelFactory make;

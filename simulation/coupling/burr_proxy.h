@@ -26,31 +26,30 @@
 //
 //     F(d) = - sum of k A_j n_j max(0, n_j . (p + d - p_map) - gap_j)
 //
-// in the same balance. Its force is no cutting force: the gain that compares those with the model's does not
-// see it, and since a wall gives back no more than it took, nor does the energy with which bone drives the
-// burr. How the tool points is the hand's, and is not solved.
+// in the same balance. It is not a cutting force: the gain that compares those with the model's leaves it out
+// and, since a wall returns no more energy than it took, so does the store of the energy with which bone
+// drives the burr. The hand sets the tool's direction, which is not solved.
 //
-// The pull is that of coupling_spring.h, with its damper. So what the hand feels is what the bone does to the
-// burr, to the last digit, but for two things.
+// The pull is that of coupling_spring.h, with its damper. So the hand feels exactly the force of the bone on
+// the burr, with two exceptions.
 //
-// A massless burr that breaks through would be at the hand within a tick, and the hand would feel the spring
-// let go all at once. So it would where a spindle stops, and what pulled the burr along is a wall from then
-// on. A handpiece has mass, a spindle comes to rest: the burr slips past the hand no faster than
-// most_release_n_per_s stretch the spring, which lets go over some ticks.
+// First, a massless burr that breaks through would reach the hand within a tick, and the hand would feel the
+// spring relax all at once. The same happens when a spindle stops and the bone that pulled the burr along
+// becomes a wall. A real handpiece has mass, and a spindle slows down: so the burr moves relative to the hand
+// no faster than most_release_n_per_s allows, and the spring relaxes over some ticks.
 //
-// Edges pull sideways, so bone can drive the burr along: the symmetric part of what it resists may have a
-// negative eigenvalue -N. Then the burr may run away from the hand; and a ring of such contacts may leave no
-// balance at all. There the tick is solved again with a damper between burr and hand that the hand does not
-// feel: a matrix, a small multiple of the part of that resistance that is negative, so it damps only the ways
-// in which bone drives. A multiple over 1 makes the law monotone again: it has one balance, and the burr
-// stays with the hand. In the other ways the spring lets go of bone that has gone as it always does. But a
-// hand that goes where the spring pulls it comes to a burr that the damper holds still: dragged along, the
-// burr would keep the spring stretched, and the damper would give the hand energy. Whether the burr runs away
-// is found by the energy with which bone drives it, F . d, and sets it apart from the hand, F . (d - the
-// hand's step), the smaller of them: up to allowed_apart_mj, in a store that forgets with apart_memory_s,
-// nothing is damped that has a balance. Should a tick have no balance with the damper either (counted; rare,
-// where a shank jams), it keeps the contacts' normal forces alone: these always have one, and only take
-// energy out.
+// Second, edges pull sideways, so bone can drive the burr along: the symmetric part of its resistance may
+// have a negative eigenvalue -N. Then the burr may run away from the hand, and a ring of such contacts may
+// leave no balance at all. Such a tick is solved again with a damper between burr and hand that the hand does
+// not feel: a matrix, a small multiple of the negative part of that resistance, so it damps only the
+// directions in which bone drives. A multiple over 1 makes the law monotone again: it has one balance, and
+// the burr stays with the hand. In all other directions the spring relaxes as usual when bone is gone. If the
+// hand moves the way the spring pulls it, the damper holds the burr still: dragged along, the burr would keep
+// the spring stretched, and the damper would give the hand energy. Two energies show that the burr runs away:
+// F . d, with which bone drives it, and F . (d - the hand's step), which separates it from the hand. The
+// smaller one goes into a store that forgets with apart_memory_s; up to allowed_apart_mj in it, a tick with a
+// balance is not damped. A tick without a balance even with the damper (counted; rare, where a shank jams)
+// keeps only the contacts' normal forces: these always have a balance, and only take energy out.
 #pragma once
 
 #include <algorithm>
@@ -76,7 +75,7 @@ class BurrProxy {
           wall_n_per_mm3_(std::max(wall_n_per_mm3, arm.scale.stiffness_n_per_mm(wall_n_per_mm3))),
           most_slip_mm_per_s_(most_release_n_per_s / arm.max_stiffness_n_per_mm) {}
 
-    /// Puts the proxy somewhere, in contact with nothing that it knows of.
+    /// Puts the proxy somewhere, without any known contact.
     void place(const glm::dvec3& position_mm) noexcept;
 
     /// One tick of `tick_s` toward `target_mm` (patient LPS), where the hand is; `pull` is the coupling's on
@@ -84,13 +83,13 @@ class BurrProxy {
     void advance(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, bool spindle_on,
                  const MillingResult& latest) noexcept;
 
-    /// Likewise on what no burr cuts alone, whether the spindle turns or not: for couplings whose burr is
-    /// elsewhere free.
+    /// The same with only the bone that no burr cuts, spindle on or off: for couplings whose burr is
+    /// otherwise free.
     void advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
                           const MillingResult& latest) noexcept;
 
     const glm::dvec3& position_mm() const { return position_mm_; }
-    /// Where the burr carves: the same, but for what gives way before edges cut.
+    /// Position of the carving burr: the proxy's, less the part of a patch that yields before its edges cut.
     const glm::dvec3& carving_mm() const { return carving_mm_; }
     /// Iterations that the last advance took, for benchmarks.
     int iterations() const { return iterations_; }

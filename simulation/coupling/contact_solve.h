@@ -1,17 +1,16 @@
-// The balance of a burr between a linear pull and one-sided contacts with bone: which step d leaves no force
-// over.
+// The balance of a burr between a linear pull and one-sided contacts with bone: the step d with zero residual
+// force.
 //
 //     offset - stiffness d + sum of force_i max(0, b_i - yields_i) + yield_i min(1, b_i / yields_i) = 0
 //     where b_i = n_i . d - begins_i > 0
 //
-// A contact yields: within yields_i its force rises from nothing to yield_i, which stays. That is dry
-// friction made elastic, as of an edge that rubs. Without yield_i and yields_i it only resists an advance.
+// A contact yields: over yields_i its force rises from zero to yield_i, and then stays. That is dry friction
+// made elastic, as of a rubbing edge. Without yield_i and yields_i a contact only resists an advance.
 //
-// The pull is a spring and dampers to the hand: alike in every direction, but for one where bone drives it. A
-// contact's force need not point along its normal: a cutting edge pulls sideways. Then the balance is not the
-// minimum of anything, and a burr on a soft spring may have none at all (the symmetric part of the sideways
-// force has negative eigenvalues). balance() looks for one and says what force is left over. relaxed_step()
-// cannot fail.
+// The pull is a spring and dampers to the hand, equal in every direction except where bone drives the burr. A
+// contact's force need not point along its normal: a cutting edge pulls sideways. Then the balance is not a
+// minimum, and a burr on a soft spring may have none at all (the symmetric part of the sideways force has
+// negative eigenvalues). balance() looks for one and reports the residual force. relaxed_step() cannot fail.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -30,7 +29,7 @@ struct Contact {
     double yields_mm = 0.0;
 };
 
-/// What moves the burr if there is no bone: `offset_n` less `stiffness_n_per_mm` (above 0) times its step.
+/// The pull on the burr in air: `offset_n` less `stiffness_n_per_mm` (above 0) times its step.
 struct LinearPull {
     glm::dvec3 offset_n{0.0};
     double stiffness_n_per_mm = 1.0;

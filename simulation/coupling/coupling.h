@@ -1,5 +1,5 @@
-// Interface of the couplings, which stand between the force model and the hand: from model output and device
-// state to the force of this haptic tick, and to where the burr goes.
+// Interface of the couplings, which stand between the force model and the hand: from the model's result and
+// the device's state to the force of this haptic tick and the burr's next pose.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -25,7 +25,7 @@ struct HandState {
 struct CouplingOutput {
     glm::dvec3 force_n{0.0};  ///< on the hand, patient axes; not yet clamped
     ToolPose burr_pose;       ///< where the milling loop shall take the burr next
-    /// Moment of what bone does to the shank, about the burr's centre, where force_n acts; patient axes.
+    /// Moment of the bone on the shank, about the burr's centre, where force_n acts; patient axes.
     glm::dvec3 shank_torque_n_mm{0.0};
 };
 
@@ -36,11 +36,10 @@ class Coupling {
     /// One haptic tick. `latest` is the milling loop's newest result (step 0: none yet). Real-time safe.
     virtual CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept = 0;
 
-    /// How the solves so far ended; of a coupling that solves none: nothing.
+    /// Outcomes of the solves so far; zero for a coupling that solves none.
     virtual SolveCounts solve_counts() const noexcept { return {}; }
 
-    /// Forgets everything, as after a fault or a jump of the device: the next tick starts from the hand's
-    /// pose.
+    /// Clears all state, as after a fault or a jump of the device: the next tick starts from the hand's pose.
     virtual void reset() noexcept = 0;
 };
 

@@ -3,9 +3,9 @@
 //     F_hand = -K_c (x - p) - B_c (v - w)      x the hand, p the burr
 //     v, w: dx/dt and dp/dt through first-order filters of tau_x and tau_p
 //
-// K_c and B_c are the arm's (arm_spring.h). B_c is what keeps it stable where the burr stands still, on a
-// wall. 4 N s/m through 1 ms hold a wall of 1.5 N/mm on a bare arm with one tick of delay to
-// spare; docs/coupling.md has the table of walls that hold, and what encoder steps and friction change.
+// K_c and B_c are the arm's (arm_spring.h). On a wall the burr stands still and B_c alone keeps the arm
+// stable. 4 N s/m through 1 ms hold a wall of 1.5 N/mm on a bare arm with one tick of delay to spare;
+// docs/coupling.md has the table of stable walls, and the effects of encoder steps and friction.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -32,8 +32,8 @@ class CouplingSpring {
         on_hand_n_ = glm::dvec3(0.0);
     }
 
-    /// Takes where the hand is after a tick of `tick_s` > 0, and returns how spring and damper will pull on
-    /// the burr, by the step that it makes in this tick. Real-time safe.
+    /// Takes the hand's position after a tick of `tick_s` > 0, and returns the pull of spring and damper on
+    /// the burr as a function of its step in this tick. Real-time safe.
     LinearPull follow_hand(const glm::dvec3& hand_mm, double tick_s) noexcept {
         hand_.follow(hand_mm, tick_s, hand_filter_s);
         const double share = share_of_tick(tick_s, burr_filter_s_);

@@ -1,5 +1,5 @@
-// Vibration of a handpiece that cuts: what an arm can render of the force within a turn of the spindle, to be
-// added to the mean over a tooth period that a coupling gives.
+// Vibration of a cutting handpiece: the part of the force within a turn of the spindle that an arm can
+// render, to be added to a coupling's mean over a tooth period.
 //
 // Two sines, each felt only up to highest_hz; nothing above is rendered, and so nothing is aliased. From the
 // patches p of the engagement map (engagement.h) that cut, with theta the angle of an edge, N edges, n
@@ -21,17 +21,17 @@
 // harmonics (of a tooth period that is longer than 7 ms, or of edges that leave the cut), and edges that
 // leave the cut and do not rub meanwhile.
 //
-// What the sum is held to, lest the safety monitor cut into it, which would make other frequencies: the room
-// that the mean leaves below the device's limit, and most of the rate at which a force may change. At 167 Hz
-// and 1000 N/s that is 0.76 N.
+// The sum is kept within the room that the mean leaves below the device's limit, and within most of the
+// allowed rate of change; otherwise the safety monitor would clip it, which makes other frequencies. At 167
+// Hz and 1000 N/s that is 0.76 N.
 //
-// Energy. The spindle's motor, which shakes a real hand, is not there, and a hand damps what shakes it. So
-// what the vibration gives the hand must come from what the hand has spent: a store counts half the work of
-// the burr on the bone, less what the vibration gave by the readings of the device, up to most_store_mj. It
-// is never stronger than the store could pay for a hand that goes along with it at fastest_mm_per_s (should
-// one go faster, it is silent until the debt is paid). So with it, too, a cut takes energy from the hand, on
-// whatever way it goes. Half, since a coupling may take less from the hand than bone from the burr: where an
-// encoder steps, a spring that is sampled gives back more than was put in.
+// Energy. A real hand is shaken by the spindle's motor, which is not modelled, and a hand damps vibration. So
+// the vibration may give the hand only energy that the hand has spent: a store counts half the work of the
+// burr on the bone, less the work of the vibration by the device's readings, up to most_store_mj. The
+// vibration is never stronger than the store could pay for a hand that moves along with it at
+// fastest_mm_per_s (after a faster motion it is silent until the debt is paid). So a cut takes energy from
+// the hand on any path. The factor of one half is there because a coupling may take less from the hand than
+// the bone takes from the burr: with encoder steps, a sampled spring returns more than was put in.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,8 @@ struct VibrationLimits {
 class HandpieceVibration {
   public:
     static constexpr double highest_hz = 300.0;
-    /// How fast it follows the cut: slower than a tick, that nothing clicks; faster than a hand can tell.
+    /// Time constant with which it follows the cut: longer than a tick, so that nothing clicks; too short for
+    /// a hand to notice.
     static constexpr double follows_s = 0.01;
     static constexpr double share_of_slew = 0.8;
     static constexpr double most_store_mj = 1.0;  // at the arm, as the speed of the hand
@@ -67,12 +68,12 @@ class HandpieceVibration {
     /// `burrs`: the scene's.
     HandpieceVibration(std::vector<Burr> burrs, const VibrationLimits& limits);
 
-    /// What to add to the coupling's `mean_force_n` in this tick: nothing with the spindle off, nor where the
-    /// force is not felt as it is wanted (`is_felt`). Real-time safe.
+    /// The force to add to the coupling's `mean_force_n` in this tick: zero with the spindle off, or while
+    /// the force is not felt as requested (`is_felt`). Real-time safe.
     glm::dvec3 tick(const HandState& hand, const MillingResult& latest, const glm::dvec3& mean_force_n,
                     bool is_felt) noexcept;
 
-    /// What it may still give to the hand, in patient space; below 0 what it owes.
+    /// Energy that it may still give to the hand, in patient space; a debt if below 0.
     double store_mj() const noexcept { return store_mj_; }
 
   private:

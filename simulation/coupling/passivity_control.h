@@ -6,10 +6,10 @@
 //     F_k  = F_base - alpha s_k / T   where W_k < 0, with
 //     alpha = min(-W_k T / |s_k|^2, m / (2 T))            pays W_k back over the next step, if it is as long
 //
-// The force that was held is paired with the displacement that it acted over: the product of a force and a
-// backward-difference velocity, as it is often written, never sees what a hold leaks. The controller's own
-// force is on the ledger, so what it fails to pay stays owed. The bound keeps it a damper that a sampled arm
-// of apparent mass m bears, one tick late, too.
+// The held force is paired with the displacement over which it acted: the usual product of a force and a
+// backward-difference velocity never sees the energy that a hold leaks. The controller's own force is part of
+// the account, so an unpaid debt stays. The bound keeps it a damper that is stable on a sampled arm of
+// apparent mass m, even one tick late.
 //
 // When contact ends, credit is forgotten, as in the paper, so that what one contact took does not hide what
 // the next one gives; a debt is kept. Within a long contact that dissipates (a cut) the observer may still

@@ -45,11 +45,11 @@ template <typename Real>
     return {t < 1.0f ? swirl : far.swirl, t < 1.0f ? outward : far.outward, t < 1.0f ? inverse : far.inverse};
 }
 
-/// What the swirl lacks on a face that ends in a straight line at the axis, as the one does that the edges of
-/// an upright burr rub on. There the disc reaches over the line, and so do voxels, of which one counts for
-/// the part of it that lies on the face: 0.52 voxels of each edge are lost, pi / 2 times the mean distance
-/// from the line of the disc's weight spread over a voxel. Times (x, y) this is none at the axis, and adds up
-/// to what is lost.
+/// Part of the swirl that is missing on a face that ends in a straight line at the axis, such as the face on
+/// which the edges of an upright burr rub. There the disc reaches over the line, and so do voxels, which
+/// count only for the part on the face: 0.52 voxels of each edge are lost, pi / 2 times the mean distance
+/// from the line of the disc's weight spread over a voxel. Times (x, y) the correction is zero at the axis,
+/// and adds up to the lost part.
 template <typename Real>
 [[gnu::always_inline]] inline Real swirl_lost_at_line(Real r_squared) {
     constexpr float per_a_squared = 1.0f / (axis_disc_voxels * axis_disc_voxels);

@@ -11,19 +11,19 @@
 //     e_psi = (-sin psi, cos psi, 0)
 //     e_kappa = (cos psi cos kappa, sin psi cos kappa, sin kappa).
 //
-// A voxel of the crescent is up to a voxel off the burr's surface. Its force is taken where it is, at a
-// distance d from the burr's centre: r = d sin kappa. What a shell loses goes with d^2 and the force with 1 /
-// d, so that the mean over the ramp of voxel_coverage.h, in which d is R on the mean, is that of the surface;
-// voxels moved there first, to r = R sin kappa, would add up to too much by the ramp's variance over R^2, 0.5
-// % for a burr of ten voxels. With K_r n + K_a e_kappa written out, sin kappa / r = 1 / d leaves only e_psi /
-// r, e_r / r, e_r and 1 / r that vary quickly near the spindle's axis: of these the means of
-// axis_singularity_kernel.h are taken.
+// A voxel of the crescent is up to a voxel off the burr's surface. Its force is computed at its own position,
+// at a distance d from the burr's centre: r = d sin kappa. The loss of a shell grows with d^2 and the force
+// with 1 / d, so that the mean over the ramp of voxel_coverage.h, in which d is R on average, equals that of
+// the surface; voxels first moved to r = R sin kappa would add up to too much by the ramp's variance over
+// R^2, 0.5 % for a burr of ten voxels. With K_r n + K_a e_kappa written out, sin kappa / r = 1 / d leaves
+// only e_psi / r, e_r / r, e_r and 1 / r that vary quickly near the spindle's axis: these are replaced by the
+// means of axis_singularity_kernel.h.
 //
-// An edge that cuts rubs, too (Altintas's linear edge model; Lee and Altintas 1996): dF = (K_te, K_re, K_ae)
-// ds for each mm of it, however thin the chip. So that force is of the face that is cut, not of what a step
-// took, which at a slow feed is a level here and there of a voxel's 255. It is summed over the voxels that
-// the burr would cut if it went on by d, a voxel or more, each of which has V / (n . d) of the
-// face (edge_advance.h):
+// A cutting edge also rubs (Altintas's linear edge model; Lee and Altintas 1996): dF = (K_te, K_re, K_ae) ds
+// for each mm of it, however thin the chip. So this force belongs to the face that is cut, not to the bone
+// removed by a step, which at a slow feed is only single levels of a voxel's 255. It is summed over the
+// voxels that the burr would cut if it advanced by d, a voxel or more; each has V / (n . d) of the face
+// (edge_advance.h):
 //
 //     f = s V / (n . d) N_phi (-sigma K_te e_psi - K_re n - K_ae e_kappa) / (2 pi r)
 //
@@ -42,7 +42,7 @@
 
 namespace osteomill {
 
-/// A step, as the force sees it: of its chips, or of its edges.
+/// A milling step for the force sum: of its chips, or of its edges.
 struct CuttingStep {
     /// Of chips. `middle_voxels` is the burr's centre half-way through the step, in voxel coordinates:
     /// directions taken from the step's end would leave a bias that no refinement removes. `elapsed_s` > 0;

@@ -1,5 +1,5 @@
-// Advance of the burr into the face that a removed voxel lies in, as a share of the burr's path in the step:
-// what the voxel's volume is divided by to get the area on which edges rub (chip_force.h).
+// Advance of the burr into the face of a removed voxel, as a share of the burr's path in the step: the
+// voxel's volume divided by it is the area on which edges rub (chip_force.h).
 //
 // That is n . d / |d|, with the voxel's normal n from the burr's centre half-way. But the normal turns by
 // 2 w while the burr passes, w = |d| / 2 over the distance, and where the face is nearly along the path bone

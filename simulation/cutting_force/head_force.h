@@ -7,8 +7,8 @@
 //     n = (cos psi n_r, sin psi n_r, n_z)       e_kappa = (-cos psi n_z, -sin psi n_z, n_r)
 //
 // and an edge is as long as the outline. Normals are those of the surface nearest to the voxel. Edges rub on
-// s V / a, with a how far the surface comes towards the voxel on the path: along a straight outline that is n
-// . d, and where the outline bends it is of the face that takes the voxel, whichever is nearest half-way.
+// s V / a, with a the advance of the surface towards the voxel along the path: for a straight outline that is
+// n . d, and where the outline bends it is that of the face nearest to the voxel at half the step.
 #pragma once
 
 #include "simulation/cutting_force/chip_force.h"

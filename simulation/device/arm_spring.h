@@ -13,7 +13,7 @@
 //         bone is cut (position_observer.h), with a = T / (tau_x + T)
 //     (0.15 N - B v T / (tau_p + T)) / (v T)    a wall that is met at v = 40 mm/s is not felt as a jump
 //
-// B is 4 N s/m, or the next of 8 and 12 that brings more; less where a light arm bears no 4 so late.
+// B is 4 N s/m, or 8 or 12 if that allows a stiffer spring; less if a light, late arm is unstable with 4.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@
 
 namespace osteomill {
 
-/// With more between a reading and its force the coupling's own damper shakes the arm, and no spring helps:
-/// osteomill_study bridge.
+/// With a longer delay between a reading and its force the coupling's own damper shakes the arm, and no
+/// spring helps: osteomill_study bridge.
 inline constexpr double longest_delay_s = 0.003;
 
 /// Of an arm, in device space.
@@ -53,8 +53,8 @@ struct ArmSpring {
     static constexpr double softest_n_per_mm = 0.05;
 };
 
-/// The stiffest wall that holds on an arm of `mass_kg` > 0 with `damping_n_s_per_mm` beside it, N/mm, so many
-/// ms late (0 or more; a part of one is taken between whole ones); 0: none.
+/// The stiffest stable wall on an arm of `mass_kg` > 0 with `damping_n_s_per_mm` beside it, N/mm, for a delay
+/// of so many ms (0 or more; interpolated between whole ones); 0: none.
 double stiffest_wall_n_per_mm(double mass_kg, double damping_n_s_per_mm, double delay_ms);
 
 /// Not real-time safe.

@@ -1,6 +1,6 @@
-// The force that an arm is sent, which never ends in one step: where the loop's force does not count any more
-// (the arm is lost, not able, in the clutch; the loop stands still), the force last sent shrinks linearly to
-// zero within fade_s, as the safety monitor's does.
+// The force sent to an arm, which never ends in one step: when the loop's force becomes invalid (the arm is
+// lost, not able, in the clutch; the loop stands still), the last force shrinks linearly to zero within
+// fade_s, like the safety monitor's.
 #pragma once
 
 #include <algorithm>

@@ -18,16 +18,16 @@
 
 namespace osteomill {
 
-/// What a device says of its pedal, and when that was said. It is worth what the loop's latch makes of it
-/// (safety/pedal_latch.h): a device states what it knows, keeps no pedal down or up by itself, and where it
-/// knows nothing lets the statement grow old.
+/// A device's report of its pedal, and the time of the report. The loop's latch (safety/pedal_latch.h)
+/// decides what it permits: a device reports what it knows, never holds a pedal down or up by itself, and
+/// lets the report grow old while it knows nothing.
 struct PedalStatement {
     bool is_down = false;
-    /// Session time; by default never. No later than it was said: what came through a queue is as old as the
-    /// last look that found the queue empty.
+    /// Session time; by default never. No later than the pedal was reported: a report from a queue is as old
+    /// as the last check that found the queue empty.
     double said_s = -std::numeric_limits<double>::infinity();
-    std::uint64_t speaker = 0;  ///< another number where another arm, client or connection says it
-    double acts_after_s = 0.0;  ///< a press counts so much later: of motions that are played back late
+    std::uint64_t speaker = 0;  ///< changes with the arm, client or connection that reports
+    double acts_after_s = 0.0;  ///< delay of a press: for motions that are played back late
 };
 
 /// One reading, in device space.
@@ -62,12 +62,12 @@ class HapticDevice {
     /// Force off, device closed. Safe in any state.
     virtual void stop() noexcept = 0;
 
-    /// From now on the device sits so on the patient. Real-time safe, from the thread of read(). For devices
-    /// that know where the patient is; for others it is no matter.
+    /// Places the device on the patient from now on. Real-time safe, from the thread of read(). For devices
+    /// that know the patient's position; all others ignore it.
     virtual void set_mapping(const DeviceMapping&) noexcept {}
 
-    /// What people should know or do about the device, in one line that lives for ever; empty while all is
-    /// well. Any thread.
+    /// A notice for people about the device, in one line with static lifetime; empty while all is well. Any
+    /// thread.
     virtual const char* notice() const noexcept { return ""; }
 };
 

@@ -1,21 +1,21 @@
-// Leave to act on what came by message, as the haptic tick sees it: good for so long after the newest
-// message, by the tick's own time. It ends by itself: no network thread, no log and no other program has to
-// be alive for it to end.
+// Permission to act on a message, as the haptic tick sees it: valid for a fixed time after the newest
+// message, by the tick's own clock. It expires by itself; no network thread, log or other program has to be
+// alive.
 #pragma once
 
 #include <algorithm>
 
 namespace osteomill {
 
-/// Session time, at `now_s`, of what was said `age_s` ago; what a clock calls younger than now was said now.
+/// Session time, at `now_s`, of a message of age `age_s`; a negative age counts as zero.
 constexpr double said_at(double now_s, double age_s) noexcept {
     return now_s - std::max(0.0, age_s);
 }
 
 class Permission {
   public:
-    /// What comes over a network, or from a thread that may hang. With 50 messages a second nine in a row may
-    /// be lost; and a spindle stops within a quarter of a second of the last one, the way here included.
+    /// For messages from a network, or from a thread that may hang. At 50 messages a second nine in a row may
+    /// be lost; and a spindle stops within a quarter of a second of the last one, including its delay.
     static constexpr double by_message_s = 0.2;
 
     /// Not given yet; lasts for `lasts_s` (session time) after each renewal.

@@ -1,6 +1,6 @@
-// Engagement map: the bone just outside the burr, patch by patch. It says what the burr would cut, or press
-// against, if it moved on. The milling loop samples it after each step (engagement_probe.h); couplings solve
-// against it at the haptic rate without touching the bone.
+// Engagement map: the bone just outside the burr, patch by patch, that the burr would cut or press against if
+// it moved on. The milling loop samples it after each step (engagement_probe.h); couplings solve against it
+// at the haptic rate without touching the bone.
 #pragma once
 
 #include <array>

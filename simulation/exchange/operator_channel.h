@@ -10,8 +10,8 @@
 
 namespace osteomill {
 
-/// What an operator asks for; nothing while none is connected. The reader gives a command no longer than
-/// Permission::by_message_s.
+/// The operator's newest command; nothing while none is connected. The reader accepts a command for no longer
+/// than Permission::by_message_s.
 struct HeardCommand {
     std::optional<OperatorCommand> command{};
     std::chrono::steady_clock::time_point heard{};

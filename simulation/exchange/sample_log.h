@@ -1,4 +1,4 @@
-// A log that a loop pushes samples to. What becomes of them, such as lines of a file, is its maker's.
+// A log to which a loop pushes samples. Its maker decides their use, such as lines of a file.
 #pragma once
 
 namespace osteomill {

@@ -1,4 +1,4 @@
-// A log that keeps samples until somebody takes them, in bounded memory.
+// A log that keeps samples in bounded memory until another thread takes them.
 #pragma once
 
 #include <atomic>

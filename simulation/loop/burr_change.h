@@ -1,7 +1,6 @@
-// The change from one burr to another, which is made in the air and at rest, as a surgeon would: a larger
-// burr that came to be within bone would throw the hand out of it, or, turning, let all of that bone vanish
-// at once. A change that has to wait is not lost: it is made as soon as it can be, unless it is taken back
-// before.
+// The change from one burr to another, made in the air and at rest, as a surgeon would: a larger burr inside
+// bone would throw the hand out of it or, turning, remove all of that bone at once. A change that has to wait
+// is made as soon as possible, unless it is cancelled.
 #pragma once
 
 #include <cstddef>

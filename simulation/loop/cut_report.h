@@ -1,6 +1,6 @@
-// Report of what the edges cut, fifty times a second for people to hear: force, ripple within the tooth
-// period, stiffness of the bone, and what the load leaves of the motor's speed. Made by the milling loop from
-// the results that it publishes anyway; nothing that is felt comes of it.
+// Report of the cut for the sound, fifty times a second: force, ripple within the tooth period, stiffness of
+// the bone, and the motor's speed under load. The milling loop makes it from the results that it publishes
+// anyway; it affects no force.
 //
 // A patch p of the burr's surface that touches bone and moves toward it cuts f_p, as an edge rubs there and
 // takes its chip (Engagement). An edge passes its azimuth psi_p once a tooth period, so that the force within
@@ -26,8 +26,8 @@ namespace osteomill {
 class CutReport {
   public:
     static constexpr double period_s = 0.02;
-    /// A hard bone gives way voxel level by voxel level: the force is a mean over so long, or it would
-    /// stutter while the hand presses evenly.
+    /// Hard bone yields one level of a voxel at a time: the force is averaged over this time, or the sound
+    /// would stutter under even pressure.
     static constexpr double remembers_s = 0.04;
     /// Less is none.
     static constexpr double least_force_n = 0.01;

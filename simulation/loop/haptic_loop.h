@@ -1,5 +1,5 @@
-// One tick of the haptic loop: read the device, couple, guard, write the force, and tell everybody else. Its
-// pace is somebody else's business (periodic_loop.h), physics is the coupling's.
+// One tick of the haptic loop: read the device, couple, guard, write the force, and publish the state. The
+// pace is periodic_loop.h's, the physics the coupling's.
 //
 //   device --pose--+---> safety monitor --may touch?--+
 //                  |            ^    |                v
@@ -7,9 +7,9 @@
 //                  |            |
 //                  +--pose--> coupling --burr pose--> milling loop
 //
-// While a fault lasts the tool is out of the bone: no spindle, no force. The milling loop only looks at the
-// bone where the hand is, and the coupling starts afresh from the hand when the force comes back, which is
-// not before the burr is clear of bone there. What makes a fault, and what follows, is safety_monitor.h's.
+// During a fault the tool is out of the bone: no spindle, no force. The milling loop only samples the bone at
+// the hand's position, and the coupling restarts from the hand when the force returns, which is not before
+// the burr is clear of bone there. safety_monitor.h defines the faults and their consequences.
 #pragma once
 
 #include <array>
@@ -71,10 +71,10 @@ class HapticLoop {
     /// The tick of session time `now_s`, after `missed_periods` deadlines that nobody served. Real-time safe.
     void tick(double now_s, std::uint64_t missed_periods) noexcept;
 
-    /// The session is over: from the next tick on the force fades, whatever is wanted, and the spindle stops.
+    /// Ends the session: from the next tick on the force fades, whatever is requested, and the spindle stops.
     /// Any thread.
     void let_go() noexcept { lets_go_.store(true, std::memory_order_relaxed); }
-    /// After let_go(): the hand has been given no force any more. Any thread.
+    /// Whether, after let_go(), the force has faded to zero. Any thread.
     bool has_let_go() const noexcept { return has_let_go_.load(std::memory_order_relaxed); }
 
     double peak_force_n() const { return peak_force_n_; }

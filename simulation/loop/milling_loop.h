@@ -1,8 +1,8 @@
 // One step of the milling loop: the newest command in, the model's step, result and changes out.
 //
-// The haptic loop sends a command every tick. Up to its rate, each step goes all the way to the newest one.
-// Beyond it (the time-resolved force wants 10 kHz) the steps of a tick share the way there, and the haptic
-// loop gets their mean once a tick: it could not feel more.
+// The haptic loop sends a command every tick. Up to its rate, each step goes all the way to the newest
+// command. At a higher rate (the time-resolved force needs 10 kHz) the steps of a tick divide the path to it,
+// and the haptic loop gets their mean once a tick: it could not render more.
 #pragma once
 
 #include <algorithm>

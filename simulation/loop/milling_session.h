@@ -1,10 +1,10 @@
 // A milling session: device, coupling, haptic loop, milling loop and clock, from start to stop.
 //
-// There are two loops, haptic at 1 kHz and milling, the same on either clock; the clock only says who waits.
-// On the real one each has a thread that waits for its next tick, and the caller's does what need not be in
-// time. On the virtual one they take turns on the caller's thread, as fast as they can: after each haptic
-// tick run the milling steps that are due by then; the next tick sees their result. So the session is a pure
-// function of scene, bone and device: same in, bit-equal out.
+// There are two loops, haptic at 1 kHz and milling, the same on either clock. On the real clock each has a
+// thread that waits for its next tick, and the caller's thread does the work without deadlines. On the
+// virtual clock they take turns on the caller's thread, as fast as they can: after each haptic tick run the
+// milling steps that are due by then; the next tick sees their result. So the session is a pure function of
+// scene, bone and device: same in, bit-equal out.
 #pragma once
 
 #include <atomic>
@@ -119,8 +119,8 @@ class MillingSession {
     /// By this session so far.
     RemovedByTissue removed_mm3() const { return model_->removed_mm3(); }
     double removed_mm3(std::size_t label) const { return model_->removed_mm3(label); }
-    // For who steps it, on the virtual clock between two calls of advance(): what the last tick said, and
-    // what it knew of the milling loop.
+    // For callers that step it, on the virtual clock between two calls of advance(): the newest results of
+    // the haptic tick, and of the milling loop as that tick saw it.
     const ToolState& newest_state() {
         exchange_.status.refresh();
         return exchange_.status.front();

@@ -1,5 +1,5 @@
-// A loop that ticks at a fixed rate: its schedule, its work, and how well that went. It runs on a clock that
-// it waits for, or tick by tick for a caller who keeps the order, as on the virtual clock.
+// A loop that ticks at a fixed rate: its schedule, its work, and its measured timing. It waits on its own
+// clock, or ticks one by one for a caller that keeps the order, as on the virtual clock.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ class PeriodicLoop {
     /// When the next tick is due.
     double due_s() const noexcept { return first_s_ + static_cast<double>(next_) * period_s_; }
 
-    /// Waits until the next tick is due, and runs it. One that comes a whole period late or more does not run
-    /// after those it missed: they are skipped, counted and handed to it.
+    /// Waits until the next tick is due, and runs it. If it is a whole period late or more, the missed ticks
+    /// are not run: they are skipped, counted, and their number is passed to it.
     void wait_and_tick(Clock& clock) noexcept;
     /// Runs the next tick at once, as one that is in time. `stopwatch` only measures how long its work takes.
     void tick_now(const Clock& stopwatch) noexcept { tick(0, stopwatch); }

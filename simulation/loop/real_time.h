@@ -1,4 +1,4 @@
-// Means of the system for a thread to be in time: memory that is there, and a processor.
+// The system's means for punctual threads: resident memory, and a processor.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// The energy that the device's force has given the hand: the work of each tick's force over the way the hand
-// then went, in the device's space, less what the hand put in. A guard for whatever law or coupling runs:
-// bone takes energy from a hand and gives none, but for what its spring still holds.
+// The energy that the device's force has given the hand: the work of each tick's force over the hand's next
+// displacement, in the device's space, less the energy that the hand put in. A guard against any law or
+// coupling: bone takes energy from a hand and gives none, except for the energy stored in its spring.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +17,9 @@ class EnergyMeter {
     /// Over which lately_mj() sums.
     static constexpr double window_s = 0.1;
 
-    /// The hand was read at `position_mm`, `elapsed_s` after the last call, and had felt `force_n` on its way
-    /// here. A position that is not finite, or a distance above `longest_mm` (no hand: a jump), counts as
-    /// none. Real-time safe.
+    /// The hand was read at `position_mm`, `elapsed_s` after the last call, and felt `force_n` on the way. A
+    /// position that is not finite, or a distance above `longest_mm` (a jump, not a hand), counts as no
+    /// motion. Real-time safe.
     void add(const glm::dvec3& position_mm, const glm::dvec3& force_n, double elapsed_s,
              double longest_mm) noexcept {
         const glm::dvec3 moved_mm = position_mm - position_mm_;

@@ -1,5 +1,5 @@
-// The last thing that a force passes before it reaches the hand: finite, within the device's limit, within a
-// rate of change, and faded out on any fault.
+// The last stage of the force before the hand: it is finite, within the device's limit and rate of change,
+// and fades out on any fault.
 //
 //             fault                faded out              no fault for settle_s
 //   active ----------> fading out -----------> off --------------------------> fading in
@@ -28,12 +28,13 @@ class ForceGuard {
     enum class State { active, fading_out, off, fading_in };
 
     static constexpr double fade_out_s = FadingForce::fade_s;
-    /// A fault must have been gone this long; keeps one that comes and goes from drumming on the hand.
+    /// Least time without a fault before the force returns; keeps a fault that comes and goes from drumming
+    /// on the hand.
     static constexpr double settle_s = 0.1;
     /// Slow enough for a hand to notice and brace.
     static constexpr double fade_in_s = 0.25;
-    /// Full force of an Omni in 3.3 ms. A wall met at 300 mm/s with 2 N/mm asks for 600 N/s; what rises
-    /// faster than this is a knock that no bone gives.
+    /// Full force of an Omni in 3.3 ms. A wall met at 300 mm/s with 2 N/mm needs 600 N/s; a faster rise is a
+    /// knock that no bone gives.
     static constexpr double slew_n_per_s = 1000.0;
 
     explicit ForceGuard(double max_force_n) : max_force_n_(max_force_n) {}

@@ -1,15 +1,15 @@
-// Latch that says whether the spindle may turn, by what the device says of its pedal: the one place that
-// believes a pedal, for every device.
+// Latch of the spindle, fed with the device's reports of its pedal: the one place that trusts a pedal, for
+// every device.
 //
 //             the statement has lapsed, or permission is withdrawn
 //   free ---------------------------------------------------------> locked
 //     ^                                                                |
 //     +---------------- the pedal is seen up, and fresh ---------------+
 //
-// A statement lapses where it is older than longest_age_s, where the loop itself stood still for so long (who
-// stops a program stops its clock, and finds what was held before), and where another speaks. Silence is no
-// release: a person who held the pedal through it may not mean the bone that the burr is at afterwards. It
-// begins locked.
+// A statement lapses when it is older than longest_age_s, when the loop itself stood still for so long (a
+// stopped program has a stopped clock, and would find the pedal as it was held before), and when another
+// party speaks. Silence is not a release: a person who held the pedal through it may not mean the bone at
+// which the burr is afterwards. The latch starts locked.
 #pragma once
 
 #include <cstdint>
@@ -64,7 +64,7 @@ class PedalLatch {
     /// The spindle may turn.
     bool is_pressed() const { return seen_ == PedalSeen::down && !is_locked_; }
     bool is_locked() const { return is_locked_; }
-    /// It is held, and worth nothing before it was up.
+    /// The pedal is held, and has no effect before it has been up.
     bool awaits_release() const {
         return is_locked_ && (seen_ == PedalSeen::down || seen_ == PedalSeen::waiting);
     }

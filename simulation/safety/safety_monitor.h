@@ -1,9 +1,9 @@
-// The one place that decides whether the hand may feel a force and the burr may turn. It looks (watchdog.h),
-// limits and fades the force (force_guard.h), keeps the force off while the tool has come back inside the
-// bone or starts there, and the spindle off where nobody can have meant the bone that it is in. Nothing
-// reaches the device but through it.
+// The one place that decides whether the hand may feel a force and the burr may turn. It looks for faults
+// (watchdog.h), limits and fades the force (force_guard.h), keeps the force off while the tool is inside bone
+// after a fault or at the start, and keeps the spindle off after interruptions, when the pressed pedal was
+// meant for other bone. Nothing reaches the device except through it.
 //
-// Two machines, stepped together once a tick. The force:
+// Two state machines, stepped together once a tick. The force:
 //
 //             fault                faded out              no fault for settle_s
 //   active ----------> fading out -----------> off --------------------------> fading in
@@ -12,10 +12,10 @@
 //     |                    +----------------------- fault -------------------------+  |
 //     +------------------------------- faded in --------------------------------------+
 //
-// It begins in `active`, but untried: until it is known whether there is bone in the burr (clearance.h),
-// which takes a milling result, no force is felt and no bone touched. A burr that is clear is tried then and
-// there; one in bone goes off, as if it had come back there. So a session that starts in air feels the first
-// force there is, and one that starts in bone none.
+// It starts in `active`, but untried: until a milling result shows whether there is bone in the burr
+// (clearance.h), no force is felt and no bone touched. A burr that is clear becomes tried at once; a burr in
+// bone goes off, as if it had come back there. So a session that starts in air feels the first force, and a
+// session that starts in bone feels none.
 //
 //   state        the hand feels                              the tool
 //   untried      nothing                                     is out of the bone
@@ -24,21 +24,23 @@
 //   off          nothing                                     is out of the bone
 //   fading in    the wanted force, a gain from 0 to 1        touches bone
 //
-// Back inside the bone. Without a force, nothing keeps the hand from sinking into the bone. Were the tool to
-// take hold again there, no wall would be right: a proxy that starts inside is held by bone on all sides, and
-// pulls the hand back in when it leaves; the nearest way out may be the wrong side of a thin wall, and a hand
-// thrown out over millimetres is as bad as one pulled in. So `off` lasts until the burr, at the hand's place,
-// has been known to be clear of bone (clearance.h) for settle_s; Fault::in_bone says so until then. The hand
-// lifts it out and feels nothing, nothing is cut, and the force fades in where every wall is in front of the
-// burr. Where the hand moves too fast to know, `off` lasts, too, for the fault that there was.
+// Back inside the bone. Without a force, nothing keeps the hand from sinking into the bone. If the tool took
+// hold again there, every wall would be wrong: bone on all sides holds a proxy that starts inside, and pulls
+// the hand back in when it leaves; the nearest way out may be the wrong side of a thin wall, and a hand
+// thrown out over millimetres is as bad as one pulled in. So `off` lasts until the burr, at the hand's
+// position, has been known to be clear of bone (clearance.h) for settle_s; until then the fault is
+// Fault::in_bone. The hand lifts the burr out and feels nothing, nothing is cut, and the force fades in when
+// every wall is in front of the burr. While the hand moves too fast to know, `off` lasts, too, with the
+// earlier fault.
 //
-// The spindle turns while the pedal is down, its latch (pedal_latch.h) is free and the tool touches bone. It
-// is locked, besides by what pedal_latch.h says, where the device was lost or jumped, the force gave the hand
-// energy, or the session was paused: the pedal pressed then was not meant for the bone it is in now.
+// The spindle turns while the pedal is down, its latch (pedal_latch.h) is free and the tool touches bone.
+// Beside the reasons in pedal_latch.h, it is locked when the device was lost or jumped, the force gave the
+// hand energy, or the session was paused: the pedal was pressed then for other bone than the bone it is in
+// now.
 //
-// From no state does a fault lead to a force: in the tick of a fault and in all that follow until settle_s
-// have passed without one and clear of bone, the force only shrinks, and within fade_out_s it is zero.
-// safety_monitor_test.cpp visits every state that can be reached, with every fault in each, in bone and out.
+// In no state does a fault lead to a force: from the tick of a fault until settle_s have passed without one
+// and clear of bone, the force only shrinks, and within fade_out_s it is zero. safety_monitor_test.cpp visits
+// every reachable state, with every fault in each, in bone and out.
 #pragma once
 
 #include <array>
@@ -63,8 +65,8 @@ class SafetyMonitor {
         begin(watchdog_.check(seen), pedal_date_.look(seen.device.pedal, seen.now_s), seen.clearance);
     }
 
-    /// Begins a tick with what was found, for callers that look otherwise. `pedal` counts only of a device
-    /// that is there, `clearance` while the force is off or untried.
+    /// Begins a tick with given findings, for callers with checks of their own. `pedal` counts only if the
+    /// device is there, `clearance` only while the force is off or untried.
     void begin(Fault found, PedalSeen pedal, Clearance clearance) noexcept;
 
     /// Whether what the device reads can be used in this tick.
@@ -72,8 +74,9 @@ class SafetyMonitor {
     /// Whether the force is to be computed in this tick: no fault, and the hand may feel it.
     bool may_touch() const { return found_ == Fault::none && guard_.is_engaged(); }
 
-    /// Ends the tick: the force that may be written, of one that is wanted (not read unless may_touch()).
-    /// `is_sound`: what was computed with it is finite; if not, that is a fault as a force is that is none.
+    /// Ends the tick: the force that may be written, for the requested one (not read unless may_touch()).
+    /// `is_sound`: everything else computed with it is finite; otherwise it counts as a fault, like a force
+    /// that is not finite.
     glm::dvec3 pass(const glm::dvec3& wanted_n, bool is_sound, double elapsed_s) noexcept;
 
     /// After pass(): the tool touched bone before this tick and goes on doing so.
@@ -87,9 +90,9 @@ class SafetyMonitor {
 
     ForceGuard::State state() const { return guard_.state(); }
     bool is_spindle_locked() const { return pedal_.is_locked(); }
-    /// The pedal is held, and turns nothing before it was up.
+    /// The pedal is held, but turns nothing before it has been up.
     bool awaits_release() const { return pedal_.awaits_release(); }
-    /// Nothing is known of the bone in the burr yet, nor was there a fault.
+    /// Nothing is known yet of bone in the burr, and there was no fault.
     bool is_untried() const { return is_untried_; }
     /// Why the force is off; none while it is not.
     Fault fault() const { return guard_.fault(); }

@@ -1,4 +1,4 @@
-// Watchdog: finds what must turn the force off. It only reports; force_guard.h acts.
+// Watchdog: detects the conditions that must turn the force off. It only reports; force_guard.h acts.
 #pragma once
 
 #include <cstdint>
