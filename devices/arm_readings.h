@@ -1,5 +1,5 @@
-// Readings of an arm that a thread of its own talks to: the newest crosses to the haptic loop, and is worth
-// something for as long as it is fresh.
+// Readings of an arm whose driver has a thread of its own: the newest crosses to the haptic loop, and is
+// valid while it is fresh.
 #pragma once
 
 #include <chrono>
@@ -19,12 +19,12 @@ struct ArmReading {
     glm::dvec3 velocity_mm_per_s{0.0};
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
     bool pedal = false;
-    bool knows_pedal = false;  ///< or nothing is known of it
-    /// Of the pedal: another number where another arm, grip or connection says it.
+    bool knows_pedal = false;  ///< false: nothing is known of it
+    /// Changes with the arm, grip or connection that reports the pedal.
     std::uint64_t speaker = 0;
     std::size_t burr = 0;
-    bool is_ready = false;                         ///< the arm is there, and the rest is so now
-    std::chrono::steady_clock::time_point said{};  ///< no later than it was so
+    bool is_ready = false;                         ///< the arm is there, and the other members are current
+    std::chrono::steady_clock::time_point said{};  ///< no later than the reading was true
 };
 
 class ArmReadings {

@@ -1,5 +1,5 @@
-// Clutch: the hand moves while the tool stays, as one lifts a mouse. While engaged the position does not
-// follow, and afterwards it goes on from there.
+// Clutch: the hand moves while the tool stays, like lifting a mouse. While engaged the position does not
+// follow; afterwards it continues from its last value.
 #pragma once
 
 #include <glm/vec3.hpp>

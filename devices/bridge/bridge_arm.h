@@ -1,6 +1,6 @@
-// An arm that lives in a process of its own, as the loops see it. A thread talks to it (bridge_host.h says
-// what is said); the haptic loop takes the newest pose and leaves a force, and waits for neither. That force
-// answers the arm at once, so that it comes a tick late and no later.
+// An arm driven by another process, as the loops see it. A thread exchanges messages with it (bridge_host.h);
+// the haptic loop takes the newest pose and leaves a force, and waits for neither. That force answers the arm
+// at once, so that it comes exactly one tick late.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ namespace osteomill {
 
 class BridgeArm final : public HapticDevice {
   public:
-    /// After so many periods of the loop without a new force the arm is sent that there is none.
+    /// Periods of the loop without a new force after which the arm is sent "no force".
     static constexpr int longest_force_age_ms = 20;
 
     struct Parts {
@@ -37,8 +37,8 @@ class BridgeArm final : public HapticDevice {
     BridgeArm(const BridgeAddress& where, Parts parts);
     ~BridgeArm() override { stop(); }
 
-    /// Waits until an arm has joined and the delay to it has been measured, or `gives_up` says so: then
-    /// false. Before it there is nothing to know of the arm.
+    /// Waits until an arm has joined and the delay to it has been measured; false if `gives_up` ends the
+    /// wait. Before that nothing is known of the arm.
     bool await(const std::function<bool()>& gives_up);
 
     const BridgeAddress& address() const { return socket_.address(); }

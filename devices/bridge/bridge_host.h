@@ -1,12 +1,12 @@
-// The server's side of the bridge to an arm in a process of its own: datagrams in, datagrams out, with the
-// time handed in. It opens no socket and knows no thread. What is said: docs/device-bridge.md; the bytes:
+// The server's side of the bridge to an arm in another process: datagrams in, datagrams out, with the time
+// passed in. It opens no socket and has no thread. The protocol: docs/device-bridge.md; the bytes:
 // bridge/osteomill_bridge.h, which the arm's side shares.
 //
 //   hello -> welcome with a session that nobody can guess -> the first pose of that session: this is the arm
 //
-// Nothing is remembered of who says hello: the session is a cookie, made of the sender's address, of the
-// welcome's number and time, which the first pose repeats, and of a secret. So hellos that were recorded, or
-// are made up, in whatever number, take no place of anybody's. A welcome is good once, and soon stale.
+// The sender of a hello is not remembered: the session is a cookie, made of the sender's address, of the
+// welcome's number and time, which the first pose repeats, and of a secret. So recorded or forged hellos, in
+// any number, take no place. A welcome is valid once, and soon expires.
 #pragma once
 
 #include <array>
@@ -47,13 +47,12 @@ struct BridgeCounts {
 
 class BridgeHost {
   public:
-    /// An arm that has said nothing for so long may be followed by another; a welcome that was answered by
-    /// nothing for so long is stale.
+    /// Silence of the arm after which another may follow it; a welcome unanswered for so long is stale.
     static constexpr std::uint64_t gone_ns = 250'000'000;
-    /// Poses that follow those of another session sooner are not acted on: the loop must have lost the one
-    /// arm before it has the other, or the tool would jump from one to the other with the spindle on.
+    /// Poses that follow another session's sooner than this are not acted on: the loop must notice the loss
+    /// of the first arm before the second, or the tool would jump from one to the other with the spindle on.
     static constexpr std::uint64_t between_arms_ns = 50'000'000;
-    /// A pose that answers a force from longer ago is too old to act on, and so is what would answer it.
+    /// A pose that answers an older force is too old to act on, and so is the answer to it.
     static constexpr std::uint64_t latest_round_trip_ns = 50'000'000;
     /// Round trips that the delay is taken from.
     static constexpr std::size_t round_trips_kept = 256;
@@ -73,16 +72,17 @@ class BridgeHost {
     /// The arm that is served.
     const PeerAddress& peer() const { return peer_; }
 
-    /// From now on the arm that is served is the only one that may join: force and coupling are built on it.
+    /// From now on only the served arm may join again: force and coupling depend on it.
     void keep_arm() { is_arm_kept_ = true; }
 
     /// Whether the last take() was of a pose to act on.
     bool has_fresh_pose() const { return has_fresh_pose_; }
-    /// The newest to act on.
+    /// The newest pose to act on.
     const omb_pose& pose() const { return pose_; }
-    /// Its date by our own clock, which it echoes: it was said no earlier, however long it lay in a queue.
+    /// The pose's date by our own clock, which it echoes: it was sent no earlier, however long it lay in a
+    /// queue.
     std::uint64_t said_ns() const { return pose_.echo_clock_ns + pose_.kept_ns; }
-    /// Another number where another arm has joined, or the same anew.
+    /// Changes when another arm joins, or the same arm anew.
     std::uint64_t session() const { return session_; }
     /// The arm that is served, or was; nullopt before the first.
     const std::optional<omb_arm>& arm() const { return arm_; }
@@ -98,8 +98,8 @@ class BridgeHost {
 
   private:
     using Digest = std::array<std::uint8_t, 32>;
-    /// What arms say of themselves, until one of them joins. Whoever has the key can have said little that
-    /// differs; without it, so many arms must have been made up to push one out.
+    /// Statements of arms about themselves, until one of them joins. A holder of the key can have made only a
+    /// few that differ; without it, so many forged arms would be needed to push one out.
     static constexpr std::size_t statements_kept = 1024;
     struct Statement {
         omb_arm arm{};
@@ -144,7 +144,7 @@ class BridgeHost {
     const char* refusal_ = "";
 };
 
-/// Why no arm can be so: a text that lives for ever; nullptr for one that can be.
+/// The reason for which no arm can be like this, a text with static lifetime; nullptr for a possible one.
 const char* why_impossible(const omb_arm& arm);
 
 /// Whether all its numbers are finite and the quaternion, where there is one, is a rotation.

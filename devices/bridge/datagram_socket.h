@@ -16,10 +16,9 @@ namespace osteomill {
 
 class DatagramSocket {
   public:
-    /// Throws std::runtime_error in one line where it cannot be had: what is there already, what is missing.
-    /// A socket that a server left behind which was killed is taken over: one of this user, that only this
-    /// user may write to, as ours are, and that nobody listens at. Nothing else is ever removed, there or at
-    /// the end.
+    /// Throws std::runtime_error in one line that names the obstacle: an existing file, a missing folder. A
+    /// socket left behind by a killed server is taken over, if this user owns it, only this user may write to
+    /// it, as to ours, and nobody listens on it. Nothing else is ever removed, there or at the end.
     explicit DatagramSocket(const BridgeAddress& where);
     ~DatagramSocket();
     DatagramSocket(const DatagramSocket&) = delete;
@@ -28,8 +27,8 @@ class DatagramSocket {
     /// The port, where the system chose it.
     const BridgeAddress& address() const { return where_; }
 
-    /// Waits for a datagram or for wake(), `longest_wait_ms` at most. The datagram's length, or the buffer's
-    /// if it is longer; nullopt: none came.
+    /// Waits for a datagram or for wake(), `longest_wait_ms` at most. Returns the datagram's length, or the
+    /// buffer's if that is less; nullopt: none came.
     std::optional<std::size_t> receive(std::span<std::uint8_t> buffer, PeerAddress& from,
                                        int longest_wait_ms) noexcept;
 

@@ -1,9 +1,9 @@
-// An arm that is not there, moved by an operator over the network: the mouse moves the hand's target, the
-// hand and arm model do the rest, so that the operator's tool yields to bone as an arm in a hand would.
+// A simulated arm moved by an operator over the network: the mouse moves the hand's target, and hand and arm
+// model follow it, so that the operator's tool yields to bone as an arm in a hand would.
 //
-// What an operator says is good for Permission::by_message_s after it was heard: without a fresh message the
-// hand stands still, whatever the network's threads do, and so does the spindle (safety/pedal_latch.h). And
-// it is held to what a hand does (TargetLimit): one message moves the tool by longest_reach_mm at the most.
+// A command is valid for Permission::by_message_s after its arrival: without a fresh one the hand stands
+// still, whatever the network's threads do, and so does the spindle (safety/pedal_latch.h). Targets are
+// limited to a hand's motion (TargetLimit): one message moves the tool by longest_reach_mm at most.
 #pragma once
 
 #include <chrono>
@@ -25,10 +25,9 @@ class ClientDevice final : public HapticDevice {
 
     using Time = std::chrono::steady_clock::time_point;
 
-    /// Reads `commands` as its only reader. The arm starts at rest at `start_pose` (patient LPS). While no
-    /// operator is heard the hand holds its target. A command that is not finite counts as none. The burr
-    /// that targets are kept near is the arm's tip, but for what the coupling yields. `clock` is what
-    /// commands are dated by.
+    /// Reads `commands` as its only reader. The arm starts at rest at `start_pose` (patient LPS). Without an
+    /// operator the hand holds its target. A command that is not finite is ignored. Targets are kept near the
+    /// arm's tip, which is the burr except for the yield of the coupling. `clock` dates the commands.
     ClientDevice(
         OperatorChannel& commands, const ToolPose& start_pose, const DeviceMapping& mapping,
         const ArmModel& arm, const HandModel& hand,

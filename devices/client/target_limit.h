@@ -1,10 +1,10 @@
-// Limits on the targets that come by message, those of a hand: each within reach of the burr, and their path
-// no longer than a hand could have gone.
+// Limits of a hand on targets that come by message: each within reach of the burr, and their path no longer
+// than a hand could have gone.
 //
 //     path since time 0  <=  room_mm + fastest_hand_mm_per_s * time,    room_mm = 2 longest_reach_mm
 //
-// The room is for messages that come late and at once: from one side of the burr's reach to the other is no
-// offence once.
+// The room allows messages that come late and in a burst: crossing the burr's reach from one side to the
+// other once is allowed.
 #pragma once
 
 #include <atomic>
@@ -24,8 +24,8 @@ class TargetLimit {
     /// The path goes on from here: the operator was away.
     void resume_at(const glm::dvec3& target_mm) noexcept { target_mm_ = target_mm; }
 
-    /// `wanted_mm` (finite) or what comes nearest to it of what is allowed. `now_s`: session time, never
-    /// decreases. Real-time safe.
+    /// `wanted_mm` (finite), or the nearest allowed position. `now_s`: session time, never decreases.
+    /// Real-time safe.
     glm::dvec3 limited(const glm::dvec3& wanted_mm, const glm::dvec3& burr_mm, double now_s) noexcept;
 
     /// What was clamped so far, one line that lives for ever; empty where nothing was. Any thread.

@@ -14,16 +14,16 @@ class HaplyArm final : public HapticDevice {
     /// Begins to look for the service.
     explicit HaplyArm(HaplyLinkParts parts) : link_(std::move(parts)) {}
 
-    /// Waits until the arm is there and the delay to it has been measured, or `gives_up` says so: then false.
+    /// Waits until the arm is there and the delay to it has been measured; false if `gives_up` ends the wait.
     bool await(const std::function<bool()>& gives_up);
 
-    /// From a reading to the force that answers it: the way to the service and back, and the loop's tick.
+    /// Delay from a reading to the force that answers it: the round trip to the service, and the loop's tick.
     double delay_s() const { return 0.001 + link_.round_trip_s().value_or(0.0); }
     /// Device space.
     glm::dvec3 workspace_middle_mm() const;
 
     std::string name() const override { return "Haply Inverse3"; }
-    /// Of its stiffness what holds with the delay that was measured.
+    /// With the stiffness that is stable at the measured delay.
     DeviceLimits limits() const override;
     void start() override {}
     DeviceState read(double now_s) noexcept override { return link_.read(now_s); }

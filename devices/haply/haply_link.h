@@ -1,12 +1,12 @@
-// The thread that talks to Haply's service: connects to it, again and again, asks for the arm's state with
-// each force that it gives it, and keeps the newest of both for the haptic loop, which waits for neither.
+// The thread that talks to Haply's service: reconnects when needed, requests the arm's state with each force
+// that it sends, and keeps the newest of both for the haptic loop, which waits for neither.
 //
 //   the loop leaves a force -> it is sent -> the service answers with a state -> the loop's next tick has it
 //
-// The thread does not rely on the service to let go: it says when there is no force. The arm gets one only
-// while the loop renews it, the arm is there and calibrated, and the clutch is open; and after any of these
-// was not so, only once the loop has wanted a small one. Until it has, the arm is said not to be there, so
-// that the loop takes its force away and brings it back gently, however short it was.
+// The thread does not rely on the service to drop the force: it sends "no force" itself. The arm gets a force
+// only while the loop renews it, the arm is there and calibrated, and the clutch is open; after an
+// interruption, only once the loop has requested a small force. Until then the arm is reported as lost, so
+// that the loop fades its force out and in again, however short the interruption was.
 #pragma once
 
 #include <array>
@@ -44,12 +44,12 @@ class HaplyLink {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// A state that is so late is not waited for: the force goes.
+    /// A state later than this is not waited for: the force ends.
     static constexpr std::chrono::milliseconds silent_after{20};
-    /// A service that has said nothing of sense for so long is called anew.
+    /// A service without a valid message for so long is connected to anew.
     static constexpr std::chrono::milliseconds given_up_after{500};
     static constexpr std::chrono::milliseconds between_tries{200};
-    /// A force that the loop has not renewed for so long is not one any more.
+    /// A force that the loop has not renewed for so long ends.
     static constexpr std::chrono::milliseconds longest_force_age{20};
     static constexpr double small_force_n = 0.1;
     /// Answers that the delay is taken from.
@@ -69,9 +69,9 @@ class HaplyLink {
     /// The loop's: a force on the hand from now on, device space. Real-time safe.
     void write(const glm::dvec3& force_n) noexcept;
 
-    /// From a message to its answer, the median of the first while the arm was there; nullopt before there
-    /// are enough, and while that is more than a coupling bears (arm_spring.h). Any thread, as is the
-    /// notice: a text that lives for ever, empty while all is well.
+    /// Round trip of a message, the median of the first ones while the arm was there; nullopt before there
+    /// are enough, and while it exceeds the limit of a coupling (arm_spring.h). Any thread, like the notice:
+    /// a text with static lifetime, empty while all is well.
     std::optional<double> round_trip_s() const noexcept;
     const char* notice() const noexcept { return notice_.load(std::memory_order_relaxed); }
 

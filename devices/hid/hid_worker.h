@@ -1,6 +1,5 @@
-// A thread that talks to a HID device: a USB device may take a millisecond to take a report, and opening one
-// takes many, so that the haptic loop leaves both to this thread. Finds the device again when it has been
-// unplugged.
+// A thread that talks to a HID device. A USB device may take a millisecond to accept a report, and many to
+// open, so the haptic loop leaves both to this thread. It finds the device again after it was unplugged.
 #pragma once
 
 #include <atomic>
@@ -15,7 +14,7 @@
 
 namespace osteomill {
 
-/// What is said on one connection, from plugging in to pulling out. Ends by its destructor.
+/// The exchange on one connection, from plugging in to unplugging. Its destructor ends it.
 class HidConversation {
   public:
     virtual ~HidConversation() = default;

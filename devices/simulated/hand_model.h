@@ -1,5 +1,5 @@
-// The hand that holds the arm: a mass on a spring and a damper whose other end is where the person means the
-// tool to be, and a slow correction of that intent by eye.
+// The hand that holds the arm: a mass on a spring and a damper, pulled towards the intended position of the
+// tool, and a slow correction of that intent by eye.
 //
 //     F_hand = K (x_target + c - x) + B (v_target - v) + g F_f u    |K (...)| <= max_push
 //     dc/dt  = 2 pi f a a^T (x_target - x)                     f = correction_hz, a = spindle axis

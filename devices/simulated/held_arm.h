@@ -1,5 +1,5 @@
-// A simulated arm in a simulated hand, seen from the driver's side: brought up to a time, it tells what the
-// encoders say. What the simulated and the client-driven device share. Device space.
+// A simulated arm in a simulated hand, seen from the driver's side: integrated up to a given time, it returns
+// the encoder readings. The common part of the simulated and the client-driven device. Device space.
 #pragma once
 
 #include "devices/position_sensor.h"
@@ -9,8 +9,8 @@ namespace osteomill {
 
 class HeldArm {
   public:
-    /// Time that one call makes up for at most, so that a call stays short: a machine that was suspended
-    /// for longer finds the arm where it was.
+    /// Longest time that one call integrates, so that it stays short: after a longer suspension of the
+    /// machine the arm is where it was.
     static constexpr double longest_catch_up_s = 0.1;
 
     HeldArm(const ArmModel& arm, const HandModel& hand, const glm::dvec3& start_mm);
@@ -19,8 +19,7 @@ class HeldArm {
     /// `target_mm`, with its spindle along `spindle_axis` (unit). Real-time safe.
     void advance(double now_s, const glm::dvec3& target_mm, const glm::dvec3& spindle_axis) noexcept;
 
-    /// Force of the motors from now on; more than they can give is cut off, what is not finite is none.
-    /// Real-time safe.
+    /// Force of the motors from now on; clamped to their maximum, zero if not finite. Real-time safe.
     void set_motor_force(const glm::dvec3& force_n) noexcept;
 
     /// As the encoders read it at the last advance.

@@ -3,9 +3,9 @@
 //
 //     sum_i | patient_i - (R tracker_i + t) |^2,    R a rotation, no scale
 //
-// after Umeyama 1991 (IEEE Trans PAMI 13:376), as Eigen has it. The residual is what then remains at each
-// pair. A small one does not say that the burr is where it seems: that depends on where the points lie
-// (around the field is best), and a marker that has moved since is not seen in it.
+// after Umeyama 1991 (IEEE Trans PAMI 13:376), as Eigen has it. The residual is the remaining distance at
+// each pair. A small residual does not prove that the burr is at its displayed position: that depends on the
+// points' positions (around the field is best), and it does not show a marker that has moved since.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,5 +1,5 @@
-// A motion that is known at samples, played at the haptic loop's rate: smooth, without a gap, and never
-// beyond what was measured.
+// A sampled motion, played at the haptic loop's rate: smooth, without a gap, and never beyond the measured
+// positions.
 //
 // Samples carry the time of their sender's clock and arrive late, now more, now less. They are played back by
 // that clock with a delay of two sample periods and the lateness that was seen lately:
@@ -15,16 +15,16 @@
 // fast, and the cubic stays within most_bulge_mm of the straight line: the burr goes nowhere where no sample
 // was near.
 //
-// Samples less than least_apart_s apart are one, the first: what lies between them is the tracker's noise,
-// and no motion. A sample that a hand cannot have reached is passed over; where the next confirms it, the
-// marker is elsewhere (it was hidden, or another is taken for it), and the motion begins anew there.
+// Samples less than least_apart_s apart count as one, the first: the difference is the tracker's noise, not
+// motion. A sample that a hand cannot have reached is skipped; if the next confirms it, the marker really is
+// elsewhere (it was hidden, or confused with another), and the motion restarts there.
 //
-// Playback never jumps: where the next sample is late it stands at the last but one, and then goes at most
-// catch_up times as fast until it is back in time. So the burr's way is the same, sample by sample, whatever
-// the link does.
+// Playback never jumps: if the next sample is late it stops at the last but one, and then runs at most
+// catch_up times as fast until it is on time again. So the burr's path is the same, sample by sample,
+// whatever the link does.
 //
-// Nothing is played before there are three samples, nor when none has come for five periods (50 ms at least,
-// 250 ms at most): the tool is lost, and what comes later begins anew. So does a clock that was set.
+// Playback needs three samples. It ends when none has come for five periods (50 ms at least, 250 ms at most):
+// the tool is lost, and the next sample starts anew. A clock that was set has the same effect.
 #pragma once
 
 #include <array>

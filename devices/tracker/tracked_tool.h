@@ -1,10 +1,10 @@
-// A handpiece that a tracker sees: the burr is where the hand holds it, and no force goes back. Device space
-// is the tracker's. What comes is played back as sampled_motion.h says.
+// A handpiece seen by a tracker: the burr follows the hand, and no force goes back. Device space is the
+// tracker's. The samples are played back by sampled_motion.h.
 //
-// The pedal of a STRING message holds for Permission::by_message_s after each; so its sender repeats
-// it. Pressed, it counts as late as the motion is played, or it would cut what the hand passed before;
-// released, at once. Where there is no pedal (one that is always down), to be seen is the permission: it
-// comes up for a moment where the tool has come back, since a spindle does not start by itself after that
+// A pedal sent as STRING messages is valid for Permission::by_message_s after each; so its sender repeats it.
+// A press is delayed like the motion, or the burr would cut where the hand was before; a release acts at
+// once. Without a pedal (one that is always down) visibility is the permission: the pedal counts as released
+// for a moment when the tool reappears, since a spindle does not start by itself after a loss
 // (safety/pedal_latch.h).
 #pragma once
 

@@ -1,5 +1,5 @@
-// The thread that hears a tracker: connects to its OpenIGTLink server as a client, again and again, and hands
-// over samples and pedal as they come. It sends nothing.
+// The thread that receives from a tracker: connects to its OpenIGTLink server as a client, reconnects when
+// needed, and passes on samples and pedal as they arrive. It sends nothing.
 #pragma once
 
 #include <atomic>

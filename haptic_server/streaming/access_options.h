@@ -1,4 +1,4 @@
-// Options of who may connect to a server, as typed on the command line: the same for all programs that serve.
+// Command-line options for the access to a server: the same for all programs that serve.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@
 namespace osteomill {
 
 struct Access {
-    std::optional<TlsFiles> tls;    ///< absent: anybody who reaches the server, in the clear
-    bool insecure_network = false;  ///< and that although other machines do
+    std::optional<TlsFiles> tls;    ///< absent: anyone who reaches the server, unencrypted
+    bool insecure_network = false;  ///< and that even for other machines
 };
 
 class AccessOptions {
@@ -21,8 +21,8 @@ class AccessOptions {
     /// Adds the options; outlives the parsing.
     explicit AccessOptions(CLI::App& app);
 
-    /// After parsing. Throws std::invalid_argument, in one line, where the files of TLS are not all named, or
-    /// where other machines would be served in the clear without being asked for.
+    /// After parsing. Throws std::invalid_argument, in one line, if only some of the TLS files are named, or
+    /// if other machines would be served unencrypted without the option for it.
     Access access_to(const ListenAddress& where) const;
     /// After parsing, for require_distinct.
     std::vector<NamedFile> files_read() const { return tls_.files_read(); }

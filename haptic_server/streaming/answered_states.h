@@ -1,12 +1,12 @@
-// Age of the news that a client's operator acts on: each input names the newest state frame that its
-// client had seen, and this remembers when what those frames said was last true. So both directions of the
-// link are measured by the server's clock alone: an input that was long under way and a client whose picture
-// is old look alike, and neither may move the tool.
+// Age of the information on which a client's operator acts: each input names the newest state frame that its
+// client had received, and this class remembers when the content of that frame was last current. So both
+// directions of the link are measured by the server's clock alone: a delayed input and an outdated picture
+// are treated alike, and neither may move the tool.
 //
 //     age of an answer = now - when the state that it answers was last true
 //
-// A state is true from when its frame was made for as long as there is nothing newer to tell: a tool that
-// rests is sent ten times a second only. No sockets, no clock.
+// A state is current from the making of its frame until there is something newer to send: a tool at rest is
+// sent only ten times a second. No sockets, no clock.
 #pragma once
 
 #include <chrono>
@@ -19,27 +19,27 @@ class AnsweredStates {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// What answers older news moves nothing. A round trip of 200 ms and the time between two state frames
-    /// fit in; a person at such a link still steers by what is there.
+    /// Input that answers an older state moves nothing. The limit leaves room for a round trip of 200 ms and
+    /// the time between two state frames; a person on such a link still sees the present situation.
     static constexpr std::chrono::milliseconds longest_age{250};
 
     enum class Answer {
         fresh,
         stale,     ///< too old
-        repeated,  ///< not numbered higher than one before: said twice, or overtaken
+        repeated,  ///< not numbered higher than all before: repeated, or overtaken
         unnamed,   ///< it names no state, as one that has seen none yet
-        unsent,    ///< it names a state that has not been sent: no client that means well does that
+        unsent,    ///< it names a state that was not sent: no honest client does that
     };
 
     /// A state frame of this number (they ascend) has been made.
     void sent(std::uint64_t number, Time now);
-    /// There is nothing newer to tell than what was sent last.
+    /// Nothing has changed since the state sent last.
     void still_true(Time now);
 
     /// An input of this number (from 1; they ascend) that names that state (0: none).
     Answer judge(std::uint64_t input_number, std::uint64_t state_number, Time now);
-    /// Whether the last input was judged otherwise than those before; at first they count as fresh. Repeated
-    /// ones do not count.
+    /// Whether the last input was judged differently from those before; at first they count as fresh.
+    /// Repeated ones do not count.
     bool is_news() const { return is_news_; }
 
   private:
@@ -49,8 +49,7 @@ class AnsweredStates {
         std::uint64_t number = 0;
         Time true_until;
     };
-    /// More are not kept, and count as old: a feed that has much to tell makes that many in a tenth of a
-    /// second.
+    /// Older states are dropped, and count as too old: a feed makes that many in a tenth of a second at most.
     static constexpr std::size_t most_kept = 1024;
 
     std::deque<State> states_;  // ascending; those that are too old go, but for the last

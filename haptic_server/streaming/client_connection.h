@@ -1,4 +1,4 @@
-// One client's connection: writes what its feed says, one frame at a time, and reads what the client sends.
+// One client's connection: writes its feed's frames, one at a time, and reads the client's messages.
 #pragma once
 
 #include <functional>
@@ -18,8 +18,7 @@ namespace osteomill {
 /// Lives until its stream is closed. All calls and callbacks are on the thread of the stream's io_context.
 class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   public:
-    /// An operator's window sends a hundred a second. After a network that stood still for seconds they come
-    /// at once.
+    /// An operator's window sends a hundred a second. After a network stall of seconds they arrive at once.
     static constexpr double most_messages_per_s = 1000.0;
     static constexpr double most_messages_at_once = 2000.0;
 
@@ -28,7 +27,7 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
         std::function<std::optional<WireError>(const v2::ClientFrame&)> on_message;
         /// A frame of so many bytes is on its way.
         std::function<void(std::size_t bytes)> on_sent{};
-        /// Once, last: the line says why it ended, and `is_fault` whether the client is to blame.
+        /// Once, last: the line gives the reason of the end, and `is_fault` whether the client is to blame.
         std::function<void(const std::string& line, bool is_fault)> on_closed;
     };
 
@@ -43,7 +42,7 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
     AnsweredStates& answers() { return answers_; }
     /// Asks the feed for a state frame (ClientFeed::request_state) and writes it, as pump() does.
     void show(SessionState state, bool with_checksum);
-    /// Writes the next frame, unless one is under way; call after the feed has been given something to say.
+    /// Writes the next frame, unless one is under way; call after the feed has got something new.
     void pump();
     /// How long the client's machine has had all of the end, by its acknowledgements; zero before. Called
     /// again and again.

@@ -1,10 +1,10 @@
 // Feed of one client, frame by frame: hello, a snapshot, state frames, goodbye. No sockets, no clock.
 //
 // The snapshot is taken from the mirror piece by piece, only as fast as the client reads, while milling goes
-// on. A change to a brick that has not been sent yet needs no mention: it will be sent as it then is. A
-// change to one that has been sent is pending until a state frame tells of it. So a client ends up equal
-// to the mirror however slow it is, and costs no more than one mask of changed voxels for each brick, or
-// less: see PendingChanges.
+// on. A change to a brick that is still to be sent needs no extra message: the brick will be sent in its
+// state of that time. A change to a sent brick is pending until a state frame contains it. So a client ends
+// up equal to the mirror however slow it is, and costs at most one mask of changed voxels for each brick: see
+// PendingChanges.
 #pragma once
 
 #include <deque>
@@ -37,24 +37,24 @@ struct FeedPackers {
 
 class ClientFeed {
   public:
-    /// `hello` is what the client is greeted with, `structures` what it is sent of protected ones, behind the
-    /// snapshot. All but `hello` outlive the feed.
+    /// `hello` is the client's first frame, `structures` are the messages of the protected structures, sent
+    /// after the snapshot. All but `hello` outlive the feed.
     ClientFeed(v2::Hello hello, const BoneReplica& mirror, FeedPackers& packers,
                std::span<const v2::StructureBricks> structures = {});
 
     /// To be called for every change of the mirror, before the next frame is requested.
     void note(std::span<const BrickChange> changes);
 
-    /// Asks for a state frame as soon as one can be sent; but where nothing is new and the tool rests, only
-    /// every deadband_period_s. One that has not been sent yet is replaced: what it
-    /// would have sent of the bone, the next one sends. A checksum once requested is stated by the next frame
-    /// after which the client knows all. Events wait until they are sent; of a client that does not
-    /// read, the oldest are forgotten beyond most_waiting_events.
+    /// Requests a state frame as soon as one can be sent; but if nothing is new and the tool rests, only
+    /// every deadband_period_s. A frame that has not been sent yet is replaced; its changes of the bone go
+    /// with the next one. A requested checksum goes with the first frame after which the client has all
+    /// changes. Events wait until they are sent; for a client that does not read, the oldest beyond
+    /// most_waiting_events are dropped.
     void request_state(SessionState state, bool with_checksum);
 
-    /// Of a recording: they go with the next state, or the next few.
+    /// Ticks for a recording: they go with the next state, or the next few.
     void note_tick(const TickSample& tick) { ticks_.push_back(tick); }
-    /// So many should be behind those noted so far, which have been sent.
+    /// So many ticks should follow those noted so far, and were lost.
     void note_missed_ticks(std::uint64_t missed) { missed_ticks_ += missed; }
     /// Those that are yet to be sent.
     std::size_t waiting_ticks() const { return ticks_.size(); }
@@ -69,16 +69,16 @@ class ClientFeed {
     /// Its pieces go between the states.
     void give_ct(std::shared_ptr<const CtVolume> ct) { ct_ = std::move(ct); }
 
-    /// The client doubts its bone. The next state frame answers, and what differs is sent like a change. An
-    /// error says why the client is not served: it has no bone yet, or asks before it has been answered, more
-    /// often than a repair needs, or what makes no sense.
+    /// The client doubts its bone. The next state frame answers, and differing bricks are sent like changes.
+    /// An error, which drops the client: it has no bone yet, or asks before the previous answer, more often
+    /// than a repair needs, or with invalid ranges.
     std::optional<WireError> compare(const v2::CompareBone& request);
 
-    /// Asks for the end: what is left to say, a last state with a checksum, then goodbye.
+    /// Requests the end: the remaining changes, a last state with a checksum, then goodbye.
     void finish(std::string reason);
 
-    /// The next frame, as bytes for the stream; nothing while there is nothing to say. Changes that do not
-    /// fit a state frame of so many bytes follow in the next; but it tells of one brick at least.
+    /// The next frame, as bytes for the stream; nothing while there is nothing to send. Changes that exceed a
+    /// state frame of so many bytes follow in the next; each frame contains at least one brick.
     std::optional<std::string> next(std::size_t most_state_bytes = FramePace::most);
 
     bool finish_requested() const { return goodbye_.has_value(); }
@@ -87,7 +87,7 @@ class ClientFeed {
 
     /// The number of the newest state frame; 0: none yet.
     std::uint64_t newest_state() const { return newest_state_; }
-    /// Whether that frame tells all there was to tell when a state was last requested.
+    /// Whether that frame contains everything that was new when a state was last requested.
     bool has_sent_all() const { return newest_state_ > 0 && !wants_state_; }
 
     /// What it remembers for the client.

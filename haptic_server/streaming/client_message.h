@@ -22,29 +22,29 @@ struct MessagingClient {
     AnsweredStates& answers;     ///< of what the client has been sent
     ToolLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
     std::size_t burr_count = 0;  ///< of the session
-    /// Takes what the client asks of the session; null: it may not ask now.
+    /// Takes the client's requests for the session; null: none are accepted now.
     const std::function<void(const SessionControl&)>* control = nullptr;
     std::optional<Viewpoint>* view = nullptr;  ///< where it looks from; null: nobody wants to know
 };
 
-/// What became of an operator's input that was let through, or not; see AnsweredStates.
+/// Outcome of an operator's input, accepted or not; see AnsweredStates.
 using Answer = AnsweredStates::Answer;
 
-/// The first message of a client must be a hello of this major version; an error says what it is instead.
+/// The first message of a client must be a hello of this major version; the error names what came instead.
 std::optional<WireError> check_greeting(const v2::ClientFrame& frame);
 
-/// Any later message. An operator's input is given to the lease if it is fresh.
-/// A control of the session is passed on; a client without the right to it gets an answer that says so.
-/// An error if the message makes no sense, which drops the client: no body, numbers that are not finite, a
-/// viewpoint that viewpoint_from refuses, a burr that is not there, an answer to a state that was not sent, a
-/// comparison that ClientFeed refuses. It has then changed nothing. Otherwise what became of an operator's
-/// input where that is news: it is otherwise than the one before, or the first that is not fresh.
+/// Any later message. An operator's input is given to the lease if it is fresh. A control of the session is
+/// passed on; a client without the right to it gets a refusal. An invalid message returns an error, which
+/// drops the client, and changes nothing: no body, numbers that are not finite, a viewpoint that viewpoint_from
+/// refuses, a burr that does not exist, an answer to a state that was not sent, a comparison that ClientFeed refuses. Otherwise returns the
+/// outcome of an operator's input if it is new: different from the one before, or the first that is not
+/// fresh.
 std::variant<std::optional<Answer>, WireError> take_client_message(const v2::ClientFrame& frame,
                                                                    const MessagingClient& client,
                                                                    ToolLease::Time now);
 
-/// Why such input moves nothing, as what a log says of its client; empty where it does, and of repeated ones,
-/// which do no harm.
+/// The reason why such input moves nothing, to follow the client's name in a log; empty if it does, and for
+/// repeated input, which does no harm.
 std::string reason_to_ignore(Answer answer);
 
 }  // namespace osteomill

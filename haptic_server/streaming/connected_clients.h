@@ -1,7 +1,7 @@
-// Everybody who is connected to a streaming server: who they are, what they may do, and what they are sent.
+// All clients connected to a streaming server: their identity, their rights, and their feeds.
 //
-// They are unidentified until they have said hello, and are served from then on. One of them may move the
-// tool, see ToolLease. All calls are on the thread of the connections' io_context.
+// A connection is unidentified until its hello, and is served from then on. One client may move the tool, see
+// ToolLease. All calls are on the thread of the connections' io_context.
 #pragma once
 
 #include <chrono>
@@ -33,9 +33,9 @@ class ConnectedClients {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// `hello`: what they are greeted with; `structures`: what they are sent of protected ones.
-    /// `operator_channel`: null where no client can move the tool. `control`: takes what those who may ask of
-    /// the session, if the hello accepts that. All references outlive this.
+    /// `hello`: the first frame of each client; `structures`: the messages of the protected structures.
+    /// `operator_channel`: null if no client can move the tool. `control`: takes requests for the session
+    /// from clients with that right, if the hello accepts them. All references outlive this.
     ConnectedClients(const StreamingOptions& options, const v2::Hello& hello,
                      const std::vector<v2::StructureBricks>& structures, const BoneReplica& mirror,
                      FeedPackers& packers, OperatorChannel* operator_channel,
@@ -44,12 +44,13 @@ class ConnectedClients {
     /// One whose handshake is over.
     void admit(std::shared_ptr<Stream> stream);
 
-    /// Once a frame, before it is made: leases that run out, certificates that are revoked, those who do not
-    /// say hello.
+    /// Once a frame, before it is made: ends expired leases, and drops clients with revoked certificates and
+    /// connections without a hello.
     void look_after(Time now);
     /// To be called for every change of the mirror.
     void note(std::span<const BrickChange> changes);
-    /// Gives the CT to those who want it. `ct` is asked only if there are any, and may have none yet.
+    /// Sends the CT to the clients that requested it. `ct` is called only if there are any, and may have none
+    /// yet.
     void show_ct(const std::function<std::shared_ptr<const CtVolume>()>& ct);
     /// Sends everybody a state frame.
     void show(const SessionState& state, bool with_checksum);
@@ -58,11 +59,12 @@ class ConnectedClients {
     void end_lease();
     /// Sends everybody the last state and a goodbye. Calls `when_gone` as soon as nobody is left.
     void say_goodbye(const SessionState& state, const std::string& reason, std::function<void()> when_gone);
-    /// After that: parts with those whose machine has had all of it for a second, though they do not hang up.
+    /// Afterwards: closes connections whose machine has had all data for a second, even if they do not hang
+    /// up.
     void part_with_who_stays(Time now);
     void cut_off(const std::string& line);
 
-    /// About those who have yet to say who they are; a few lines at a time.
+    /// Log of unidentified connections; a few lines at a time.
     void log_unidentified(const std::string& line);
 
     /// From where the one looks who moves the tool, did so last or, if none did, used the controls; of a

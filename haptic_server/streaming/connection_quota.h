@@ -1,4 +1,4 @@
-// Quota of connections that have not said yet who they are, shared by the addresses they come from.
+// Quota of connections that have not identified themselves yet, shared by the addresses they come from.
 //
 // When it is full, the oldest connection of the address that holds most goes. So one address, however fast it
 // connects, never costs another its connection. Behind one address, or from very many, a connection is kept

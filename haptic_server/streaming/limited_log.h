@@ -1,4 +1,5 @@
-// Lines that strangers cause, a few at a time: a scan of ports must not fill the disk, nor bury what matters.
+// Log lines caused by strangers, limited in rate: a port scan must not fill the disk, nor bury important
+// lines.
 #pragma once
 
 #include <spdlog/spdlog.h>
@@ -15,7 +16,7 @@ class LimitedLog {
   public:
     using Time = TokenBucket::Time;
 
-    /// Enough for everybody to come and go at once; then a line every two seconds.
+    /// Enough for all clients to come and go at once; then a line every two seconds.
     static constexpr double lines_at_once = 40.0;
     static constexpr double lines_per_s = 0.5;
 
@@ -27,8 +28,8 @@ class LimitedLog {
         spdlog::log(level, "{}{}", line, count_left_out());
     }
 
-    /// To be called regularly: what was left out of the log is counted in a line when there is room, though
-    /// all is quiet.
+    /// Call regularly: when there is room, writes a line with the number of lines left out, even if no more
+    /// come.
     void tell_left_out(Time now) {
         if (left_out_ > 0 && lines_.take(now)) spdlog::warn("clients came and went{}", count_left_out());
     }

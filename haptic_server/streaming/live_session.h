@@ -22,21 +22,21 @@ namespace osteomill {
 SessionInfo session_info(const Scene& scene, bool accepts_operator, double force_limit_n,
                          std::string program_version);
 
-/// The one reader of `tool` and the one consumer of `changes`; both outlive it. Never waits for the loops.
+/// The only reader of `tool` and only consumer of `changes`; both outlive it. Never waits for the loops.
 class LiveSession final : public StreamSource {
   public:
-    /// `controls`: outlives it; null for a session that nobody controls. `script`: what is due without
-    /// anybody asking for it.
+    /// `controls`: outlives it; null for a session without controls. `script`: controls that are due at given
+    /// times.
     LiveSession(TripleBuffer<ToolState>& tool, ChangeQueue& changes, SessionControls* controls = nullptr,
                 ControlScript script = {})
         : tool_(tool), changes_(changes), controls_(controls), script_(std::move(script)) {}
-    /// What makes the CT for people to look at, on a thread of its own, if anybody ever asks for it.
+    /// Makes the CT for display, on a thread of its own, at the first request.
     void offer_ct(std::function<CtVolume()> make) { make_ct_ = std::move(make); }
     /// The protected structures that are looked at from now on. Approaches and touches are logged.
     void watch(StructureWatch structures, std::vector<Tissue> tissues);
     /// From now on the cut of the edges is sent with the tool. The one reader of `cuts`, which outlives it.
     void listen_to(TripleBuffer<std::optional<CutState>>& cuts) { cuts_ = &cuts; }
-    /// What came of them; once the streaming server has ended.
+    /// Outcomes for the structures; call after the end of the streaming server.
     const StructureWatch& structures() const { return structures_; }
     SessionState update(BoneReplica& mirror, std::size_t viewers) override;
     void control(const SessionControl& control) override;

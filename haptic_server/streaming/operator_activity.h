@@ -1,4 +1,4 @@
-// Activity of the one who moves the tool: whether anything is done with it, or only keeps its lease.
+// Activity of the client that moves the tool: whether it uses the tool, or only keeps its lease.
 #pragma once
 
 #include <chrono>
@@ -18,14 +18,14 @@ class OperatorActivity {
     /// Another takes the lease.
     void begin() { newest_.reset(); }
 
-    /// What came of the one who has the lease. Anything new is an act: the target, the axis, the burr; and a
-    /// pedal that is down.
+    /// Input of the client that has the lease. Activity is a new target, axis or burr, or a pedal that is
+    /// down.
     void note(const OperatorCommand& command, Time now) {
         if (!newest_ || command.pedal || *newest_ != command) acted_ = now;
         newest_ = command;
     }
 
-    /// Whether nothing new has come for so long that it must not keep the tool from another.
+    /// Whether the client has been inactive for so long that another may take the tool.
     bool is_idle(Time now) const { return newest_ && now - acted_ > longest_rest; }
 
   private:

@@ -1,4 +1,4 @@
-// List of those who may move the tool: the subjects of certificates, as a file lists them.
+// List of the clients that may move the tool: subjects of certificates, from a file.
 //
 // One a line, whole, in the form of RFC 2253, which `openssl x509 -in viewer.pem -noout -subject -nameopt
 // RFC2253` prints; a certificate of scripts/make_lab_certificates.sh for `viewer` has the subject CN=viewer.

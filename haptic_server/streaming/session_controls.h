@@ -1,14 +1,13 @@
-// Controls of a session that its operator uses: pause, undo and redo by strokes, marks, the speed
-// of the spindle, saving, the end. On the streaming thread, which knows all that was milled from its own copy
-// of the bone.
+// Controls of a session by its operator: pause, undo and redo by strokes, marks, the speed of the spindle,
+// saving, the end. They run on the streaming thread, whose own copy of the bone shows everything that was
+// milled.
 //
-// Undo goes the way of milling, backwards: what the journal remembers is queued for the milling loop, which
-// writes it into its bone while the spindle is off, and comes back as changes that restore, for the copy of
-// the bone, every client and the recording. Meanwhile the session holds still. What is undone and redone in
-// one frame is one change of the bone, be it a thousand strokes. The tool is then lifted out of what came
-// back round it, before the session goes on. A command that has to wait for that, for a
-// stroke to end or for the arm waits in its turn, a second at most: then it is refused, with what it waited
-// for.
+// Undo takes the path of milling in reverse: the fractions in the journal are queued for the milling loop,
+// which writes them into its bone while the spindle is off; they return as changes that restore, for the copy
+// of the bone, every client and the recording. Meanwhile the session holds still. All that is undone and
+// redone in one frame is one change of the bone, even a thousand strokes. Before the session goes on, the
+// tool is lifted out of the restored bone. A command that must wait for this, for the end of a stroke or for
+// the arm waits in line, a second at most: then it is refused, with the reason.
 #pragma once
 
 #include <deque>
@@ -32,23 +31,24 @@ namespace osteomill {
 
 class SessionControls {
   public:
-    /// What is asked of others. Each returns why it cannot be done; an empty line: it will be.
+    /// Actions of other parts. Each returns the reason why it cannot be done; an empty line: it will be done.
     struct Requests {
         /// `text`: as what; empty for the bone itself.
         std::function<std::string(const Bone&, const std::string& text)> save{};
         std::function<std::string()> finish{};
         /// The answer to Finish, such as where the report will be.
         std::string finish_words{};
-        /// Where the burr goes that is wanted there, or why nowhere. Empty where a tool cannot be placed.
+        /// The pose of a burr that is to be placed there, or the reason of a refusal. Empty if tools cannot
+        /// be placed.
         std::function<std::variant<ToolPose, std::string>(const Bone&, const ToolPose&, std::size_t burr)>
             place{};
-        /// Where the burr is clear of bone, if it is not there; bone may have come back round it. Empty
-        /// where a tool cannot be placed.
+        /// A pose clear of bone, if the burr is inside bone, which undo may have restored around it. Empty if
+        /// tools cannot be placed.
         std::function<std::optional<ToolPose>(const Bone&, const ToolPose&, std::size_t burr)> lift_out{};
-        /// It is there now.
+        /// Called when the burr is there.
         std::function<void(const ToolPose&)> placed{};
     };
-    /// So many wait at most; what comes then is refused.
+    /// Most requests that wait; more are refused.
     static constexpr std::size_t most_waiting = 64;
     /// Of a streaming server, at 30 Hz: less than a second until the client has its answer.
     static constexpr int longest_wait_frames = 25;

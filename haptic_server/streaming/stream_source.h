@@ -1,4 +1,4 @@
-// Source that a streaming server shows: a session that is going on, or a recording of one.
+// Source of a streaming server: a running session, or a recording.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ class StreamSource {
   public:
     virtual ~StreamSource() = default;
 
-    /// Once a frame, on the streaming server's thread: writes into the mirror what has changed since the last
-    /// call, and says all else that a frame tells. `viewers`: clients that look on.
+    /// Once a frame, on the streaming server's thread: applies the changes since the last call to the mirror,
+    /// and returns the rest of the frame. `viewers`: number of watching clients.
     virtual SessionState update(BoneReplica& mirror, std::size_t viewers) = 0;
 
     /// The CT for people to look at, as soon as it is ready: the first call has it made. Nothing where there
     /// is none.
     virtual std::shared_ptr<const CtVolume> ct() { return nullptr; }
-    /// Between two updates: somebody who may asks for it. What comes of it is an event.
+    /// Between two updates: a request by a client with the right to it. The outcome is an event.
     virtual void control(const SessionControl&) {}
 };
 

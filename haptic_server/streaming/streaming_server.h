@@ -1,12 +1,11 @@
 // Server that shows the bone and the tool to every client: a snapshot, then state frames at 30 Hz.
 //
 // One thread of its own. It keeps its own copy of the bone (the mirror), so it never touches the milling
-// loop's, and takes over what has changed at every frame whether or not anybody watches. Memory is bounded:
-// for each client there is one frame under way and a set of voxels that are yet to be sent. A slow
-// client gets fewer frames and misses nothing; one that sends nonsense is dropped with one log line.
-// Nobody is served before a hello, and who says none cannot take a client's place: see
-// UnidentifiedConnections. With TLS only those are clients whom the lab's CA vouches for; without it, only
-// this machine is served unless an option says otherwise.
+// loop's, and applies the changes at every frame, watched or not. Memory is bounded: for each client one
+// frame under way and a set of voxels to be sent. A slow client gets fewer frames and misses nothing; a
+// client that sends invalid data is dropped with one log line. No client is served before its hello, and a
+// connection without one cannot take a client's place: see UnidentifiedConnections. With TLS a client needs a
+// certificate of the lab's CA; without it, only this machine is served unless an option says otherwise.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
-// Journal of the bone that each stroke took, so that strokes can be undone and redone, any number of them.
+// Journal of the bone removed by each stroke, for any number of undos and redos.
 //
-// Where a stroke ends is its owner's business (common/scene/stroke_span.h). For each brick that it changed
-// the journal keeps the mask of its voxels and, compressed, what was left of them before: no second copy of
-// the bone. Undone, a stroke keeps what was left after it instead, to be redone.
+// The owner decides where a stroke ends (common/scene/stroke_span.h). For each changed brick the journal
+// keeps the mask of its voxels and, compressed, their fractions before: no second copy of the bone. An undone
+// stroke keeps the fractions after it instead, for redo.
 #pragma once
 
 #include <cstddef>
@@ -35,9 +35,9 @@ class StrokeJournal {
     };
     /// What restores any number of strokes: each brick once.
     using Restoration = std::map<BrickIndex, Restored>;
-    /// Adds what gives the bone back that the last closed stroke took, or takes it again. `bone`, once all
-    /// that is in `restoration` already is done, is as that stroke left it, or found it. No stroke is open,
-    /// and there is one to undo, to redo.
+    /// Adds the changes that restore the bone of the last closed stroke, or remove it again. After everything
+    /// already in `restoration`, `bone` is as that stroke left it, or found it. No stroke is open, and there
+    /// is one to undo, or to redo.
     void undo(const Bone& bone, Restoration& restoration);
     void redo(const Bone& bone, Restoration& restoration);
 

@@ -1,8 +1,8 @@
-// Log lines about protected structures: a line where the burr comes within the distance at which a
-// structure is to be warned of, and one where it begins to touch it.
+// Log lines about protected structures: a line when the burr comes within the structure's warning distance,
+// and a line when it begins to touch it.
 //
-// Who hovers at the limit is named once: a structure that was warned of has to be left by half as much again
-// first. Bounded: of a session that goes on and on no more than most_lines.
+// A burr that hovers at the limit is logged once: before the next warning it must move away to one and a half
+// times the distance. Bounded: at most most_lines, however long the session.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ class StructureLog {
     explicit StructureLog(std::vector<Tissue> tissues)
         : tissues_(std::move(tissues)), is_warned_of_(tissues_.size()), touches_logged_(tissues_.size()) {}
 
-    /// What is to be said now, mostly nothing.
+    /// The lines due now, mostly none.
     std::vector<std::string> lines(std::span<const StructureDistance> distances, double time_s);
 
   private:

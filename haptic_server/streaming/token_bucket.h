@@ -1,4 +1,4 @@
-// So many a second on average, and at once what has been saved up. The caller says what time it is.
+// Rate limit: so many a second on average, and at once as many as were saved up. The caller passes the time.
 #pragma once
 
 #include <algorithm>

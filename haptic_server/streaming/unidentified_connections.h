@@ -1,4 +1,4 @@
-// Connections that have yet to say hello: a client that is about to, or a scan of ports.
+// Connections before their hello: a new client, or a port scan.
 //
 // They have a quota of their own (ConnectionQuota), so that they never cost a client its connection. They are
 // sent a hello and no more, so that a stranger costs no snapshot.
@@ -36,7 +36,7 @@ class UnidentifiedConnections {
     bool remove(Id id) { return since_.erase(id) != 0 && quota_.remove(id); }
 
     bool contains(Id id) const { return since_.contains(id); }
-    /// Who has been silent for that long.
+    /// Those that have been silent for that long.
     std::vector<Id> overdue(Time now) const {
         std::vector<Id> overdue;
         for (const auto& [id, since] : since_)
