@@ -9,9 +9,9 @@
 
 namespace osteomill {
 
-/// From options.from_s to the recording's end, options.speed recorded seconds a second, thirty pictures a
-/// second, each whole however long it takes. `source` plays a recording. Throws std::runtime_error where
-/// the film cannot be made, or `stop_requested` says so, and gl::NoOpenGl.
+/// From options.from_s to the recording's end, at options.speed recorded seconds a second, thirty pictures a
+/// second, each complete however long it takes. `source` plays a recording. Throws std::runtime_error if the
+/// film cannot be made, or `stop_requested` ends it, and gl::NoOpenGl.
 RenderReport run_film(const RenderOptions& options, SessionSource& source,
                       const std::function<bool()>& stop_requested);
 

@@ -9,8 +9,8 @@
 
 namespace osteomill {
 
-/// How long a run without a display waits for its first bone. A window waits for ever: there a person sees
-/// what it waits for.
+/// Time that a run without a display waits for its first bone. A window waits without limit, since it shows a
+/// person the reason.
 inline constexpr double longest_wait_for_bone_s = 60.0;
 /// Of a picture without a window.
 inline constexpr glm::ivec2 default_offscreen_size_px(960, 600);

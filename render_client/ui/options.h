@@ -58,13 +58,13 @@ struct RenderOptions {
     std::filesystem::path json;                                       ///< empty writes none
 };
 
-/// The command line asks for something other than a run: usage error (2), or help or version (0).
+/// The command line requests no run: usage error (2), or help or version (0).
 struct NoRun {
     int exit_code = 0;
     std::string message;  ///< for standard output where the code is 0, else one line for standard error
 };
 
-/// Either options or why there is no run.
+/// Either options or the reason for no run.
 struct ParsedOptions {
     RenderOptions options;
     std::optional<NoRun> no_run;

@@ -34,7 +34,7 @@ class SessionSource {
     virtual std::optional<ToolState> newest_tool() const { return std::nullopt; }
     /// What plays the session, where it is a recording; null where it is not.
     virtual RecordingPlayer* player() { return nullptr; }
-    /// Once, after the last poll: what the run failed at although it went on, in one line; mostly nothing.
+    /// Once, after the last poll: a failure of the run that did not end it, in one line; mostly nothing.
     virtual std::string finish() { return {}; }
 };
 

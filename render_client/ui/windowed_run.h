@@ -1,6 +1,6 @@
-// A run in a window, until it is closed. Two threads: the caller's reads the window's events and sends what
-// the operator wants at a steady rate (hand_input.h); another has the OpenGL context, takes in the session
-// and draws what has changed (redraw.h), however long that takes.
+// A run in a window, until it is closed. Two threads: the caller's reads the window's events and sends the
+// operator's commands at a steady rate (hand_input.h); the other has the OpenGL context, takes in the session
+// and draws the changes (redraw.h), however long that takes.
 #pragma once
 
 #include <functional>

@@ -37,9 +37,10 @@ struct TransferTable {
 TransferTable transfer_table(const BoneContent& content, std::span<const TissueColour> tissues,
                              const ShadingSettings& look);
 
-/// How far below bone's surface its colour is taken, voxels: one, which is below the steps of labels. What
-/// goes by stiffness is taken deeper, because CT blurs a surface over several voxels, and the mixture with
-/// air in the outermost ones would be seen as rings wherever the surface passes from one layer to the next.
+/// Depth below bone's surface at which its colour is read, voxels: one for tissues, to be below the steps of
+/// labels. Colours by stiffness are read deeper, because CT blurs a surface over several voxels, and the
+/// mixture with air in the outermost ones would show as rings wherever the surface passes from one layer to
+/// the next.
 double colour_depth_voxels(const TransferTable& table);
 
 /// How much of a voxel of each code counts, 0 to 255: its opacity where bone is a solid surface, all or

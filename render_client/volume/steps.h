@@ -1,7 +1,7 @@
-// Long work done a step at a time: a coroutine that stops after each step and says which part of all is done.
+// Long work done a step at a time: a coroutine that stops after each step and reports the completed share.
 //
-// Whoever has it decides when it goes on, on whatever thread, and does something else in between; dropping it
-// ends the work where it stands. What the work refers to must stay where it is until then.
+// The owner decides when and on which thread it continues, and may do other work in between; dropping it ends
+// the work. All data that the work refers to must stay at its address until then.
 #pragma once
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // colour and hard bone whiter, so that a segmented tooth still shows enamel on dentine, a jaw its cortical
 // bone.
 //
-// A tissue's own colour stands for its median stiffness. What is softer or harder has that colour times the
-// ratio in which bone_colours.h colours the two stiffnesses where no tissues are known.
+// A tissue's own colour stands for its median stiffness. Softer or harder bone has that colour times the
+// ratio of the two stiffnesses' colours in bone_colours.h.
 #pragma once
 
 #include <array>

@@ -1,9 +1,8 @@
 // A transfer function: colour and opacity of bone by its relative stiffness, along lines between control
 // points.
 //
-// The scene makes stiffness from CT numbers and the client is sent stiffness, so that is what a value is: 1
-// is cortical bone (1600 HU by the default relation), trabecular bone lies around a tenth, enamel above
-// twice.
+// The scene makes stiffness from CT numbers and sends stiffness to the client, so a value is a stiffness: 1
+// is cortical bone (1600 HU by the default relation), trabecular bone lies around a tenth, enamel above two.
 #pragma once
 
 #include <array>

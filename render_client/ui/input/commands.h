@@ -1,4 +1,4 @@
-// Commands that a key gives once: to the view, the operator's desk, the player, and for pictures in files.
+// Commands given by single key presses: to the view, the session, the player, and for pictures in files.
 #pragma once
 
 #include <filesystem>
@@ -19,29 +19,31 @@ class Commands {
              const std::filesystem::path& pictures_folder);
 
     void take(Action action);
-    /// Passes on what was requested with buttons.
+    /// Sends the requests made with buttons.
     void take(const SessionRequests& requests);
-    /// Where the burr stands clear of the bone that is seen at a pixel, the handpiece upright on it; nothing
-    /// beside the bone, and without a tool.
+    /// A pose with the burr clear of the bone seen at a pixel, the handpiece upright on it; nothing beside
+    /// the bone, and without a tool.
     std::optional<ToolPose> over_bone(const glm::dvec2& pixel) const;
-    /// Puts the tool there, the handpiece as it is or upright on the bone; a click beside it does nothing.
+    /// Moves the tool there, with the handpiece as it is or upright on the bone; a click beside the bone does
+    /// nothing.
     void place_at(const glm::dvec2& pixel, bool upright);
-    /// Before and after each frame: takes hold of the tool while the bone is moved under it, and has it
-    /// placed when that is over. Meanwhile the session is paused.
+    /// Before and after each frame: grips the tool while the bone is moved under it, and requests its new
+    /// place afterwards. Meanwhile the session is paused.
     void work_clutch();
     /// Whether mouse and keys move the bone.
     bool is_clutched() const { return clutch_.is_held(); }
     /// Turns the bone about the burr, which stays where it is.
     void turn_bone(double azimuth_change_rad, double elevation_change_rad);
-    /// Says what came of what was asked of the session.
+    /// Shows the outcome of requests to the session.
     void tell(const std::vector<ControlEvent>& events, double now_s);
-    /// Call after each frame: writes what was requested, and says so, or what went wrong, for a few seconds.
+    /// Call after each frame: writes the requested pictures, and shows a line about success or failure for a
+    /// few seconds.
     void write_pictures(const gl::Framebuffer& picture, double now_s);
 
     bool end_wanted() const { return end_wanted_; }
-    /// Whoever wants to end has to say so again, where a session goes on.
+    /// Ending the program needs a second confirmation while a session goes on.
     void ask_to_end();
-    /// Whether every frame is written, so that they have to come.
+    /// Whether every frame is written, so that frames must be drawn without pause.
     bool is_exporting() const { return export_wanted_; }
 
     /// One line, for a few seconds.

@@ -1,13 +1,13 @@
-// The operator's controls, on the thread that reads mouse and keyboard: turns what they do into requests of
+// The operator's controls, on the thread that reads mouse and keyboard: turns their input into commands of
 // the hand and sends them, at a rate of its own.
 //
-// Why a thread of its own: the server gives an operator who is silent 0.2 s
-// (simulation/device/permission.h) before the spindle stops. A picture that takes half a second must not
-// count as silence, nor may a pedal that comes up wait for it; but a program that no longer reads its mouse
-// must fall silent, so nothing else may speak for it. So the window's thread, which alone may read events (a
-// rule of GLFW's), does nothing but that and sends what it read; another one draws.
+// Reason for its own thread: the server stops the spindle after 0.2 s without a message from the operator
+// (simulation/device/permission.h). A picture that takes half a second must not count as silence, nor may a
+// released pedal wait for it; but a program that no longer reads its mouse must fall silent, so no other
+// thread may send for it. So the window's thread, which alone may read events (a rule of GLFW's), only reads
+// and sends; another thread draws.
 //
-// What the hand needs to know of the tool comes straight from the link, not from the last picture.
+// The tool's state comes straight from the link, not from the last picture.
 #pragma once
 
 #include <mutex>
@@ -21,19 +21,18 @@
 
 namespace osteomill {
 
-/// What the hand needs to know of the picture.
+/// State of the picture that the hand needs.
 struct HandInputPicture {
     bool drills = false;  ///< there is a session that an operator may drill in
     std::size_t burr_count = 0;
     double reach_mm = longest_reach_mm;  ///< of the hand, from the burr
     Camera camera{};
     glm::ivec2 size_px{1, 1};
-    /// A panel has the mouse, or would have it: Dear ImGui knows only a frame later where the pointer is now.
+    /// A panel has the mouse, or is about to: Dear ImGui learns the pointer's position a frame later.
     bool panels_have_mouse = false;
     std::vector<PixelBox> panels{};     ///< y down
     bool panels_have_keyboard = false;  ///< a text is being written
-    /// Where the burr stands clear of the bone that is under the cursor, patient LPS; nothing beside the
-    /// bone.
+    /// A position with the burr clear of the bone under the cursor, patient LPS; nothing beside the bone.
     std::optional<glm::dvec3> over_bone_mm{};
     bool drag_tilts = false;   ///< the mouse tilts the handpiece instead of moving it
     bool is_clutched = false;  ///< mouse and keys move the bone: the hand lets go
@@ -42,11 +41,11 @@ struct HandInputPicture {
 
 class HandInput {
   public:
-    /// The source outlives the desk.
+    /// The source outlives it.
     explicit HandInput(SessionSource& source) : source_(source) {}
 
-    /// Thread of the window, 50 times a second or more while is_driving(): takes what happened since the last
-    /// step, and sends what the hand wants.
+    /// Thread of the window, 50 times a second or more while is_driving(): takes the input since the last
+    /// step, and sends the hand's command.
     void step(const WindowInput& input, double elapsed_s);
     /// Thread of the window: whether the hand has asked for the tool.
     bool is_driving() const { return had_tool_; }
@@ -56,11 +55,11 @@ class HandInput {
     /// The pedal of an operator who has only a mouse: down until it is switched up.
     void switch_pedal();
     void choose_burr(std::size_t burr);
-    /// Lets go of the tool, which has been put elsewhere.
+    /// Releases the tool, which was placed elsewhere.
     void release();
     void choose_next_burr();
     void choose_previous_burr();
-    /// What the hand wants; nothing where nobody may drill.
+    /// The hand's command; nothing without the right to drill.
     std::optional<OperatorCommand> command() const;
 
   private:

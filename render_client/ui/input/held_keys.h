@@ -1,5 +1,5 @@
-// The keys that are held down, of a keyboard that may stutter: remote desktops repeat a held key as release
-// and press. A key that comes back within longest_gap_s was never let go.
+// The held keys of a keyboard that may stutter: remote desktops repeat a held key as release and press. A key
+// that returns within longest_gap_s counts as held throughout.
 #pragma once
 
 #include <bitset>

@@ -1,5 +1,5 @@
-// A mailbox from the thread of the window to the one that draws, for what happened: nothing is lost however
-// seldom that looks, and neither waits for the other.
+// A mailbox for input events from the window's thread to the drawing thread: nothing is lost however seldom
+// it is read, and neither thread waits for the other.
 #pragma once
 
 #include <chrono>

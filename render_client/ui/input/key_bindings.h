@@ -11,8 +11,8 @@
 
 namespace osteomill {
 
-/// What a key that is pressed once asks for. Keys that act while they are held are in the table, too, so that
-/// the help shows them and none is bound twice; their action is `none`.
+/// Action of a single key press. Keys that act while held are in the table, too, so that the help shows them
+/// and none is bound twice; their action is `none`.
 enum class Action {
     none,
     help,
@@ -56,7 +56,7 @@ enum class Action {
     on_5_s,
 };
 
-/// In which kind of session a binding holds.
+/// The kind of session in which a binding is valid.
 enum class Situation {
     always,
     drilling,    ///< the mouse moves the hand
@@ -80,7 +80,7 @@ struct KeyBinding {
     const char* meaning = "";
 };
 
-/// Where the keys that are held move the view, in steps of one: x to the right, y down.
+/// Motion of the view by held keys, in steps of one: x to the right, y down.
 glm::ivec2 held_view_motion(const std::bitset<WindowInput::most_keys>& keys_down);
 
 std::span<const KeyBinding> key_bindings();
@@ -88,7 +88,7 @@ std::span<const KeyBinding> key_bindings();
 /// The actions of the keys that went down, in their order.
 std::vector<Action> actions_of(std::span<const int> pressed_keys, Situation situation);
 
-/// Whether it is to be heeded in that situation.
+/// Whether a binding is valid in that situation.
 bool holds(const KeyBinding& binding, Situation situation);
 
 /// A line of the help: what to press, what it does. A line without a name goes on with the one before.

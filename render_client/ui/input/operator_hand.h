@@ -1,7 +1,7 @@
-// A hand without an arm, which turns what the mouse and the keys do into where the hand wants the burr to be.
+// A virtual hand, which turns mouse and keys into the wanted pose of the burr.
 //
-// The hand holds still until it is taken up; until then its target follows the tool, so that taking it up
-// never makes it jump. No clock, no window: the caller says what moved.
+// The hand holds still until it is activated; until then its target follows the tool, so that activation
+// never makes the tool jump. No clock, no window: the caller passes the motions.
 #pragma once
 
 #include "common/scene/hand_limits.h"
@@ -13,10 +13,9 @@ namespace osteomill {
 
 class OperatorHand {
   public:
-    /// Call before and after it is moved: before the hand is taken up it rests on the tool; afterwards the
-    /// target is kept within `reach_mm` of the burr, so that a mouse that comes back moves the tool at
-    /// once (that the tool goes no farther the server sees to), and a burr index beyond `burr_count` is
-    /// lowered to the last.
+    /// Call before and after each motion: before activation the hand rests on the tool; afterwards the target
+    /// is kept within `reach_mm` of the burr, so that a returning mouse moves the tool at once (the server
+    /// enforces the limit), and a burr index beyond `burr_count` is lowered to the last.
     void follow(const ToolState& tool, std::size_t burr_count, double reach_mm = longest_reach_mm);
 
     /// Moves the target in the plane that faces the camera by what the pointer moved (pixels, y down).
@@ -31,12 +30,13 @@ class OperatorHand {
     void choose_burr(std::size_t burr);
     void choose_next_burr() { choose_burr(command_.burr + 1); }
     void choose_previous_burr() { choose_burr(command_.burr > 0 ? command_.burr - 1 : 0); }
-    /// Lets go: pedal up, target back on the tool. For when the window loses focus, the server goes, or the
-    /// tool is another's.
+    /// Releases the tool: pedal up, target back on the tool. For a window that loses focus, a lost server, or
+    /// a tool that another client holds.
     void let_go();
 
     const OperatorCommand& command() const { return command_; }
-    /// Whether anything was asked of the tool since it was let go of: who only looks on leaves it to others.
+    /// Whether anything was requested since the release: a client that only watches leaves the tool to
+    /// others.
     bool wants_tool() const { return taken_up_ || command_.pedal || burr_chosen_ || tilted_; }
 
   private:

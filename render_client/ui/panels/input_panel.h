@@ -12,7 +12,7 @@ class InputPanel {
   public:
     enum class Background { filled, none };
 
-    /// In a place smaller than it wants to be it scrolls.
+    /// In a place smaller than its full size it scrolls.
     enum class Size { whole, scrolls };
 
     /// A page has the keyboard: Tab and arrows go from widget to widget, Return presses one.

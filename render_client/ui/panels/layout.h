@@ -27,12 +27,11 @@ struct PanelPlace {
 };
 
 /// Places for `requests`, the most important first, in a picture of `picture` pixels with `margin` round each
-/// panel. A panel goes to its anchor; where others are, it moves past them: down from an upper anchor, up
-/// from a lower one. One whose first size fits nowhere there gets its next, and none if none fits: a small
-/// window shows fewer panels.
-/// The middle of the picture, where one works, stays free of all that may not cover it; and so does `burr`,
-/// what the burr takes of the picture, of all that give way. Of those that the user opened the largest
-/// shrinks until all have a place, or none can.
+/// panel. A panel goes to its anchor; past others it moves down from an upper anchor, up from a lower one. If
+/// its first size fits nowhere it gets the next, and none if none fits: a small window shows fewer panels.
+/// Panels that must not cover the working area leave the middle of the picture free; panels that give way
+/// also leave `burr` free, the burr's part of the picture. Of the panels that the user opened the largest
+/// shrinks until all have a place, or none can shrink further.
 std::vector<std::optional<PanelPlace>> lay_out(std::span<const PanelRequest> requests,
                                                const glm::vec2& picture, float margin,
                                                const std::optional<PanelPlace>& burr = std::nullopt);
@@ -47,8 +46,8 @@ std::optional<glm::vec2> free_place(std::span<const glm::vec2> places, const glm
                                     std::span<const std::optional<PanelPlace>> panels,
                                     const glm::vec2& picture);
 
-/// How large panels may be drawn that are wanted `wanted` times as large as usual: less in a window that has
-/// no room for it, but never less than usual for that.
+/// Scale of panels that are requested at `wanted` times the usual size: smaller in a window without room for
+/// it, but never below the usual size for that reason.
 float scale_that_fits(float wanted, const glm::vec2& picture);
 
 /// How much of the picture's width and height that is.

@@ -18,7 +18,7 @@ namespace osteomill {
 
 struct StartScreen;
 
-/// The pointers are never null but where it says so; what a panel changes, it changes through them.
+/// The pointers are never null unless stated; panels make their changes through them.
 struct OverlayContent {
     LinkUpdate link;
     const SessionInfo* session = nullptr;  ///< null until a server has said hello
@@ -28,23 +28,22 @@ struct OverlayContent {
     ViewSettings* view = nullptr;
     double render_frames_per_s = 0.0;
     PictureQuality quality;
-    /// What the operator asks for, where one drills from here.
+    /// The operator's command, if this client may drill.
     std::optional<OperatorCommand> operator_command;
     /// Null where no slices are shown.
     SlicesView* slices = nullptr;
     const gl::Framebuffer* inset = nullptr;  ///< null where no second view is shown
     const Bone* bone = nullptr;              ///< null until one has come
     std::uint64_t bone_version = 0;
-    /// Takes what is requested with buttons; null where there is nobody to press them, as in offscreen
-    /// pictures.
+    /// Takes requests made with buttons; null if nobody can press them, as in offscreen pictures.
     SessionRequests* requests = nullptr;
     /// Null where no session is started from here.
     StartScreen* start = nullptr;
     /// Null unless a recording is shown.
     RecordingPlayer* player = nullptr;
-    /// Why there is no bone in the picture, where there is none for a reason.
+    /// The reason for a missing bone in the picture, if there is one.
     std::string bone_problem;
-    /// How much of a bone or a look that is to be shown is ready; nothing where all is shown.
+    /// Progress of the preparation of a new bone or appearance; nothing when all is shown.
     std::optional<int> preparation_percent{};
     bool has_bone = false;
 };

@@ -19,7 +19,7 @@ using PanelText = std::vector<TextLine>;
 PanelText session_text(const OverlayContent& content);
 /// Burr, spindle, removed volume; needs content.tool.
 PanelText tool_text(const OverlayContent& content);
-/// What must not be overlooked, and the notice; empty while there is nothing.
+/// Warnings that must not be overlooked, and the notice; empty without any.
 PanelText warning_text(const OverlayContent& content);
 /// Whether there is a fault, or the burr is near a protected structure: a banner with a frame round the
 /// picture says so.

@@ -1,8 +1,8 @@
 // Dear ImGui's context and its OpenGL 3 back end, as one RAII value. Needs a current OpenGL context. All
 // lengths are pixels of the picture, also where a window counts in larger units.
 //
-// Takes the window's input as data instead of by Dear ImGui's own back end for GLFW, which reads it where it
-// draws: reading is another thread's business, see hand_input.h.
+// Takes the window's input as data instead of through Dear ImGui's own back end for GLFW, which reads it
+// while drawing: another thread does the reading, see hand_input.h.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,5 +1,5 @@
-// The dialog in the middle of the picture: a mark's note, and whether to reset, to finish, to end. Drawn with
-// Dear ImGui; needs an ImGui frame to be open.
+// The dialog in the middle of the picture: the note of a mark, and confirmation of reset, finish and end.
+// Drawn with Dear ImGui; needs an ImGui frame to be open.
 #pragma once
 
 #include "render_client/ui/panels/overlay.h"

@@ -1,5 +1,5 @@
-// The tool bar: what can be done to the session, by words, signs and keys. Drawn with Dear ImGui; needs an
-// ImGui frame to be open.
+// The tool bar: buttons for all controls of the session, with words, signs and keys. Drawn with Dear ImGui;
+// needs an ImGui frame to be open.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,12 +11,12 @@
 
 namespace osteomill {
 
-/// Whether there is a session of which anything can be asked, by whomever.
+/// Whether there is a session that can be controlled, by this client or another.
 bool has_tool_bar(const OverlayContent& content);
 
 /// With words, with signs alone, and of those only the most used.
 std::vector<glm::vec2> tool_bar_sizes(const OverlayContent& content, const PanelPainter& painter);
-/// What is pressed goes into content.requests and content.view.
+/// Pressed buttons set content.requests and content.view.
 void draw_tool_bar(const OverlayContent& content, const PanelPlace& place);
 
 }  // namespace osteomill

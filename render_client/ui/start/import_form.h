@@ -51,8 +51,8 @@ std::vector<std::string> look_command(const std::string& bone_import, const Impo
 std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
                                         const std::filesystem::path& folder);
 
-/// Takes what a look brought: its segments, of which those that were there keep what was chosen; and, where
-/// the scan is another, the region, all of it, in voxels of 0.1 mm or as many as are usual.
+/// Takes the result of a preview: its segments, of which known ones keep their settings; and, for another
+/// scan, the region: all of it, in voxels of 0.1 mm or of the usual number.
 void take_look(ImportForm& form, const ScanPreview& look, bool is_another_scan);
 
 }  // namespace osteomill

@@ -1,5 +1,5 @@
-// Preview of a scan before it is imported: what bone_import --preview said of it, and where in its picture of
-// three slices something lies in the patient.
+// Preview of a scan before its import: the figures that bone_import --preview printed, and the patient
+// coordinates in its picture of three slices.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// The start page: a session on this machine from the window alone. It knows the cases that there are, makes
-// one of a scan, starts haptic_server for it as a program of its own, and says where the report is. No
-// drawing here (panels/start_panel.h).
+// The start page: a session on this machine from the window alone. It lists the cases, makes a case of a
+// scan, starts haptic_server for it as a separate program, and shows where the report is. No drawing here
+// (panels/start_panel.h).
 #pragma once
 
 #include <cstdint>
@@ -62,12 +62,12 @@ class StartPage {
     std::size_t chosen = 0;  ///< of cases()
     std::string trainee{};   ///< whose session it will be
     void start();
-    /// The window has seen the end of it: what remains to be done is its report.
+    /// The window has seen the end of the session: only its report remains to be written.
     void note_end_of_session();
-    /// Where the look is kept of the case that was started last; empty before.
+    /// File of the appearance of the case started last; empty before.
     const std::filesystem::path& look_file() const { return look_file_; }
-    /// Where the window is to look for its server from now on, if that is another place than before: a
-    /// session that is started here listens on a port of its own.
+    /// The server that the window should connect to from now on, if it has changed: a session started here
+    /// listens on a port of its own.
     std::optional<ListenAddress> take_server() { return std::exchange(server_is_at_, std::nullopt); }
     bool is_session_running() const { return server_ != nullptr && server_->is_running(); }
     /// Started a session that has ended.

@@ -1,6 +1,6 @@
-// The bone as it is drawn: its textures, made and kept up to date a little at a time, so that a picture never
-// waits long for them. While the textures of another bone, or for another look, are made, those before go on
-// being drawn, where both together keep within the memory that is allowed.
+// The drawn bone: its textures, made and kept up to date in small steps, so that a picture never waits long
+// for them. While the textures of another bone or appearance are made, the previous ones are still drawn, if
+// both fit the allowed memory.
 #pragma once
 
 #include <functional>
@@ -29,8 +29,8 @@ class BoneOnScreen {
     void replace(const Bone& bone, std::vector<TissueColour> tissues);
     /// It changed there.
     void note(std::span<const BrickChange> changes);
-    /// Another look takes other textures. Those for an earlier one are made to the end before, so that one
-    /// who drags a curve sees something of it.
+    /// A new appearance needs new textures. Those for an earlier one are finished first, so that a user who
+    /// drags a curve sees intermediate results.
     void set_look(const ShadingSettings& look) { look_ = look; }
     const ShadingSettings& look() const { return look_; }
 
@@ -40,8 +40,8 @@ class BoneOnScreen {
         std::vector<VoxelBox> changed{};          ///< else: voxels of textures()->grid()
         bool is_news() const { return other_textures || !changed.empty(); }
     };
-    /// Prepares, and uploads what changed, until there is nothing left to do or no time; a step at least.
-    /// `bone` is the one that replace() had last, at the same place.
+    /// Prepares textures and uploads changes until nothing is left to do or the time is over; at least one
+    /// step. `bone` is the one that replace() had last, at the same address.
     Outcome work(const Bone& bone, const std::function<bool()>& has_time);
 
     /// Null until the first are complete, and where there is no room for them beside those to come.

@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// Writes into `folder`, which is made when the first picture is. Nothing that is there is written over.
+/// Writes into `folder`, which is made with the first picture. Existing files are not overwritten.
 class PictureExport {
   public:
     explicit PictureExport(std::filesystem::path folder) : folder_(std::move(folder)) {}

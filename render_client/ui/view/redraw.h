@@ -1,6 +1,6 @@
-// The rule for when a window draws, or a run without one: while what it shows changes, and a little longer;
-// where nothing changes but figures (the time, the delay of the link), once a second, or less often where a
-// frame is dear; else not at all. No clock: the caller says what time it is.
+// The rule for when a frame is drawn: while the picture changes, and a little longer; if only figures change
+// (the time, the delay of the link), once a second, or less often if a frame is expensive; otherwise never.
+// No clock: the caller passes the time.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ class Redraw {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// Dear ImGui shows a frame or two later what an input did, and the camera is known to rest only after
+    /// Dear ImGui shows the effect of input a frame or two later, and the camera counts as resting only after
     /// two frames without motion.
     static constexpr std::chrono::milliseconds settling{250};
     /// Figures take at most a hundredth of the time, twice that of a core where two draw a frame; but they
@@ -21,7 +21,7 @@ class Redraw {
     static constexpr std::chrono::milliseconds shortest_figures_period{1000};
     static constexpr std::chrono::milliseconds longest_figures_period{5000};
 
-    /// What is shown changes otherwise than in figures, or is to be shown anew.
+    /// Something visible other than figures changes, or the window must be drawn again.
     void note_change(Time now) { changes_until_ = now + settling; }
     void note_figures() { has_new_figures_ = true; }
 

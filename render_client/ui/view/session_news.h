@@ -1,4 +1,4 @@
-// News of a session since the frame that was drawn last.
+// Changes of a session since the last drawn frame.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ enum class SessionNews {
     change    ///< something that moves, appears or goes
 };
 
-/// What a poll brought, beside the session as it was drawn.
+/// Changes in a poll, against the session as it was drawn.
 SessionNews news_since(const DrawnSession& drawn, const LinkUpdate& link,
                        const std::optional<ToolState>& tool,
                        const std::optional<OperatorCommand>& operator_command,

@@ -1,5 +1,5 @@
-// A session made visible: takes in what a source brings, keeps textures and camera, draws picture and panels.
-// What a window and an offscreen run have in common.
+// A session made visible: takes in a source's updates, keeps textures and camera, draws picture and panels.
+// The common part of a window and an offscreen run.
 #pragma once
 
 #include <chrono>
@@ -37,13 +37,13 @@ class SessionPicture {
     /// Makes the memory of large textures from now on; must outlive the picture.
     void make_storage_by(gl::StorageThread& thread) { bone_.make_storage_by(thread); }
 
-    /// On demand, a call of take_in prepares what is to be drawn for so long, and a step at least. With a
-    /// frame's drawing it stays well below what is felt as waiting.
+    /// On demand, a call of take_in spends at most this time on preparing textures, and at least one step.
+    /// With a frame's drawing it stays well below a noticeable wait.
     void prepare_for(std::chrono::milliseconds slice) { preparing_slice_ = slice; }
 
     /// Polls the source and brings the textures up to date: at full quality to the end, on demand for some
-    /// milliseconds, so that those of a large bone take many calls. What is new is so since the last draw; a
-    /// picture that is to be refined is a change.
+    /// milliseconds, so that those of a large bone take many calls. Returns the changes since the last draw;
+    /// a picture that can be refined counts as changed.
     SessionNews take_in();
     /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
     const gl::Framebuffer& draw(double elapsed_s);
@@ -62,9 +62,8 @@ class SessionPicture {
     void reset_camera() { camera_ = first_view_; }
     /// Of the first view.
     void set_first_magnification(double factor) { first_magnification_ = factor; }
-    /// Another look takes new textures, as a new bone does; the view stays, and the picture until they are
-    /// ready. Throws std::invalid_argument
-    /// where its transfer function is none.
+    /// A new appearance needs new textures, like a new bone; the view stays, and so does the picture until
+    /// they are ready. Throws std::invalid_argument for an invalid transfer function.
     void set_shading(const ShadingSettings& look);
     ViewSettings& view() { return view_; }
     /// Panels take what a person asks of the session, from now on.
@@ -81,9 +80,9 @@ class SessionPicture {
     bool has_bone() const { return bone_.textures() != nullptr; }
     /// How much of what is to be drawn is ready, in percent, while the bone or a look is prepared.
     std::optional<int> preparation_percent() const;
-    /// Whether a burr turns in the picture: it does for as long as the source tells of it.
+    /// Whether the burr turns in the picture: only while the source sends states.
     bool has_turning_burr() const { return tool_.has_turning_burr(); }
-    /// Why the bone that is there cannot be drawn; empty while it can.
+    /// Why the present bone cannot be drawn; empty while it can.
     const std::string& bone_problem() const { return bone_.problem(); }
     const LinkUpdate& link() const { return link_; }
     /// Null until a server has said hello.

@@ -18,16 +18,16 @@ std::optional<TransferFunction> parse_look(std::string_view text, const std::str
 /// Reads back to the same.
 std::string look_text(const std::optional<TransferFunction>& look);
 
-/// Which file the look is read from and saved to, as sessions come and go.
+/// The file from which the transfer function is read and to which it is saved, as sessions come and go.
 class TransferFile {
   public:
-    /// `file` is the user's and stays; empty: that of each case. `otherwise`: of a case that has none.
+    /// `file` is chosen by the user and stays; empty: each case's own. `otherwise`: for a case without one.
     TransferFile(std::filesystem::path file, std::optional<TransferFunction> otherwise)
         : file_(std::move(file)), is_users_(!file_.empty()), otherwise_(std::move(otherwise)) {}
 
-    /// A session begins for which the look is in this file, if there is one. Returns its look where that is
-    /// another file than before, and none where the file is the user's. Throws as read_look does; then the
-    /// file is not to be written over, and save says so.
+    /// Begins a session whose transfer function is in this file, if there is one. Returns it if the file is
+    /// another than before; nothing if the user chose the file. Throws as read_look does; the file then must
+    /// not be overwritten, and save reports that.
     std::optional<std::optional<TransferFunction>> open(const std::filesystem::path& file);
     bool has_file() const { return !file_.empty(); }
     /// Writes the file as a whole. Returns one line that says where it is, or what went wrong.

@@ -1,5 +1,4 @@
-// The background of a picture, drawn first over all of it: a renderer then leaves alone the pixels in which
-// it finds no bone.
+// The background of a picture, drawn first over all of it: the renderer then skips pixels without bone.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// Interface of whatever draws the bone into a picture.
+// Interface of a renderer of the bone.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,5 +1,5 @@
-// The shadow of the burr on the bone: a cue that tells how far away the burr is, which a single picture in
-// perspective does not show otherwise.
+// The shadow of the burr on the bone: a cue of the burr's distance, which a single picture in perspective
+// does not show otherwise.
 //
 // Two parts, both computed from the depth of the bone that is already drawn, for a sphere (the burr) and a
 // capsule (the shank). The soft shadow under the key light leaves the burr as the burr leaves the bone, and

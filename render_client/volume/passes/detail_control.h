@@ -1,15 +1,13 @@
-// Budget of what is drawn in a frame, so that frames keep their rate: what a pixel costs is learnt from what
-// the last ones cost, and from it how many can be afforded and how coarse a picture must be that is drawn
-// whole.
-//
-// A frame has room for `target_frame_s` less what the rest of it takes (tool, panels, showing the picture),
-// but at least for a quarter of it. Where nothing moves, a frame may take three times as long, and half of
-// that is the least: then nobody sees its rate, but how long the picture stays coarse. What is known follows
-// a measurement by half of the difference upwards and by a fifth downwards: a frame that comes late is worse
-// than one that is a little coarse. Parts of a picture under a still camera are counted by themselves: they
-// are where the bone is, and dearer than the average that background lowers. Before anything was measured a
-// pixel counts as dear as a software rasteriser makes it: a first picture that is coarse for a moment is
-// better than a second without an answer.
+// Budget of drawing in a frame, for a steady frame rate: the cost of a pixel is learnt from the last frames,
+// and gives the number of pixels that a frame can afford and the resolution of a whole picture.
+// A frame has room for `target_frame_s` less the time of its other parts (tool, panels, display), but at
+// least for a quarter of it. While nothing moves, a frame may take three times as long, and half of that is
+// the least: then the frame rate is not visible, but the time until the picture is fine is. The estimate
+// follows a measurement by half of the difference upwards and by a fifth downwards: a late frame is worse
+// than a slightly coarse one. Parts of a picture under a still camera are counted separately: they contain
+// bone, and cost more than the average with background. Before any measurement a pixel counts as expensive as
+// in a software rasteriser: a first picture that is coarse for a moment is better than a second without an
+// answer.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +17,7 @@ namespace osteomill {
 /// What was drawn: a whole picture, or parts of one under a still camera.
 enum class Extent { whole, parts };
 
-/// What a picture of another bone, or in another look, takes to draw.
+/// Cost of drawing after a change of bone or appearance.
 enum class DrawingCost { as_before, unknown };
 
 /// The goal under motion; what is shown then is smooth to the eye.
@@ -43,10 +41,9 @@ class DetailControl {
     /// The same of parts, while neither camera nor bone moves.
     std::int64_t affordable_pixels_at_rest() const;
 
-    /// By how much to divide width and height of so many pixels: 1 for full resolution, up to
-    /// 4 for a whole picture and 2 for parts: one that is coarser hides what the hand works at. It falls
-    /// only when the finer picture would take at most 80 % of the room, so that it does not flicker between
-    /// two.
+    /// Divisor of width and height for so many pixels: 1 for full resolution, up to 4 for a whole picture and
+    /// 2 for parts, since coarser parts would hide the place where the hand works. It falls only when the
+    /// finer picture would take at most 80 % of the room, so that it does not flicker between two values.
     double divisor_for(Extent extent, std::int64_t pixels);
 
   private:

@@ -1,11 +1,12 @@
-// The bone's part of the picture, kept from frame to frame: only what a change can be seen in is drawn again.
+// The bone's part of the picture, kept from frame to frame: only the parts that show a change are drawn
+// again.
 //
-// Each tile of the picture is either exact, as the renderer would draw it now, or stale. What turns stale
-// (all of it when the camera moves; under a still camera the tiles whose rays, or whose shading, can meet a
-// changed brick) is drawn again at once where time allows. Where it does not, what shows a surface
-// that is no longer there is drawn at a lower resolution and upscaled; tiles in which a carve nearby changes
-// no more than the ambient light stay as they are; and all of them become exact piece by piece, as frames
-// have room, once the camera rests.
+// Each tile of the picture is either exact, as the renderer would draw it now, or stale. A motion of the
+// camera makes all tiles stale; under a still camera a change makes those tiles stale whose rays, or whose
+// shading, can meet a changed brick. Stale tiles are drawn again at once if time allows. Otherwise tiles that
+// show a removed surface are drawn at a lower resolution and upscaled; tiles in which a nearby carve changes
+// only the ambient light stay as they are; and all become exact piece by piece, as frames have room, once the
+// camera rests.
 #pragma once
 
 #include <optional>
@@ -22,8 +23,8 @@
 
 namespace osteomill {
 
-/// Tiles of a picture in which changes of these voxels of the bone's grid() can be seen, by what looks so far
-/// around a voxel (shading_reach.h).
+/// Tiles of a picture that can show changes of these voxels of the bone's grid(), for shading that reads
+/// `reach_voxels` around a voxel (shading_reach.h).
 TileMask tiles_of_changes(std::span<const VoxelBox> changed, const BoneTextures& bone, const Camera& camera,
                           const glm::ivec2& size_px, int reach_voxels);
 
@@ -46,7 +47,7 @@ class IncrementalBonePass {
 
     /// Draws what is due. Returns the tiles that look different from before. Leaves some framebuffer bound.
     TileMask update(const BoneTextures& bone, const Camera& camera);
-    /// How long a whole frame took, waiting excluded: what is not drawing of bone is not to be had for it.
+    /// Time of a whole frame, waiting excluded: the part that is not drawing of bone is not available for it.
     void frame_took(double frame_s);
 
     PictureQuality quality() const;
@@ -69,7 +70,7 @@ class IncrementalBonePass {
                              Extent extent, double divisor);
     std::int64_t draw_timed(const BoneTextures& bone, const Camera& camera, const gl::Framebuffer& target,
                             std::span<const PixelBox> boxes, Extent extent);
-    /// Takes turns: what did not fit comes first the next time.
+    /// Takes turns: parts that did not fit come first the next time.
     TileMask part_that_fits(const TileMask& tiles, std::int64_t room_px);
 
     BoneRenderer& renderer_;

@@ -1,6 +1,6 @@
 // The picture of one moment: bone, soft structures, tool, force. The bone is a layer of its own (see
-// IncrementalBonePass); what the tool and an overlay covered in one frame is restored from it in the next,
-// and nothing else is copied.
+// IncrementalBonePass); the pixels that tool and overlay covered in one frame are restored from it in the
+// next, and nothing else is copied.
 #pragma once
 
 #include <optional>
@@ -43,7 +43,7 @@ class ScenePicture {
     /// Draws into its own framebuffer and leaves it bound, so that an overlay may follow. Null: there is no
     /// bone, or no tool, yet.
     const gl::Framebuffer& draw(const BoneTextures* bone, const DrawnTool* tool, const Camera& camera);
-    /// What an overlay drew over, after draw: without this call it would stay in the next frame.
+    /// Marks the pixels drawn by an overlay, after draw: otherwise they would stay in the next frame.
     void cover(std::span<const PixelBox> boxes);
 
     /// How long the whole frame took, waiting excluded.

@@ -1,10 +1,10 @@
-// The surfaces of one moment as numbers: for every pixel the depth, the normal and the thing that its ray
+// The surfaces of one moment as numbers: for every pixel the depth, the normal and the object that its ray
 // meets first.
 //
-// Each pixel has a ray of its own through its middle, and nothing is blended: at a silhouette a pixel is of
-// one thing, with that thing's depth. Bone is found by the very steps that RaycastRenderer finds it by, tool
-// and structures are the meshes that the picture shows, so that picture and numbers are of the same things.
-// All is solid: what one may see through in a picture is where it begins.
+// Each pixel has a ray of its own through its middle, and nothing is blended: at a silhouette a pixel belongs
+// to one object, with that object's depth. Bone is found by the same steps as in RaycastRenderer, tool and
+// structures are the meshes of the picture, so that picture and numbers agree. Every object is solid: a
+// translucent one has its first surface.
 #pragma once
 
 #include <epoxy/gl.h>

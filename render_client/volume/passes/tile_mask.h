@@ -1,5 +1,5 @@
-// A set of square tiles of a picture: what a change can be seen in, what the tool
-// covers. A union of any regions costs no more than its tiles, however far apart they lie.
+// A set of square tiles of a picture, such as those that show a change, or those that the tool covers. A
+// union of any regions costs no more than its tiles, however far apart they lie.
 #pragma once
 
 #include <cstdint>

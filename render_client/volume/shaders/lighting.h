@@ -1,7 +1,7 @@
 // Lights fixed to the scene: a key light from the front, above and to the left of the viewer's usual place, a
-// weaker fill light opposite, and an ambient light that is brighter from above. Diffuse only. And what is
-// behind. Here for what is lit on the CPU; lighting.glsl is the same for the shaders, and tests hold the two
-// together.
+// weaker fill light opposite, and an ambient light that is brighter from above; diffuse only. And the
+// background. For surfaces lit on the CPU; lighting.glsl is the same for the shaders, and tests keep the two
+// equal.
 #pragma once
 
 #include <glm/vec2.hpp>

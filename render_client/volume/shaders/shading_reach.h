@@ -3,12 +3,12 @@
 
 namespace osteomill {
 
-/// How far from a voxel, along an axis, a surface can lie whose shading depends on it: ambient_occlusion
-/// (bone_sampling.glsl) looks 16 voxels away into a map of 4-voxel blocks whose interpolation reads 2 voxels
-/// beyond each; one in reserve.
+/// Distance from a voxel, along an axis, of the farthest surface whose shading depends on it:
+/// ambient_occlusion (bone_sampling.glsl) looks 16 voxels away into a map of 4-voxel blocks whose
+/// interpolation reads 2 voxels beyond each; one in reserve.
 inline constexpr int shading_reach_voxels = 19;
-/// The same for where a surface is and which way it faces, which is what a carve is seen by: gradient_at
-/// reads 2 voxels away what is smoothed over 3; one in reserve.
+/// The same for position and direction of a surface, which show a carve: gradient_at reads 2 voxels away
+/// values that are smoothed over 3; one in reserve.
 inline constexpr int surface_reach_voxels = 6;
 
 }  // namespace osteomill

@@ -1,8 +1,8 @@
-// The bone as 3D textures: its fractions, which are carved, without what its look hides; one byte a voxel of
-// what colours it (tissue label or stiffness code), only where the bone has such a channel; the colours of
-// its surface voxels, only where the look asks for them; the fractions smoothed, for normals; and a map for
-// skipping empty space and for ambient light. Dense, as a brick atlas, or of a coarser copy, as memory
-// allows.
+// The bone as 3D textures: its fractions, which are carved, without the voxels that its appearance hides; one
+// byte a voxel for its colour (tissue label or stiffness code), only if the bone has such a channel; the
+// colours of its surface voxels, only if the appearance needs them; the smoothed fractions, for normals; and
+// a map for skipping empty space and for ambient light. Dense, as a brick atlas, or of a coarser copy, as
+// memory allows.
 #pragma once
 
 #include <functional>

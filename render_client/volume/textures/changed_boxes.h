@@ -1,5 +1,5 @@
-// Boxes round what changed in each brick: to upload, to shade and to draw again a whole brick for the few
-// voxels that a burr took something from costs more.
+// Boxes round the changed voxels of each brick: uploading, shading and drawing a whole brick for the few
+// voxels changed by a burr would cost more.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// The bone's fractions, smoothed: what the shaders take a surface's normal from.
+// The bone's smoothed fractions, from which the shaders compute a surface's normal.
 //
 // A fraction rises from none to all within one voxel, so its own slope turns with the lattice: normals are
 // off by 6 degrees at the 95th percentile, and light shows that as rings. Three passes of (1, 2, 1) / 4 along

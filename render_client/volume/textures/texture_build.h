@@ -1,10 +1,10 @@
 // The making of a bone's textures in steps of a few milliseconds: a head of 2048^3 voxels takes seconds, and
-// the drawing thread has a window to keep answering meanwhile.
+// meanwhile the drawing thread must keep the window responsive.
 //
-// The bone may be carved between steps. A step reads it as it then is, so what changed since the beginning
-// must be passed to BoneTextures::update at the end; then they are as if made of the bone as it ended up.
-// (Two things may differ: distances of empty space may be shorter than they might be, and of a coarser copy,
-// voxels keep the code of what was fullest when they were read.)
+// The bone may be carved between steps. A step reads it in its present state, so all changes since the
+// beginning must be passed to BoneTextures::update at the end; the textures are then as if made of the final
+// bone. (Two things may differ: distances of empty space may be shorter than necessary and, in a coarser
+// copy, voxels keep the code of the fullest voxel at the time of reading.)
 #pragma once
 
 #include <optional>
@@ -17,10 +17,10 @@ namespace osteomill {
 
 class TextureBuild {
   public:
-    /// `bone` must stay where it is, and the same but for its fractions, for as long as there are steps. A
-    /// tissue that no bone bears makes nothing translucent: all bone would be drawn the slower way for it.
-    /// `storage` makes the textures' memory; null: the steps do, however long that takes. Throws
-    /// std::invalid_argument where the look's transfer function is none.
+    /// `bone` must keep its address, and everything except its fractions, while there are steps. A tissue
+    /// without voxels makes nothing translucent: all bone would be drawn the slower way for it. `storage`
+    /// makes the textures' memory; null: the steps do, however long that takes. Throws std::invalid_argument
+    /// for an invalid transfer function.
     TextureBuild(const Bone& bone, std::vector<TissueColour> tissues, const ShadingSettings& look,
                  const TextureLimits& limits, gl::StorageThread* storage = nullptr);
     TextureBuild(const TextureBuild&) = delete;

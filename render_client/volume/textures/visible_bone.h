@@ -1,6 +1,6 @@
-// The bone without what a transfer function hides: a copy whose fractions are lowered to the part of each
-// voxel that is shown. What draws a bone draws this one as it would any other, and skips what is hidden as it
-// skips empty space.
+// The bone without the voxels that a transfer function hides: a copy whose fractions are reduced to the
+// visible part of each voxel. It is drawn like any other bone, and hidden voxels are skipped like empty
+// space.
 //
 // What decides by stiffness is the stiffest of a voxel and its 26 neighbours (copy_stiffest_codes), else a
 // surface would be full of pits; by tissue, the voxel's own label.

@@ -1,6 +1,6 @@
-// A renderer of what is not bone: the burr with its shank, the force on the hand as an arrow, the hand's
-// target as a ghost. All are meshes, tested against the depth that the bone left. Where the shank lies before
-// the burr, or the field round it, it is seen through.
+// A renderer of everything beside the bone: the burr with its shank, the force on the hand as an arrow, the
+// hand's target as a ghost. All are meshes, tested against the bone's depth. Where the shank hides the burr
+// or its surroundings, it is translucent.
 #pragma once
 
 #include <glm/vec3.hpp>
