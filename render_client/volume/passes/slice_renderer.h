@@ -3,7 +3,7 @@
 // rasteriser tests before the next slice is sampled; translucent bone is blended.
 //
 // A slice stands for the half step before and behind it, so a depth is off by half the spacing at most. The
-// colour of its pixels is found by bisecting the step before it, so that slices leave no rings.
+// surface in its pixels is found by bisecting the step before it, so that slices leave no rings.
 #pragma once
 
 #include <optional>
