@@ -49,9 +49,8 @@ class ForgottenChanges final : public ChangeSink {
     void push(const BrickChange&, BrickFractions) noexcept override {}
 };
 
-/// Gives the voxels of the change what `fractions` has for them. False, with the bone as it was, where the
-/// brick is not stored, or a voxel would rise by milling or in a part of the brick that the grid no longer
-/// has.
+/// Writes the fractions of the change's voxels from `fractions`. False, with the bone unchanged, if the brick
+/// is not stored, if milling would raise a voxel, or if a voxel beyond the grid's edge would rise.
 [[nodiscard]] bool apply(const BrickChange& change, BrickFractions fractions, Bone& bone);
 
 /// What came of a change in a copy of the bone that may be wrong.
@@ -59,11 +58,11 @@ enum class Correction {
     lowers,        ///< no voxel rose
     raises,        ///< some voxel rose
     not_stored,    ///< refused: no bone is stored in that brick
-    outside_grid,  ///< refused: it puts bone into a part of the brick that the grid no longer has
+    outside_grid,  ///< refused: it puts bone into a part of the brick beyond the grid's edge
 };
 
-/// Gives the voxels of the change what `fractions` has for them, though they may rise. Refused changes leave
-/// the bone as it was.
+/// Writes the fractions of the change's voxels from `fractions`, even if they rise. Refused changes leave the
+/// bone unchanged.
 [[nodiscard]] Correction correct(const BrickChange& change, BrickFractions fractions, Bone& bone);
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-// Some of the voxels of a brick: a bit for each, by offset.
+// A set of voxels of a brick: a bit for each, by offset.
 #pragma once
 
 #include <algorithm>

@@ -16,7 +16,7 @@ namespace osteomill {
 
 /// What a link under the file's own name means.
 enum class Link {
-    follow,  ///< of a name that somebody gave: what it points to is replaced
+    follow,  ///< of a name that a user gave: the target of the link is replaced
     replace  ///< of a name that this program chose, in a folder that may be from elsewhere: the link is
              ///< replaced
 };

@@ -1,6 +1,6 @@
-// Splitter of an OpenIGTLink stream into messages, out of the bytes as they come. Headers, byte order and CRC
-// are libopenigtlink's (openigtlink.org, protocol versions 1 to 3: of the later ones the extended header and
-// the metadata are set apart). Messages that nobody wants are skipped without being kept, whatever they hold.
+// Splitter of an OpenIGTLink stream of bytes into messages. Headers, byte order and CRC are libopenigtlink's
+// (openigtlink.org, protocol versions 1 to 3: of the later ones the extended header and the metadata are
+// separated). Other messages are skipped without being kept, whatever their size.
 #pragma once
 
 #include <cstdint>

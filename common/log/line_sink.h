@@ -1,4 +1,4 @@
-// The log of a program (spdlog) as lines of a stream that nobody waits for.
+// The log of a program (spdlog) as lines of a stream that never blocks the caller.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Another program that this one runs: what it writes is read as it comes, and it ends with its owner.
+// A program run by this one: its output is read as it comes, and it ends with its owner.
 #pragma once
 
 #include <chrono>
@@ -10,17 +10,16 @@ namespace osteomill {
 
 class ChildProgram {
   public:
-    /// Without a shell; `command[0]` is a path. Throws std::runtime_error with one line where it cannot be
-    /// run.
-    /// `longest_end`: how long it is waited for when it is asked to end.
+    /// Runs without a shell; `command[0]` is a path. Throws std::runtime_error with one line if it cannot be
+    /// run. `longest_end`: time that it gets to end when requested.
     explicit ChildProgram(const std::vector<std::string>& command,
                           std::chrono::seconds longest_end = std::chrono::seconds(2));
-    /// Asks it to end, waits for that, and then has it killed.
+    /// Requests its end, waits for it, and then kills it.
     ~ChildProgram();
     ChildProgram(const ChildProgram&) = delete;
     ChildProgram& operator=(const ChildProgram&) = delete;
 
-    /// Takes in what it has written and whether it has ended; never waits. True where there is news.
+    /// Reads new output, and whether it has ended; never waits. True if there is news.
     bool poll();
     /// What it wrote to both of its streams, of late.
     const std::string& output() const { return output_; }

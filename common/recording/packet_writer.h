@@ -1,5 +1,5 @@
-// Writer of packets into a recording (see packet.h), each at once: what has been written is in the file
-// whatever happens to the program. Waits for the disk: see RecordingWriter for who must not.
+// Writer of packets into a recording (see packet.h), each at once: written packets are in the file whatever
+// happens to the program. It waits for the disk: threads that must not use RecordingWriter.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Between the device's space and the patient's: p_patient = rotation * (scale * p_device) + offset.
+// The mapping from the device's space to the patient's: p_patient = rotation * (scale * p_device) + offset.
 // Directions turn; forces turn back and are not scaled.
 #pragma once
 

@@ -1,5 +1,5 @@
-// From CT numbers to the relative stiffness of bone for the burr (1: the bone for which K_t, K_r, K_a were
-// measured).
+// The relation of CT numbers to the relative stiffness of bone for the burr (1: the bone for which K_t, K_r,
+// K_a were measured).
 //
 // Piecewise linear between knots. The default knots follow yield strength against ash density rho (g/cm^3),
 // Keyak et al.: 137 rho^1.88 MPa up to 0.317, 114 rho^1.72 above; relative to rho = 1.6. Density is taken as

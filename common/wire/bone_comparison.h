@@ -38,7 +38,7 @@ class DifferenceSearch {
     /// when the request before has been answered.
     std::optional<v2::CompareBone> next(const Bone& bone, const RunningChecksum& checksum);
 
-    /// The answer. Refuses one that nobody waits for, and parts that were not asked about.
+    /// The answer. Refuses an unexpected one, and parts that were not in the request.
     std::optional<WireError> take(const v2::Comparison& answer);
 
     bool awaits_answer() const { return !requested_.empty(); }

@@ -24,7 +24,7 @@ namespace osteomill {
 /// A piece of a snapshot: there will be more.
 struct SnapshotGoesOn {};
 
-/// A snapshot is complete. Its checksum terms come with it, so that who shows it need not hash all of it.
+/// A complete snapshot, with the terms of its checksum, so that a viewer need not hash all of it.
 struct BoneArrived {
     Bone bone;
     RunningChecksum checksum;

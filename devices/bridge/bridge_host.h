@@ -93,7 +93,7 @@ class BridgeHost {
     /// What half of the last messages took to the arm and back; nullopt before there are enough.
     std::optional<double> round_trip_median_s() const;
 
-    /// Why the arm's hello was refused last, a text that lives for ever; empty where none was.
+    /// The reason of the last refusal of the arm's hello, a text with static lifetime; empty without one.
     const char* refusal() const { return refusal_; }
 
   private:

@@ -28,7 +28,7 @@ class TargetLimit {
     /// Real-time safe.
     glm::dvec3 limited(const glm::dvec3& wanted_mm, const glm::dvec3& burr_mm, double now_s) noexcept;
 
-    /// What was clamped so far, one line that lives for ever; empty where nothing was. Any thread.
+    /// The targets clamped so far, one line with static lifetime; empty if none. Any thread.
     const char* notice() const noexcept;
 
   private:

@@ -22,7 +22,7 @@ class HaplyConnection {
     HaplyConnection(const HaplyConnection&) = delete;
     HaplyConnection& operator=(const HaplyConnection&) = delete;
 
-    /// Connects and shakes hands, once. False: nobody is there, or it speaks no WebSocket.
+    /// Connects and shakes hands, once. False: no answer, or the other end speaks no WebSocket.
     bool open(const ListenAddress& service, std::chrono::milliseconds longest);
 
     /// False once the other end has gone, or sent what no WebSocket sends, or too long a message.

@@ -1,4 +1,5 @@
-// From the counts of an arm's encoders to where its tip is, and from a force there to motor currents.
+// Kinematics of an arm: from the counts of its encoders to the tip's position, and from a force there to
+// motor currents.
 //
 //     theta_i = direction_i (2 pi count_i / counts_per_rev_i) capstan_i / body_i          i = A, B, C
 //     x = cos A (L_b sin B + L_c sin C) - o_x

@@ -45,7 +45,7 @@ class ArmLink {
     /// Two exchanges that failed: what it says is too old to answer with a force.
     static constexpr double silent_after_s = 0.020;
     static constexpr double given_up_after_s = 0.5;
-    /// A force that nobody has renewed for this long is not one any more.
+    /// A force that has not been renewed for this long ends.
     static constexpr double longest_force_age_s = 0.020;
     static constexpr double small_force_n = 0.1;
     /// What a hand that holds the arm at its calibration position may move meanwhile.
@@ -70,7 +70,7 @@ class ArmLink {
     /// Newest reading; `connected` only in `waiting` and `driving`, while reports come. Its pedal was said,
     /// on the clock of `now_s`, when the queue of reports was last empty before it.
     const DeviceState& reading() const { return reading_; }
-    /// What people should know or do, a text that lives for ever; empty while all is well.
+    /// A notice for people, a text with static lifetime; empty while all is well.
     const char* notice() const noexcept;
     /// Reports that were passed over.
     std::uint64_t malformed_count() const { return malformed_count_; }

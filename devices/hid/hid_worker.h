@@ -23,7 +23,7 @@ class HidConversation {
     /// its reader has been given it.
     virtual bool exchange() noexcept = 0;
 
-    /// What people should know or do, a text that lives for ever; empty while all is well.
+    /// A notice for people, a text with static lifetime; empty while all is well.
     virtual const char* notice() const noexcept = 0;
 };
 

@@ -1,7 +1,7 @@
 // A haptic arm in a hand that follows a trajectory; no hardware. Deterministic: what it reads depends on the
 // trajectory, the forces written and the times of reading, and on nothing else.
 //
-// The hand waits for its tool. Somebody who drills does not let the intent run centimetres ahead of a burr
+// The hand waits for its tool. A person who drills does not let the intent run centimetres ahead of a burr
 // that hard bone holds back, but feeds more slowly: trajectory time passes at a pace that falls with the
 // distance e between target and tool,
 //
@@ -30,8 +30,7 @@ class SimulatedDevice final : public HapticDevice {
     /// the trajectory begins.
     SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm,
                     const HandModel& hand);
-    /// On rails: at every moment where the trajectory has it, whatever the force, as the arm that was
-    /// recorded was.
+    /// On rails: always exactly on the trajectory, whatever the force, as the recorded arm was.
     SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm);
 
     std::string name() const override { return "simulated arm"; }

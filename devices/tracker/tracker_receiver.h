@@ -43,7 +43,7 @@ class TrackerReceiver {
     /// The next one; one reader. Real-time safe.
     bool pop(Item& item) noexcept { return items_.pop(item); }
 
-    /// What people should know, in one line that lives for ever; empty while samples come. Any thread.
+    /// A notice for people, in one line with static lifetime; empty while samples come. Any thread.
     const char* notice() const noexcept { return notice_.load(std::memory_order_relaxed); }
 
   private:

@@ -1,4 +1,4 @@
-// A kind of device as the command line knows it: a row of device_table.h.
+// A kind of device on the command line: a row of device_table.h.
 #pragma once
 
 #include <atomic>
@@ -22,16 +22,16 @@
 
 namespace osteomill {
 
-/// The device, and what it is driven by.
+/// The device, and the sources that drive it.
 struct DeviceParts {
     std::unique_ptr<HidTransport> transport{};            ///< null: the device is not plugged in
     std::unique_ptr<OperatorChannel> operator_channel{};  ///< null: no client may drive
     std::unique_ptr<HapticDevice> device{};               ///< null: a stop came before the device
     const SimulatedDevice* simulated = nullptr;           ///< `device`, if it is one
-    /// What of device space is to be at the scene's start pose, where the scene does not say how the device
-    /// sits on the patient.
+    /// The point of device space for the scene's start pose, if the scene does not place the device on the
+    /// patient.
     std::optional<glm::dvec3> home_mm{};
-    /// How the device sits on the patient, whatever the scene says: of one that knows.
+    /// The device's place on the patient, overriding the scene: for a device that knows it.
     std::optional<DeviceMapping> mapping{};
 
     bool is_finished() const { return simulated != nullptr && simulated->is_finished(); }
@@ -42,13 +42,13 @@ struct DeviceContext {
     const Scene& scene;
     std::optional<Grip> grip;       ///< of a simulated hand; nothing: the simulated one is on rails
     const std::atomic<bool>& stop;  ///< ends a wait for an arm
-    /// Hears what is waited for, and what has come.
+    /// Called with messages for people while an arm is awaited.
     std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 
 /// Throws std::runtime_error in one line.
 using MakeDevice = std::function<DeviceParts(const DeviceContext&)>;
-/// Reads the small files that the device needs, for a wrong one to be said before a bone is loaded. Throws
+/// Reads the small files that the device needs, so that an error shows before a bone is loaded. Throws
 /// std::runtime_error in one line.
 using PrepareDevice = std::function<MakeDevice()>;
 
@@ -65,7 +65,7 @@ struct DeviceOption {
     bool names_file = false;  ///< which is read, so nothing may be written over it
 };
 
-/// What was typed of a device's options, by flag; what was not typed is not there.
+/// The typed options of a device, by flag; options that were not typed are absent.
 class TypedOptions {
   public:
     explicit TypedOptions(std::map<std::string, std::string> texts = {}) : texts_(std::move(texts)) {}
@@ -73,7 +73,7 @@ class TypedOptions {
         const auto found = texts_.find(flag);
         return found != texts_.end() ? std::optional(found->second) : std::nullopt;
     }
-    /// What `parse` makes of it, or `usual`. What it throws names the option.
+    /// The value that `parse` makes of the text, or `usual` without a text. Its exceptions name the option.
     template <typename Value, typename Parse>
     Value parsed(const char* flag, Value usual, const Parse& parse) const {
         const std::optional<std::string> text = given(flag);
@@ -91,9 +91,9 @@ class TypedOptions {
 
 struct DeviceEntry {
     const char* name;
-    const char* text;  ///< for --help: who moves the tool then
+    const char* text;  ///< for --help: the mover of the tool
     std::vector<DeviceOption> options{};
-    /// The coupling that it asks for, unless the command line names one; null: the force model's.
+    /// The coupling that suits it, unless the command line names one; null: the force model's.
     const char* coupling = nullptr;
     bool is_simulated = false;  ///< may run on the virtual clock, and follows a trajectory
     bool is_moved_by_client = false;

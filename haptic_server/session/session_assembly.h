@@ -1,6 +1,6 @@
-// A session with all that belongs to it, made in order: the scene with its bone, the device, logs, the
-// milling session, and what shows it. Whoever runs a session, haptic_server, Python or a test, makes one of
-// these; there may be many in a process.
+// A session with all its parts, made in order: the scene with its bone, the device, logs, the milling
+// session, and its streaming. haptic_server, Python and tests each make one for a session; there may be many
+// in a process.
 //
 // On the real clock it runs to its end; on the virtual one it can also be advanced tick by tick, and is the
 // same to the bit however its ticks are divided.
@@ -22,26 +22,26 @@
 namespace osteomill {
 
 struct SessionOptions {
-    /// Where it can be controlled, whether changes are consumed and what was removed before follow from the
-    /// other parts.
+    /// The other parts decide whether it can be controlled, whether changes are consumed, and the volume
+    /// removed before.
     MillingSessionOptions milling{};
     LogFiles logs{};
-    SampleLog<TickSample>* more_ticks = nullptr;  ///< where every tick goes besides; outlives the session
-    std::optional<ShownOptions> shown{};          ///< absent: nobody looks on, and nothing is recorded
+    SampleLog<TickSample>* more_ticks = nullptr;  ///< also gets every tick; outlives the session
+    std::optional<ShownOptions> shown{};          ///< absent: no clients, no recording
 };
 
 class SessionAssembly {
   public:
     using OnProgress = MillingSession::OnProgress;
 
-    /// Seats the device on the patient, where the scene leaves that to it. `device` holds a device. Throws
-    /// std::runtime_error or std::invalid_argument in one line for what a part refuses, and for a session on
-    /// the virtual clock that would never end.
+    /// Places the device on the patient, if the scene leaves that to it. `device` holds a device. Throws
+    /// std::runtime_error or std::invalid_argument in one line if a part refuses its options, and for a
+    /// session on the virtual clock that would never end.
     SessionAssembly(SessionScene scene, DeviceParts device, SessionOptions options);
     SessionAssembly(const SessionAssembly&) = delete;
     SessionAssembly& operator=(const SessionAssembly&) = delete;
 
-    /// As it is run: with its device seated.
+    /// The scene of the session: with its device placed.
     const Scene& scene() const { return scene_.scene; }
     const BoneSource& source() const { return scene_.source; }
     const MillingSessionOptions& options() const { return options_; }
@@ -49,11 +49,11 @@ class SessionAssembly {
     MillingSession& session() { return *session_; }
     const MillingSession& session() const { return *session_; }
     SessionLogs& logs() { return logs_; }
-    /// Null: nobody looks on.
+    /// Null: no clients, no recording.
     ShownSession* shown() { return shown_ ? &*shown_ : nullptr; }
 
     /// Starts the device, runs until the duration has passed, `stop` is set, the simulated hand is at its
-    /// trajectory's end or somebody ends the session, and stops the device. Once. Throws what
+    /// trajectory's end or a client ends the session, and stops the device. Once. Throws what
     /// HapticDevice::start() throws.
     void run(const std::atomic<bool>& stop, const OnProgress& on_progress = {});
 

@@ -11,9 +11,9 @@ namespace osteomill {
 /// "interpolate" with a force model that has none.
 std::string usual_coupling(bool has_cutting_law, const DeviceEntry& device);
 
-/// What is published is 100 Hz for the milling force. A force that is a wall, too, needs all that there is:
-/// an arm in a light hand holds 0.2 N/mm at 100 Hz, 1.4 N/mm at 1 kHz. Throws std::invalid_argument for a
-/// name that is none.
+/// The published rate is 100 Hz for the milling force. A contact model, whose force is also the wall, needs
+/// the full rate: an arm in a light hand holds 0.2 N/mm at 100 Hz, 1.4 N/mm at 1 kHz. Throws
+/// std::invalid_argument for an unknown name.
 double usual_milling_rate_hz(const std::string& coupling, const std::string& force_model);
 
 }  // namespace osteomill

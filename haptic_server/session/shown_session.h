@@ -1,4 +1,4 @@
-// Part of a session that shows it to clients, records it, and lets them control it.
+// The part of a session that streams it to clients, records it, and lets them control it.
 #pragma once
 
 #include <cstdint>
@@ -42,9 +42,9 @@ class ShownSession {
     /// Begins to say goodbye, and waits for a bone that is being saved. Call once the session has ended.
     void end();
     // After end().
-    /// What came of protected structures.
+    /// Outcomes for the protected structures.
     const StructureWatch& structures() const { return live_.structures(); }
-    /// Where somebody has put the tool, if anybody has.
+    /// The last place of the tool chosen by a client, if any.
     const std::optional<ToolPose>& placed() const { return placed_; }
 
   private:

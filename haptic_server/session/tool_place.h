@@ -1,4 +1,4 @@
-// Nearest pose at which a tool can stand when it is wanted at a place of the bone.
+// The nearest pose clear of bone for a tool that is to be placed at a point of the bone.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@
 
 namespace osteomill {
 
-/// Farther from all bone nobody means to begin.
+/// A start farther from all bone is taken for a mistake.
 inline constexpr double farthest_from_bone_mm = 50.0;
-/// So far the burr is drawn back along its handpiece, at most, to be clear of bone.
+/// Greatest distance by which the burr is drawn back along its handpiece to be clear of bone.
 inline constexpr double longest_draw_back_mm = 20.0;
-/// What is left between burr and bone then.
+/// Gap between burr and bone afterwards.
 inline constexpr double least_gap_mm = 0.5;
 /// Out of the deepest hole that there is.
 inline constexpr double longest_lift_mm = 100.0;

@@ -62,7 +62,7 @@ class ClientFeed {
     /// An answer for this client alone, sent with its next state.
     void tell(const ControlEvent& event) { events_.push_back(event); }
 
-    /// The client wants to see the CT; asked for again nothing happens.
+    /// The client requests the CT; a second request has no effect.
     void ask_for_ct() { wants_ct_ = true; }
     /// Whether it waits for give_ct().
     bool wants_ct() const { return wants_ct_ && !ct_; }

@@ -57,7 +57,7 @@ class ConnectedClients {
 
     /// Nobody moves the tool any more.
     void end_lease();
-    /// Sends everybody the last state and a goodbye. Calls `when_gone` as soon as nobody is left.
+    /// Sends all clients the last state and a goodbye. Calls `when_gone` as soon as none is left.
     void say_goodbye(const SessionState& state, const std::string& reason, std::function<void()> when_gone);
     /// Afterwards: closes connections whose machine has had all data for a second, even if they do not hang
     /// up.
@@ -72,13 +72,13 @@ class ConnectedClients {
     std::optional<Viewpoint> view_of_operator();
 
     std::size_t count() const { return connections_.size(); }
-    /// Of frames, to all who are connected or were.
+    /// Frames sent, to all present and former clients.
     std::uint64_t sent_bytes() const { return sent_bytes_; }
 
   private:
     using Id = ToolLease::ClientId;
 
-    /// Those who have said hello.
+    /// Identified clients.
     std::size_t clients() const { return connections_.size() - unidentified_.size(); }
     bool may_control(Id id, Time now) const;
     v2::Hello hello_for(bool may_operate) const;

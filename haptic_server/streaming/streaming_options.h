@@ -1,4 +1,4 @@
-// Settings of a streaming server: where it listens, whom it serves, how often, and what it records.
+// Settings of a streaming server: its address, its clients, its frame rate, and its recording.
 #pragma once
 
 #include <chrono>
@@ -38,7 +38,7 @@ struct StreamingOptions {
     /// Two round trips and some milliseconds of arithmetic; a client that does not hear from its server for
     /// 5 s gives up.
     std::chrono::milliseconds handshake_deadline{3000};
-    /// Places for those who are not clients yet, see ConnectionQuota.
+    /// Places for unidentified connections, see ConnectionQuota.
     std::size_t unidentified_quota = osteomill::unidentified_quota();
     double frame_rate_hz = 30.0;
     /// Frames go out when show_frame() is called instead, and a recording waits for its disk: for sessions

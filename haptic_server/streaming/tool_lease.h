@@ -1,7 +1,7 @@
-// Lease on the tool: which client moves it, and its newest input. The first client that sends input has the
-// lease until it leaves or the lease runs out. Its input renews the lease. A client whose input has not
-// changed for half a minute (OperatorActivity) loses it to the next one that sends input. The pedal of a
-// silent operator is the device's matter, see simulation/device/permission.h.
+// Lease on the tool: the client that moves it, and that client's newest input. The first client that sends
+// input has the lease until it leaves or the lease runs out. Its input renews the lease. A client whose input
+// has not changed for half a minute (OperatorActivity) loses it to the next one that sends input. The pedal
+// of a silent operator is the device's matter, see simulation/device/permission.h.
 #pragma once
 
 #include <chrono>

@@ -26,7 +26,7 @@ class SessionSource {
     virtual void ask_for_ct() {}
     /// To a server elsewhere from now on; nothing where there is none.
     virtual void connect_to(const ListenAddress&) {}
-    /// Any thread: asks something of the session; nothing where nobody takes it.
+    /// Any thread: a request to the session; ignored if there is none to take it.
     virtual void send_control(const SessionControl&) {}
     /// From where the operator looks; nothing where nobody keeps it.
     virtual void send_view(const Viewpoint&) {}

@@ -1,4 +1,4 @@
-// Quality of the picture on show: all that there is, or less for the sake of speed.
+// Quality of the displayed picture: full, or reduced for speed.
 #pragma once
 
 namespace osteomill {

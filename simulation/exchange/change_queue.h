@@ -44,7 +44,8 @@ class ChangeQueue final : public ChangeSink {
     /// Producer only. True while some brick waits to be sent again.
     bool has_overflowed() const noexcept { return !overflowed_.empty(); }
 
-    /// Producer only, for who can wait: false, and nothing is queued, if there is no room. Real-time safe.
+    /// Producer only, for callers that can wait: false, and nothing is queued, if there is no room. Real-time
+    /// safe.
     [[nodiscard]] bool try_push(const BrickChange& change, BrickFractions fractions) noexcept {
         return send(change, fractions);
     }

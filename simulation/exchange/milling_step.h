@@ -19,7 +19,7 @@ struct BurrCommand {
     std::size_t burr = 0;          ///< index into the scene's set
     double speed_share = 1.0;      ///< of the spindle's speed to the burr's own, positive
     double elapsed_s = 0.0;        ///< duration of the step, positive
-    bool wants_engagement = true;  ///< false: nobody will look at the result's engagement, save its time
+    bool wants_engagement = true;  ///< false: the result's engagement will not be used, save its time
     /// The burr that shall be put in this one's place; nothing: none.
     std::optional<std::size_t> wanted_burr{};
 };

@@ -27,7 +27,7 @@ class SampleQueue final : public SampleLog<Sample> {
     bool empty() const { return queue_.read_available() == 0; }
     std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
-    /// Nothing: who takes the samples does that in its own time.
+    /// Nothing: the reader takes the samples in its own time.
     void drain() override {}
     void drain_all() override {}
 

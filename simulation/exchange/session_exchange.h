@@ -39,7 +39,7 @@ struct SessionExchange {
     ChangeQueue changes;           ///< of milling, in order
     TripleBuffer<ToolState> tool;  ///< of haptic
     TripleBuffer<std::optional<CutState>>
-        cuts;  ///< of milling, for sound; empty where nobody consumes changes
+        cuts;  ///< of milling, for sound; empty without a consumer of the changes
 
     // From streaming. `gate` goes both ways.
     SessionGate gate;

@@ -68,7 +68,7 @@ class HapticLoop {
 
     HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& options);
 
-    /// The tick of session time `now_s`, after `missed_periods` deadlines that nobody served. Real-time safe.
+    /// The tick of session time `now_s`, after `missed_periods` missed deadlines. Real-time safe.
     void tick(double now_s, std::uint64_t missed_periods) noexcept;
 
     /// Ends the session: from the next tick on the force fades, whatever is requested, and the spindle stops.

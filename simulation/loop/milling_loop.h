@@ -32,7 +32,7 @@ struct MillingLoopParts {
     std::span<const Burr> burrs{};            ///< of the scene: what may be put in the burr's place
     ChangeQueue* restored = nullptr;          ///< read: bone to be given back by undo; null: none ever is
     SessionGate* gate = nullptr;              ///< written, with `restored`
-    TripleBuffer<std::optional<CutState>>* cuts = nullptr;  ///< written; null: nobody wants to hear
+    TripleBuffer<std::optional<CutState>>* cuts = nullptr;  ///< written; null: no sound
     std::optional<Motor> motor{};                           ///< of the scene, for `cuts`
 };
 

@@ -15,7 +15,7 @@ enum class Fault : std::uint8_t {
     device_jumped,
     in_bone,
     energy_to_hand,
-    paused  ///< no fault of anything: somebody asked for it
+    paused  ///< no failure: requested by a client
 };
 
 inline constexpr std::array all_faults{Fault::device_lost,    Fault::model_stalled, Fault::not_a_number,

@@ -24,7 +24,7 @@ PanelText warning_text(const OverlayContent& content);
 /// Whether there is a fault, or the burr is near a protected structure: a banner with a frame round the
 /// picture says so.
 bool is_alarm(const OverlayContent& content);
-/// Pedal, and who has the tool; needs content.operator_command.
+/// Pedal, and the client that has the tool; needs content.operator_command.
 PanelText operator_text(const OverlayContent& content);
 
 }  // namespace osteomill

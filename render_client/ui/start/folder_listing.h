@@ -1,4 +1,4 @@
-// Listing of a folder, for a person who looks for a scan.
+// Listing of a folder, for the choice of a scan.
 #pragma once
 
 #include <filesystem>

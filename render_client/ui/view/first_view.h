@@ -28,7 +28,7 @@ struct BallInView {
 /// The smallest ball round both.
 BallInView round_both(const BallInView& a, const BallInView& b);
 
-/// Round the region of the session's plan; nothing without a plan, or where no voxel bears its tissue.
+/// Round the region of the session's plan; nothing without a plan, or without a voxel of its tissue.
 std::optional<BallInView> target_in_view(const Bone& bone, const SessionInfo& session);
 
 /// `all`: round the bone. `tool`: the burr's pose; one that is far off counts as on the edge of `all`.

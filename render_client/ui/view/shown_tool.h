@@ -23,7 +23,7 @@ class ShownTool {
     const std::optional<ToolState>& state() const { return state_; }
     /// As it is shown.
     std::optional<ToolState> shown() const;
-    /// Whether a burr turns in the picture: it does for as long as the source tells of it.
+    /// Whether the burr turns in the picture: only while the source sends states.
     bool has_turning_burr() const;
     /// Of `shown()`, with the hand's target where it is away from the burr. `session` may be null.
     DrawnTool drawn(const ToolState& shown, const SessionInfo* session,

@@ -34,7 +34,7 @@ class SlicesView {
     void set_ct(std::shared_ptr<const CtVolume> ct);
     const std::shared_ptr<const CtVolume>& ct() const { return ct_; }
 
-    /// Whose borders are drawn, in this order: of a session's tissues those that bone bears.
+    /// Tissues whose borders are drawn, in this order: those of the session with voxels in the bone.
     void set_tissues(std::span<const Tissue> tissues);
     /// One of them lies here, whether bone is there or not.
     void set_mask(std::size_t tissue, const StructureMask& mask);

@@ -12,7 +12,7 @@
 
 namespace osteomill {
 
-/// What a person is asked in the middle of the picture.
+/// A question to the user in the middle of the picture.
 enum class SessionQuestion {
     none,
     mark,     ///< what is worth a note?

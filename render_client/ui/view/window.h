@@ -34,7 +34,7 @@ class Window {
     WindowInput take_input();
     /// The whole screen, or the place and size that it had before.
     void fill_screen(bool wanted);
-    /// Whether somebody has tried to close it since the last call.
+    /// Whether the user has tried to close it since the last call.
     bool take_close_request();
 
     // Thread that draws.
