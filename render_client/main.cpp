@@ -35,7 +35,7 @@ void run(osteomill::RenderOptions options) {
     using namespace osteomill;
     std::error_code failed;
     if (!options.look_file.empty() && std::filesystem::exists(options.look_file, failed))
-        options.look.transfer = read_look(options.look_file);
+        options.look.transfer = read_transfer(options.look_file);
     speak(options.language);
     const auto stop_requested = [&stop = stop_on_signals()] { return stop.load(); };
     if (options.dataset) {

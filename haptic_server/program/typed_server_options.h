@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "haptic_server/program/device_options.h"
-#include "simulation/contact_models/force_models.h"
+#include "simulation/force_models/force_models.h"
 
 namespace osteomill {
 

@@ -1,7 +1,7 @@
 #include "haptic_server/session/session_defaults.h"
 
-#include "simulation/contact_models/force_models.h"
 #include "simulation/coupling/couplings.h"
+#include "simulation/force_models/force_models.h"
 #include "simulation/loop/milling_session.h"
 
 namespace osteomill {

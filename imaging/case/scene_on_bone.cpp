@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "imaging/phantoms/phantom.h"
-#include "simulation/contact_models/bone_in_ball.h"
+#include "simulation/force_models/bone_in_ball.h"
 
 namespace osteomill {
 

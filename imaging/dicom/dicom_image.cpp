@@ -109,8 +109,8 @@ std::optional<std::filesystem::path> segmentation_in(const std::filesystem::path
 }  // namespace
 
 OpenedImage open_dicom_folder(const std::filesystem::path& folder,
-                              const std::optional<std::string>& series_uid, DicomPurpose purpose) {
-    if (purpose == DicomPurpose::labels)
+                              const std::optional<std::string>& series_uid, ImagePurpose purpose) {
+    if (purpose == ImagePurpose::labels)
         if (const auto segmentation = segmentation_in(folder)) return open_dicom_segmentation(*segmentation);
     std::vector<std::string> left_out;
     const std::vector<DicomSeries> series = find_series(folder, left_out);
@@ -124,8 +124,8 @@ OpenedImage open_dicom_folder(const std::filesystem::path& folder,
     return opened;
 }
 
-OpenedImage open_dicom_file(const std::filesystem::path& path, DicomPurpose purpose) {
-    if (purpose == DicomPurpose::labels && is_dicom_segmentation(path)) return open_dicom_segmentation(path);
+OpenedImage open_dicom_file(const std::filesystem::path& path, ImagePurpose purpose) {
+    if (purpose == ImagePurpose::labels && is_dicom_segmentation(path)) return open_dicom_segmentation(path);
     return open_series(path, series_of_file(path));
 }
 

@@ -10,12 +10,12 @@
 namespace osteomill {
 
 /// What is looked for in it: a scan, or labels, which may also be a segmentation (SEG).
-enum class DicomPurpose { scan, labels };
+enum class ImagePurpose { scan, labels };
 
 /// Places the slices of the series requested, or else of the largest; their pixels are read later. What else
 /// the folder holds is named in the notes. Throws ImagingError.
 OpenedImage open_dicom_folder(const std::filesystem::path& folder,
-                              const std::optional<std::string>& series_uid, DicomPurpose purpose);
-OpenedImage open_dicom_file(const std::filesystem::path& path, DicomPurpose purpose);
+                              const std::optional<std::string>& series_uid, ImagePurpose purpose);
+OpenedImage open_dicom_file(const std::filesystem::path& path, ImagePurpose purpose);
 
 }  // namespace osteomill

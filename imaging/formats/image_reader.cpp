@@ -101,7 +101,7 @@ struct ImageFormat {
     const char* name;
     std::array<std::string_view, 2> endings;  ///< of its files' names; empty: none to go by
     bool (*is)(const ImageStart&);
-    OpenedImage (*open)(const ImageStart&, DicomPurpose);
+    OpenedImage (*open)(const ImageStart&, ImagePurpose);
 };
 /// To read another format is a file and a row. The first that fits is taken.
 constexpr std::array image_formats{
@@ -109,18 +109,18 @@ constexpr std::array image_formats{
         "NRRD",
         {".nrrd", ".nhdr"},
         [](const ImageStart& start) { return start.starts_with("NRRD") && !start.is_gzip; },
-        [](const ImageStart& start, DicomPurpose) { return opened(start.path, open_nrrd(start.path)); }},
+        [](const ImageStart& start, ImagePurpose) { return opened(start.path, open_nrrd(start.path)); }},
     ImageFormat{
         "NIfTI",
         {".nii", ".nii.gz"},
         [](const ImageStart& start) {
             return begins_as_nifti(start.bytes) || (!start.is_folder && is_nifti_voxel_file(start.path));
         },
-        [](const ImageStart& start, DicomPurpose) { return opened(start.path, open_nifti(start.path)); }},
+        [](const ImageStart& start, ImagePurpose) { return opened(start.path, open_nifti(start.path)); }},
     ImageFormat{"folder of PNG or TIFF pictures",
                 {},
                 is_stack,
-                [](const ImageStart& start, DicomPurpose) {
+                [](const ImageStart& start, ImagePurpose) {
                     return open_picture_stack(start.path, start.choice.stack_spacing_mm);
                 }},
     ImageFormat{"DICOM folder or file",
@@ -128,18 +128,18 @@ constexpr std::array image_formats{
                 [](const ImageStart& start) {
                     return start.is_folder || (may_be_dicom(start.bytes) && !start.is_gzip);
                 },
-                [](const ImageStart& start, DicomPurpose purpose) {
+                [](const ImageStart& start, ImagePurpose purpose) {
                     return start.is_folder ? open_dicom_folder(start.path, start.choice.series_uid, purpose)
                                            : open_dicom_file(start.path, purpose);
                 }},
     ImageFormat{"MetaImage",
                 {".mha", ".mhd"},
                 [](const ImageStart& start) { return is_meta_image(start) && !start.is_gzip; },
-                [](const ImageStart& start, DicomPurpose) {
+                [](const ImageStart& start, ImagePurpose) {
                     return opened(start.path, open_meta_image(start.path));
                 }}};
 
-OpenedImage open_any(const std::filesystem::path& path, const ImageChoice& choice, DicomPurpose purpose) {
+OpenedImage open_any(const std::filesystem::path& path, const ImageChoice& choice, ImagePurpose purpose) {
     const ImageStart start = start_of(path, choice);
     const auto format =
         std::ranges::find_if(image_formats, [&](const ImageFormat& one) { return one.is(start); });
@@ -159,7 +159,7 @@ OpenedImage open_any(const std::filesystem::path& path, const ImageChoice& choic
 }  // namespace
 
 bool is_image_name(const std::filesystem::path& path) {
-    const std::string name = path.filename().string();
+    const std::string name = lower_case(path.filename().string());
     return std::ranges::any_of(image_formats, [&](const ImageFormat& one) {
         return std::ranges::any_of(
             one.endings, [&](std::string_view ending) { return !ending.empty() && name.ends_with(ending); });
@@ -178,11 +178,11 @@ std::string name_without_ending(const std::filesystem::path& path) {
 }
 
 OpenedImage open_labels(const std::filesystem::path& path, const ImageChoice& choice) {
-    return open_any(path, choice, DicomPurpose::labels);
+    return open_any(path, choice, ImagePurpose::labels);
 }
 
 OpenedImage open_image(const std::filesystem::path& path, const ImageChoice& choice) {
-    OpenedImage image = open_any(path, choice, DicomPurpose::scan);
+    OpenedImage image = open_any(path, choice, ImagePurpose::scan);
     if (image.is_coloured)
         throw ImagingError(
             path,

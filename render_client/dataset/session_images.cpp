@@ -37,7 +37,7 @@ SessionImages::SessionImages(Playhead& playhead, std::span<const DatasetCamera> 
     : playhead_(playhead),
       tissues_(playhead.session().tissues),
       textures_(playhead.bone(), solid_colours(tissues_), {}, limits) {
-    renderer_.set_look(look);
+    renderer_.set_appearance(look);
     for (const DatasetCamera& camera : cameras) views_.push_back(std::make_unique<View>(camera, renderer_));
     follow();
 }

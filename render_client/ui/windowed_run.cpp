@@ -106,7 +106,7 @@ class Drawing {
         }
         take_over(session_, options);
         session_.view().sound = options.sound;
-        session_.view().look_has_file = look_.has_file();
+        session_.view().transfer_has_file = look_.has_file();
         session_.offer_controls();
         if (can_start_here(options)) {
             start_.emplace(StartPlaces{.programs = folder_of_this_program(),
@@ -193,8 +193,8 @@ class Drawing {
         } catch (const SceneError& error) {
             commands_.say(error.what(), now_s);
         }
-        view.look_has_file = look_.has_file();
-        if (std::exchange(view.look_save_wanted, false))
+        view.transfer_has_file = look_.has_file();
+        if (std::exchange(view.transfer_save_wanted, false))
             commands_.say(look_.save(view.transfer.function()), now_s);
     }
 

@@ -59,8 +59,8 @@ void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSetti
     }
 }
 
-void look_ahead(Bone& bone, const Sweep& ball, const CarveSettings& settings,
-                RemovalSink& would_go) noexcept {
+void preview_carve(Bone& bone, const Sweep& ball, const CarveSettings& settings,
+                   RemovalSink& would_go) noexcept {
     Sweep sweep = ball;
     if (cut_to_grid(sweep, bone.grid().size_voxels)) carve_short(bone, sweep, settings, nullptr, would_go);
 }

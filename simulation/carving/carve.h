@@ -36,6 +36,7 @@ void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSetti
 
 /// Reports to `would_go` the voxels that carve() would remove with a ball that has carved at `from`, and
 /// leaves the bone unchanged. The sweep must not exceed CrescentRows::longest_step_voxels. Real-time safe.
-void look_ahead(Bone& bone, const Sweep& ball, const CarveSettings& settings, RemovalSink& would_go) noexcept;
+void preview_carve(Bone& bone, const Sweep& ball, const CarveSettings& settings,
+                   RemovalSink& would_go) noexcept;
 
 }  // namespace osteomill

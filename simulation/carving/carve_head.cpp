@@ -228,8 +228,8 @@ void carve_head(Bone& bone, const HeadSweep& sweep, const CarveSettings& setting
     }
 }
 
-void look_ahead(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings,
-                RemovalSink& would_go) noexcept {
+void preview_carve(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings,
+                   RemovalSink& would_go) noexcept {
     HeadCarver(bone, sweep, settings, nullptr, would_go).carve();
 }
 

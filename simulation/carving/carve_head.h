@@ -31,8 +31,8 @@ double distance_from(const HeadSweep& sweep, const glm::dvec3& point) noexcept;
 void carve_head(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink& changes,
                 RemovalSink& removed) noexcept;
 
-/// As look_ahead() of carve.h.
-void look_ahead(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings,
-                RemovalSink& would_go) noexcept;
+/// As preview_carve() of carve.h.
+void preview_carve(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings,
+                   RemovalSink& would_go) noexcept;
 
 }  // namespace osteomill

@@ -3,7 +3,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "simulation/contact_models/bone_in_ball.h"
+#include "simulation/force_models/bone_in_ball.h"
 
 namespace osteomill {
 

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "common/scene/burr.h"
-#include "simulation/contact_models/force_model.h"
 #include "simulation/exchange/change_queue.h"
 #include "simulation/exchange/milling_step.h"
 #include "simulation/exchange/sample_log.h"
 #include "simulation/exchange/session_gate.h"
 #include "simulation/exchange/triple_buffer.h"
+#include "simulation/force_models/force_model.h"
 #include "simulation/loop/burr_hull.h"
 #include "simulation/loop/cut_report.h"
 #include "simulation/loop/milling_sample.h"

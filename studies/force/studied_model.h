@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "common/bone/bone.h"
-#include "simulation/contact_models/milling_model.h"
+#include "simulation/force_models/milling_model.h"
 
 namespace osteomill::study {
 

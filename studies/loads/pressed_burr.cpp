@@ -3,8 +3,8 @@
 #include <cmath>
 #include <memory>
 
-#include "simulation/contact_models/milling_model.h"
 #include "simulation/coupling/burr_proxy.h"
+#include "simulation/force_models/milling_model.h"
 #include "studies/force/bone_block.h"
 
 namespace osteomill::study {

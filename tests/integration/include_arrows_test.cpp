@@ -25,7 +25,7 @@ const std::vector<Room>& rooms() {
         {"bridge/", {}},
         {"simulation/", {"common/bone/", "common/scene/"}},
         {"devices/", {"common/", "bridge/", "simulation/device/", "simulation/exchange/"}},
-        {"imaging/case/", {"common/", "imaging/", "simulation/contact_models/"}},
+        {"imaging/case/", {"common/", "imaging/", "simulation/force_models/"}},
         {"imaging/", {"common/"}},
         {"analysis/", {"common/", "simulation/", "imaging/"}},
         {"haptic_server/", {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/"}},

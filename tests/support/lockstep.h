@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "simulation/contact_models/milling_model.h"
 #include "simulation/coupling/coupling.h"
+#include "simulation/force_models/milling_model.h"
 #include "tests/support/block.h"
 
 namespace osteomill::testing {

@@ -184,10 +184,10 @@ void draw_transfer_panel(const PanelPainter& painter, ViewSettings& view, const 
     TransferEditor& editor = view.transfer;
     const float letter = ImGui::GetFontSize();
     const float save_width = 4.0f * letter;
-    draw_presets(editor, view.look_has_file ? save_width + ImGui::GetStyle().ItemSpacing.x : 0.0f);
-    if (view.look_has_file) {
+    draw_presets(editor, view.transfer_has_file ? save_width + ImGui::GetStyle().ItemSpacing.x : 0.0f);
+    if (view.transfer_has_file) {
         ImGui::SameLine();
-        if (ImGui::Button("save", {save_width, 0.0f})) view.look_save_wanted = true;
+        if (ImGui::Button("save", {save_width, 0.0f})) view.transfer_save_wanted = true;
     }
     ImGui::SetNextItemWidth(-2.5f * letter);
     ImGui::SliderFloat("wet", &view.specular, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);

@@ -31,7 +31,7 @@ class BoneOnScreen {
     void note(std::span<const BrickChange> changes);
     /// A new appearance needs new textures. Those for an earlier one are finished first, so that a user who
     /// drags a curve sees intermediate results.
-    void set_look(const ShadingSettings& look) { look_ = look; }
+    void set_appearance(const ShadingSettings& look) { look_ = look; }
     const ShadingSettings& look() const { return look_; }
 
     struct Outcome {

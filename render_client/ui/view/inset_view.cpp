@@ -62,7 +62,7 @@ const gl::Framebuffer& InsetView::draw(InsetKind kind, const BoneTextures& bone,
     look.light_field = false;
     if (is_axial) look.cuts = {axial_cut(burr_mm)};
     picture_.resize({edge_px, edge_px});
-    picture_.set_look(look);
+    picture_.set_appearance(look);
     // The handpiece would hide the section; the panel marks the burr.
     return picture_.draw(
         &bone, is_axial ? nullptr : &tool,

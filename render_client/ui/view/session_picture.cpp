@@ -156,7 +156,7 @@ std::optional<int> SessionPicture::preparation_percent() const {
 void SessionPicture::set_shading(const ShadingSettings& look) {
     if (look == bone_.look()) return;
     if (look.transfer) require_valid(*look.transfer);
-    bone_.set_look(look);
+    bone_.set_appearance(look);
     if (source_.bone() && has_taken_bone_) work_on_bone();
 }
 
@@ -183,7 +183,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                                .ambient_occlusion = view_.ambient_occlusion,
                                .specular = view_.specular,
                                .light_field = view_.light_field};
-    picture_.set_look(look);
+    picture_.set_appearance(look);
     std::optional<DrawnTool> tool;
     const std::optional<ToolState> shown = tool_.shown();
     if (shown) tool = tool_.drawn(*shown, session(), operator_command_);

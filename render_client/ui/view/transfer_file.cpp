@@ -73,7 +73,7 @@ std::optional<TransferFunction> parse_look(std::string_view text, const std::str
     }
 }
 
-std::optional<TransferFunction> read_look(const std::filesystem::path& file) {
+std::optional<TransferFunction> read_transfer(const std::filesystem::path& file) {
     return parse_look(read_toml_text(file, "a look"), file.string());
 }
 
@@ -100,7 +100,7 @@ std::optional<std::optional<TransferFunction>> TransferFile::open(const std::fil
         // Of a case, which may be from elsewhere.
         if (!lies_inside(file, file.parent_path()))
             throw SceneError(file.string() + ": is a link that leads out of its folder");
-        return read_look(file);
+        return read_transfer(file);
     } catch (const SceneError&) {
         is_bad_ = true;
         throw;

@@ -12,7 +12,7 @@ namespace osteomill {
 
 /// None: tissues, or stiffness, in their own colours. Throws SceneError, in one line, for what is no such
 /// file.
-std::optional<TransferFunction> read_look(const std::filesystem::path& file);
+std::optional<TransferFunction> read_transfer(const std::filesystem::path& file);
 std::optional<TransferFunction> parse_look(std::string_view text, const std::string& name_for_messages);
 
 /// Reads back to the same.
@@ -26,8 +26,8 @@ class TransferFile {
         : file_(std::move(file)), is_users_(!file_.empty()), otherwise_(std::move(otherwise)) {}
 
     /// Begins a session whose transfer function is in this file, if there is one. Returns it if the file is
-    /// another than before; nothing if the user chose the file. Throws as read_look does; the file then must
-    /// not be overwritten, and save reports that.
+    /// another than before; nothing if the user chose the file. Throws as read_transfer does; the file then
+    /// must not be overwritten, and save reports that.
     std::optional<std::optional<TransferFunction>> open(const std::filesystem::path& file);
     bool has_file() const { return !file_.empty(); }
     /// Writes the file as a whole. Returns one line that says where it is, or what went wrong.

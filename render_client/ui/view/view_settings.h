@@ -33,8 +33,8 @@ struct ViewSettings {
     bool transfer_panel_shown = false;
     CutSettings cuts;
     TransferEditor transfer;
-    bool look_has_file = false;     ///< the curves of `transfer` can be saved
-    bool look_save_wanted = false;  ///< and somebody pressed the button
+    bool transfer_has_file = false;     ///< the curves of `transfer` can be saved
+    bool transfer_save_wanted = false;  ///< and somebody pressed the button
     bool slices_shown = false;
     bool ambient_occlusion = true;
     float specular = 0.0f;     ///< highlights on bone, see SceneAppearance

@@ -17,7 +17,7 @@ class BoneRenderer {
     virtual void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) = 0;
 
     /// From the next draw on.
-    void set_look(const SceneAppearance& look) { look_ = look; }
+    void set_appearance(const SceneAppearance& look) { look_ = look; }
     const SceneAppearance& look() const { return look_; }
 
   private:

@@ -71,9 +71,9 @@ void IncrementalBonePass::resize(const glm::ivec2& size_px) {
     camera_.reset();
 }
 
-void IncrementalBonePass::set_look(const SceneAppearance& look) {
+void IncrementalBonePass::set_appearance(const SceneAppearance& look) {
     if (look == renderer_.look()) return;
-    renderer_.set_look(look);
+    renderer_.set_appearance(look);
     forget();
 }
 

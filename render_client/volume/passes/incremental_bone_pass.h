@@ -38,7 +38,7 @@ class IncrementalBonePass {
 
     void resize(const glm::ivec2& size_px);
     /// Cuts and background; another look than before makes all of it stale.
-    void set_look(const SceneAppearance& look);
+    void set_appearance(const SceneAppearance& look);
     const SceneAppearance& look() const { return renderer_.look(); }
     /// Another bone: all of it is stale.
     void forget(DrawingCost cost = DrawingCost::as_before);

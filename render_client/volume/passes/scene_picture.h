@@ -25,7 +25,7 @@ class ScenePicture {
     /// Sizes of less than one pixel count as one.
     void resize(const glm::ivec2& size_px);
     /// Cuts and background, from the next draw on.
-    void set_look(const SceneAppearance& look) { layer_.set_look(look); }
+    void set_appearance(const SceneAppearance& look) { layer_.set_appearance(look); }
     /// The bone was replaced: its layer is drawn anew.
     void forget_bone(DrawingCost cost = DrawingCost::unknown) { layer_.forget(cost); }
     /// Another soft structure beside the bone.

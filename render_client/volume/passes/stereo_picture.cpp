@@ -57,10 +57,10 @@ void StereoPicture::resize(const glm::ivec2& size_px) {
     note_pictures();
 }
 
-void StereoPicture::set_look(const SceneAppearance& look) {
+void StereoPicture::set_appearance(const SceneAppearance& look) {
     // The renderer is both eyes': the second would find the new look there and see no change.
     const bool is_new = !(look == renderer_.look());
-    left_.set_look(look);
+    left_.set_appearance(look);
     if (is_new && right_) right_->forget_bone();
 }
 

@@ -21,7 +21,7 @@ class StereoPicture {
 
     // As of ScenePicture, for both eyes.
     void resize(const glm::ivec2& size_px);
-    void set_look(const SceneAppearance& look);
+    void set_appearance(const SceneAppearance& look);
     void forget_bone(DrawingCost cost = DrawingCost::unknown);
     void add_structure(const StructureSurface& surface, double opacity);
     void forget_structures();

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "analysis/output/study_run.h"
-#include "simulation/contact_models/milling_model.h"
 #include "simulation/coupling/couplings.h"
+#include "simulation/force_models/milling_model.h"
 #include "studies/force/bone_block.h"
 
 namespace osteomill::study {

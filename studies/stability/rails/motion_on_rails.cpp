@@ -6,8 +6,8 @@
 
 #include "analysis/output/study_run.h"
 #include "common/statistics/percentile.h"
-#include "simulation/contact_models/milling_model.h"
 #include "simulation/coupling/couplings.h"
+#include "simulation/force_models/milling_model.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/force_series.h"
 #include "studies/force/random_motions.h"

@@ -8,7 +8,7 @@
 #include "common/bone/bone_builder.h"
 #include "common/bone/brick_change.h"
 #include "devices/simulated/arm_model.h"
-#include "simulation/contact_models/milling_model.h"
+#include "simulation/force_models/milling_model.h"
 
 namespace osteomill::study {
 namespace {

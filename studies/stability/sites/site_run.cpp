@@ -8,7 +8,7 @@
 
 #include "common/bone/brick_change.h"
 #include "devices/simulated/simulated_device.h"
-#include "simulation/contact_models/milling_model.h"
+#include "simulation/force_models/milling_model.h"
 #include "simulation/loop/milling_session.h"
 #include "studies/stability/sites/site_bone.h"
 

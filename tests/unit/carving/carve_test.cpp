@@ -210,7 +210,7 @@ TEST(Carve, IsWhatALookAheadTellsAndTheLookLeavesTheBoneAlone) {
     const std::uint64_t before = checksum(bone);
     const Sweep ahead = in_voxels(bone, {0.0, 0.2, 0.1}, {0.06, 0.25, 0.05});
     Count seen;
-    look_ahead(bone, ahead, {}, seen);
+    preview_carve(bone, ahead, {}, seen);
     EXPECT_EQ(checksum(bone), before);
     ForgottenChanges changes;
     Count removed;

@@ -11,9 +11,9 @@
 #include <numbers>
 #include <vector>
 
-#include "simulation/contact_models/milling_model.h"
 #include "simulation/coupling/handpiece_vibration.h"
 #include "simulation/cutting_force/reference_force.h"
+#include "simulation/force_models/milling_model.h"
 #include "tests/support/block.h"
 #include "tests/support/spectrum.h"
 

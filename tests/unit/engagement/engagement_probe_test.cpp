@@ -9,8 +9,8 @@
 #include <memory>
 #include <numbers>
 
-#include "simulation/contact_models/milling_model.h"
 #include "simulation/cutting_force/reference_force.h"
+#include "simulation/force_models/milling_model.h"
 #include "tests/support/block.h"
 
 namespace osteomill::engagement_probe_test {

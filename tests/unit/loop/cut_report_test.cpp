@@ -6,8 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "simulation/contact_models/milling_model.h"
 #include "simulation/exchange/change_queue.h"
+#include "simulation/force_models/milling_model.h"
 #include "tests/support/block.h"
 
 namespace osteomill {

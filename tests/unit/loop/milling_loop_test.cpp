@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/logs/force_log.h"
-#include "simulation/contact_models/milling_model.h"
+#include "simulation/force_models/milling_model.h"
 #include "tests/support/block.h"
 
 namespace osteomill {

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "devices/simulated/simulated_device.h"
-#include "simulation/contact_models/force_models.h"
+#include "simulation/force_models/force_models.h"
 #include "simulation/loop/real_time.h"
 #include "tests/support/block.h"
 #include "tests/unit/loop/scripted_parts.h"

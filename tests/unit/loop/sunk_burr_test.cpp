@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/contact_models/force_models.h"
+#include "simulation/force_models/force_models.h"
 #include "simulation/loop/milling_session.h"
 #include "tests/support/block.h"
 #include "tests/unit/loop/scripted_parts.h"

@@ -7,7 +7,7 @@
 
 #include "common/bone/bone_builder.h"
 #include "devices/simulated/simulated_device.h"
-#include "simulation/contact_models/force_models.h"
+#include "simulation/force_models/force_models.h"
 #include "simulation/loop/milling_session.h"
 
 namespace osteomill {

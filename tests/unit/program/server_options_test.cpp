@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "simulation/contact_models/force_models.h"
+#include "simulation/force_models/force_models.h"
 
 namespace osteomill {
 namespace {

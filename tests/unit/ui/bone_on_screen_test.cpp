@@ -73,7 +73,7 @@ TEST_F(BoneOnScreenTest, GoesOnShowingAndCarvingOneLookWhileAnotherIsPrepared) {
     Bone bone = ball(2.0);
     screen_->replace(bone, {});
     screen_->work(bone, always);
-    screen_->set_look(see_through);
+    screen_->set_appearance(see_through);
     const BoneTextures* before = screen_->textures();
     screen_->work(bone, never);
     screen_->note(carve_sphere(bone, {1.5, 0.0, 0.0}, 1.0));
@@ -91,7 +91,7 @@ TEST_F(BoneOnScreenTest, FinishesALookBeforeItBeginsTheNextAndEndsWithTheLast) {
     screen_->work(bone, always);
     int shown = 0;
     for (const int preset : {1, 2}) {
-        screen_->set_look({.transfer = transfer_presets()[static_cast<std::size_t>(preset)]});
+        screen_->set_appearance({.transfer = transfer_presets()[static_cast<std::size_t>(preset)]});
         shown += screen_->work(bone, never).other_textures ? 1 : 0;
     }
     for (int call = 0; call < 10'000 && screen_->preparation(); ++call)

@@ -24,11 +24,11 @@ TEST_F(LightFieldTest, IsRoundAsItIsShownAndGoesWithoutATrace) {
         Camera camera = camera_on({0.0, 0.0, 0.0}, 2.0);
         camera.pixel_aspect = aspect;
         ScenePicture picture(renderer, size_px);
-        picture.set_look({});
+        picture.set_appearance({});
         const Picture plain = picture.draw(&textures, nullptr, camera).read_back();
         SceneAppearance look;
         look.light_field = true;
-        picture.set_look(look);
+        picture.set_appearance(look);
         for (int frame = 0; frame < 3; ++frame) {  // it must not darken what it darkened
             const Picture field = picture.draw(&textures, nullptr, camera).read_back();
             for (int y = 0; y < size_px.y; ++y)
@@ -46,7 +46,7 @@ TEST_F(LightFieldTest, IsRoundAsItIsShownAndGoesWithoutATrace) {
                     }
                 }
         }
-        picture.set_look({});
+        picture.set_appearance({});
         EXPECT_EQ(picture.draw(&textures, nullptr, camera).read_back(), plain);
     }
 }

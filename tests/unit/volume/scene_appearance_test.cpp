@@ -41,7 +41,7 @@ TEST_F(SceneAppearanceTest, CutShowsTheTissuesInsideAsAFlatFaceWhereTheCutIs) {
     const Picture whole = picture.draw(&textures, nullptr, camera).read_back();
     EXPECT_GT(whole.at(middle.x, middle.y)[1], 2 * whole.at(middle.x, middle.y)[0]);
 
-    picture.set_look({.cuts = {{{0.0, -1.0, 0.0}, 0.5}}});  // what is in front of y = -0.5 is gone
+    picture.set_appearance({.cuts = {{{0.0, -1.0, 0.0}, 0.5}}});  // what is in front of y = -0.5 is gone
     const gl::Framebuffer& cut = picture.draw(&textures, nullptr, camera);
     const Picture inside = cut.read_back();
     EXPECT_GT(inside.at(middle.x, middle.y)[0], 2 * inside.at(middle.x, middle.y)[1]) << "the red core";
@@ -56,7 +56,7 @@ TEST_F(SceneAppearanceTest, CutShowsTheTissuesInsideAsAFlatFaceWhereTheCutIs) {
         EXPECT_NEAR(inside.at(middle.x + 8, middle.y + 5)[channel], inside.at(middle.x, middle.y)[channel],
                     2);
 
-    picture.set_look({});
+    picture.set_appearance({});
     EXPECT_EQ(picture.draw(&textures, nullptr, camera).read_back(), whole) << "cuts are for the eye only";
 }
 
@@ -68,7 +68,7 @@ TEST_F(SceneAppearanceTest, CutShowsTheCtWhereThatIsWanted) {
     RaycastRenderer renderer;
     ScenePicture picture(renderer, size_px);
     const SceneAppearance plain{.cuts = {{{0.0, -1.0, 0.0}, 0.5}}};
-    picture.set_look(plain);
+    picture.set_appearance(plain);
     const Picture coloured = picture.draw(&textures, nullptr, camera).read_back();
 
     CtVolume ct{.grid = {.size_voxels = {41, 31, 31}, .spacing_mm = 0.5, .origin_mm = {-10.0, -7.0, -7.5}},
@@ -78,7 +78,7 @@ TEST_F(SceneAppearanceTest, CutShowsTheCtWhereThatIsWanted) {
     SceneAppearance look = plain;
     look.ct = std::make_shared<const CtVolume>(ct);
     look.ct_window = {.level_hu = 0.0, .window_hu = 600.0};
-    picture.set_look(look);
+    picture.set_appearance(look);
     const Picture grey = picture.draw(&textures, nullptr, camera).read_back();
     const double px_per_mm = 1.0 / mm_per_px_at(camera, {0.0, -0.5, 0.0}, size_px);
     for (const double left_mm : {-2.0, -1.0, 0.0, 0.7, 2.0}) {
@@ -88,11 +88,11 @@ TEST_F(SceneAppearanceTest, CutShowsTheCtWhereThatIsWanted) {
     }
     // Another window is another grey.
     look.ct_window.window_hu = 2000.0;
-    picture.set_look(look);
+    picture.set_appearance(look);
     const Picture flat = picture.draw(&textures, nullptr, camera).read_back();
     const auto* flatter = flat.at(middle.x + static_cast<int>(2.0 * px_per_mm), middle.y);
     EXPECT_NEAR(flatter[0], 127.5 + 255.0 * 200.0 / 2000.0, 4.0);
-    picture.set_look(plain);
+    picture.set_appearance(plain);
     EXPECT_EQ(picture.draw(&textures, nullptr, camera).read_back(), coloured);
 }
 
@@ -102,7 +102,8 @@ TEST_F(SceneAppearanceTest, SeveralCutsLeaveWhatNoneTakesAway) {
     camera.azimuth_rad = camera.elevation_rad = 0.0;
     RaycastRenderer renderer;
     ScenePicture picture(renderer, size_px);
-    picture.set_look({.cuts = {{{1.0, 0.0, 0.0}, 0.0}, {{0.0, 0.0, 1.0}, 0.0}, {{0.0, 1.0, 0.0}, -2.9}}});
+    picture.set_appearance(
+        {.cuts = {{{1.0, 0.0, 0.0}, 0.0}, {{0.0, 0.0, 1.0}, 0.0}, {{0.0, 1.0, 0.0}, -2.9}}});
     const gl::Framebuffer& drawn = picture.draw(&textures, nullptr, camera);
     // What is left is a splinter on the right hand of the patient, below, in front of y = -2.9.
     EXPECT_EQ(drawn.depth_at({middle.x + 15, middle.y - 15}), 1.0f);
@@ -117,7 +118,8 @@ TEST_F(SceneAppearanceTest, BackgroundIsTheLooks) {
     ScenePicture picture(renderer, size_px);
     const Camera camera = camera_on({0.0, 0.0, 0.0}, 9.0);
     const int dark = picture.draw(&textures, nullptr, camera).read_back().at(120, 2)[1];
-    picture.set_look({.cuts = {}, .background_low = glm::vec3(0.6f), .background_high = glm::vec3(0.8f)});
+    picture.set_appearance(
+        {.cuts = {}, .background_low = glm::vec3(0.6f), .background_high = glm::vec3(0.8f)});
     const int light = picture.draw(&textures, nullptr, camera).read_back().at(120, 2)[1];
     EXPECT_LT(dark, 110);
     EXPECT_GT(light, 190);
@@ -131,7 +133,7 @@ TEST_F(SceneAppearanceTest, WetBoneHasHighlightsWhereALampIsMirroredAndElsewhere
         const auto renderer = make_renderer(choice);
         ScenePicture picture(*renderer, size_px);
         const Picture matt = picture.draw(&textures, nullptr, camera).read_back();
-        picture.set_look({.specular = 0.5f});
+        picture.set_appearance({.specular = 0.5f});
         const Picture wet = picture.draw(&textures, nullptr, camera).read_back();
         int brighter = 0, as_before = 0;
         for (std::size_t i = 0; i < wet.rgb.size(); i += 3) {
@@ -147,7 +149,7 @@ TEST_F(SceneAppearanceTest, WetBoneHasHighlightsWhereALampIsMirroredAndElsewhere
     RaycastRenderer renderer;
     ScenePicture picture(renderer, size_px);
     const Picture matt = picture.draw(&published, nullptr, camera).read_back();
-    picture.set_look({.specular = 0.5f});
+    picture.set_appearance({.specular = 0.5f});
     EXPECT_EQ(picture.draw(&published, nullptr, camera).read_back(), matt);
 }
 

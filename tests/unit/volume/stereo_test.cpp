@@ -213,12 +213,12 @@ TEST_F(StereoTest, DrawsBothEyesAnewAfterAnotherLookOrSize) {
     const SceneAppearance look{.cuts = {CutPlane{.normal = {1.0, 0.0, 0.0}}}};
     StereoPicture kept(renderer, {64, 48}, false, stereo);
     kept.draw(&textures, nullptr, middle);
-    kept.set_look(look);
+    kept.set_appearance(look);
     for (const glm::ivec2 size_px : {glm::ivec2(64, 48), glm::ivec2(91, 37), glm::ivec2(1, 1)}) {
         kept.resize(size_px);
         kept.draw(&textures, nullptr, middle);
         StereoPicture fresh(other, size_px, false, stereo);
-        fresh.set_look(look);
+        fresh.set_appearance(look);
         fresh.draw(&textures, nullptr, middle);
         EXPECT_EQ(kept.compose().read_back(), fresh.compose().read_back()) << size_px.x;
     }

@@ -47,9 +47,9 @@ TEST_F(StructureRendererTest, ShowsASoftStructureBesideTheBoneAndCutsItAsTheBone
     EXPECT_NEAR(half[2], 0.5 * (solid[2] + bone[2]), 2.0);
     EXPECT_EQ(with_nerve(3.75 * towards_eye, 0.0), bone);
     with_nerve(3.75 * towards_eye, 1.0);
-    picture.set_look({.cuts = {{.normal = towards_eye, .offset_mm = 2.81}}});
+    picture.set_appearance({.cuts = {{.normal = towards_eye, .offset_mm = 2.81}}});
     EXPECT_EQ(middle(picture.draw(&textures, nullptr, camera).read_back()), bone) << "cut away";
-    picture.set_look({});
+    picture.set_appearance({});
     picture.forget_structures();
     EXPECT_EQ(middle(picture.draw(&textures, nullptr, camera).read_back()), bone);
 }

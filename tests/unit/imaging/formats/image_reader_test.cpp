@@ -215,5 +215,13 @@ TEST_F(ImageReader, RefusesColourFourDimensionsAndSingleSlices) {
     EXPECT_THAT(refusal_of_text("plane.nrrd", header("12 30", 2, "")), HasSubstr("2 dimensions"));
 }
 
+TEST(ImageNames, AreKnownByTheirEndingInAnyCase) {
+    for (const char* name : {"mandible.nii.gz", "MANDIBLE.NII.GZ", "Mandible.seg.nrrd", "a.MHA"})
+        EXPECT_TRUE(is_image_name(name)) << name;
+    for (const char* name : {"mandible.txt", "nii", "mandible.nii.gz.part"})
+        EXPECT_FALSE(is_image_name(name)) << name;
+    EXPECT_EQ(name_without_ending("MANDIBLE.NII.GZ"), "MANDIBLE");
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -1,0 +1,130 @@
+#include "haptic_server/monitoring/metrics_page.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace osteomill {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+namespace {
+
+constexpr std::chrono::seconds longest_visit{2};
+constexpr std::chrono::milliseconds pause_after_error{100};
+constexpr std::size_t longest_request_bytes = 8192;
+constexpr const char* path = "/metrics";
+
+tcp::acceptor listening(asio::io_context& io, const ListenAddress& where) {
+    try {
+        return {io, tcp::endpoint(asio::ip::make_address(where.address), where.port)};
+    } catch (const boost::system::system_error& error) {
+        throw std::runtime_error(fmt::format("--metrics {}: {}", to_text(where), error.code().message()));
+    }
+}
+
+}  // namespace
+
+class MetricsPage::Impl {
+  public:
+    Impl(const ListenAddress& where, std::function<std::string()> text)
+        : acceptor_(listening(io_, where)), text_(std::move(text)) {
+        accept();
+        thread_ = std::thread([this] { run(); });
+    }
+    ~Impl() {
+        io_.stop();
+        thread_.join();
+    }
+
+    std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+
+  private:
+    void run() {
+        try {
+            io_.run();
+        } catch (const std::exception& error) {
+            spdlog::error("--metrics has stopped: {}", error.what());
+        }
+    }
+
+    void accept() {
+        visitor_.reset();
+        acceptor_.async_accept([this](error_code error, tcp::socket socket) {
+            if (error) return pause();
+            visitor_.emplace(std::move(socket));
+            read();
+        });
+    }
+
+    /// Such as after too many open files.
+    void pause() {
+        timer_.expires_after(pause_after_error);
+        timer_.async_wait([this](error_code) { accept(); });
+    }
+
+    void read() {
+        buffer_.clear();
+        request_ = {};
+        visitor_->expires_after(longest_visit);
+        http::async_read(*visitor_, buffer_, request_, [this](error_code error, std::size_t) {
+            if (error) return accept();
+            answer();
+        });
+    }
+
+    void answer() {
+        answer_ = {};
+        answer_.version(request_.version());
+        answer_.keep_alive(false);
+        answer_.set(http::field::content_type, "text/plain; version=0.0.4; charset=utf-8");
+        if (request_.target() != path) {
+            answer_.result(http::status::not_found);
+            answer_.body() = fmt::format("there is {} alone\n", path);
+        } else if (request_.method() != http::verb::get) {
+            answer_.result(http::status::method_not_allowed);
+            answer_.set(http::field::allow, "GET");
+        } else {
+            answer_.body() = text_();
+        }
+        answer_.prepare_payload();
+        http::async_write(*visitor_, answer_, [this](error_code, std::size_t) {
+            error_code ignored;
+            visitor_->socket().shutdown(tcp::socket::shutdown_send, ignored);
+            accept();
+        });
+    }
+
+    asio::io_context io_{1};
+    tcp::acceptor acceptor_;
+    asio::steady_timer timer_{io_};
+    std::function<std::string()> text_;
+    std::optional<beast::tcp_stream> visitor_;
+    beast::flat_buffer buffer_{longest_request_bytes};
+    http::request<http::empty_body> request_;
+    http::response<http::string_body> answer_;
+    std::thread thread_;
+};
+
+MetricsPage::MetricsPage(const ListenAddress& where, std::function<std::string()> text)
+    : impl_(std::make_unique<Impl>(where, std::move(text))) {}
+MetricsPage::~MetricsPage() = default;
+std::uint16_t MetricsPage::port() const {
+    return impl_->port();
+}
+
+}  // namespace osteomill

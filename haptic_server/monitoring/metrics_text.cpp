@@ -1,0 +1,75 @@
+#include "haptic_server/monitoring/metrics_text.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <utility>
+
+#include "simulation/safety/fault_name.h"
+
+namespace osteomill {
+
+namespace {
+
+class Page {
+  public:
+    void head(const char* name, const char* type, const char* help) {
+        fmt::format_to(std::back_inserter(text_), "# HELP osteomill_{0} {2}\n# TYPE osteomill_{0} {1}\n",
+                       name, type, help);
+    }
+    template <typename Value>
+    void value(const std::string& name, const Value& value) {
+        fmt::format_to(std::back_inserter(text_), "osteomill_{} {}\n", name, value);
+    }
+    template <typename Value>
+    void only(const char* name, const char* type, const char* help, const Value& only_value) {
+        head(name, type, help);
+        value(name, only_value);
+    }
+    std::string text() && { return std::move(text_); }
+
+  private:
+    std::string text_;
+};
+
+}  // namespace
+
+std::string metrics_text(const TickMeter::Reading& loop, const StreamingTraffic& traffic,
+                         const std::string& version) {
+    Page page;
+    page.only("session_seconds", "gauge", "Session time.", loop.session_s);
+    page.only("ticks_total", "counter", "Ticks of the haptic loop.", loop.ticks);
+    page.only("missed_deadlines_total", "counter", "Milliseconds that no tick of the haptic loop came for.",
+              loop.missed_deadlines);
+
+    page.head("tick_latency_seconds", "histogram",
+              "From when a tick of the haptic loop was due to when its work was done.");
+    std::uint64_t up_to = 0;
+    for (std::size_t i = 0; i < TickMeter::latency_bounds_s.size(); ++i)
+        page.value(fmt::format("tick_latency_seconds_bucket{{le=\"{}\"}}", TickMeter::latency_bounds_s[i]),
+                   up_to += loop.latency[i]);
+    // Of the buckets, not of the ticks, which the loop may have counted one more of meanwhile.
+    up_to += loop.latency.back();
+    page.value("tick_latency_seconds_bucket{le=\"+Inf\"}", up_to);
+    page.value("tick_latency_seconds_sum", loop.latency_sum_s);
+    page.value("tick_latency_seconds_count", up_to);
+
+    page.head("faults_total", "counter", "How often the force went off, by cause.");
+    for (const Fault fault : all_faults)
+        page.value(fmt::format("faults_total{{fault=\"{}\"}}", name_of(fault)),
+                   loop.faults[static_cast<std::size_t>(fault)]);
+    page.only("force_off", "gauge", "1 while the force is off.", loop.fault == Fault::none ? 0 : 1);
+    page.only("force_newtons", "gauge", "Size of the force on the hand.", loop.force_n);
+    page.only("removed_cubic_millimetres", "gauge", "Bone removed, by earlier sessions of a saved bone, too.",
+              loop.removed_mm3);
+    page.only("spindle_on", "gauge", "1 while the spindle turns.", loop.spindle_on ? 1 : 0);
+    page.only("spindle_starts_total", "counter", "How often the spindle was started.", loop.spindle_starts);
+
+    page.only("clients", "gauge", "Clients that are connected.", traffic.clients);
+    page.only("sent_bytes_total", "counter", "Bytes of frames sent to clients.", traffic.sent_bytes);
+    page.head("build_info", "gauge", "1, with the server's version.");
+    page.value(fmt::format("build_info{{version=\"{}\"}}", version), 1);
+    return std::move(page).text();
+}
+
+}  // namespace osteomill

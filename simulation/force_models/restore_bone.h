@@ -1,0 +1,15 @@
+// Undo and redo in the milling loop's bone: milled bone is given back, or taken again.
+#pragma once
+
+#include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
+#include "simulation/force_models/removal_account.h"
+
+namespace osteomill {
+
+/// Gives the voxels of the change what `fractions` has for them, enters the difference into the account and
+/// pushes the change as restored. One that does not fit the bone changes nothing. Real-time safe.
+void restore_bone(const BrickChange& change, BrickFractions fractions, Bone& bone, RemovalAccount& account,
+                  ChangeSink& changes) noexcept;
+
+}  // namespace osteomill
