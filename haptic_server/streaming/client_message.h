@@ -35,10 +35,10 @@ std::optional<WireError> check_greeting(const v2::ClientFrame& frame);
 
 /// Any later message. An operator's input is given to the lease if it is fresh. A control of the session is
 /// passed on; a client without the right to it gets a refusal. An invalid message returns an error, which
-/// drops the client, and changes nothing: no body, numbers that are not finite, a viewpoint that viewpoint_from
-/// refuses, a burr that does not exist, an answer to a state that was not sent, a comparison that ClientFeed refuses. Otherwise returns the
-/// outcome of an operator's input if it is new: different from the one before, or the first that is not
-/// fresh.
+/// drops the client, and changes nothing: no body, numbers that are not finite, a viewpoint that
+/// viewpoint_from refuses, a burr that does not exist, an answer to a state that was not sent, a comparison
+/// that ClientFeed refuses. Otherwise returns the outcome of an operator's input if it is new: different from
+/// the one before, or the first that is not fresh.
 std::variant<std::optional<Answer>, WireError> take_client_message(const v2::ClientFrame& frame,
                                                                    const MessagingClient& client,
                                                                    ToolLease::Time now);
