@@ -14,7 +14,6 @@
 #include "common/wire/control_messages.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
-#include "common/wire/viewpoint_message.h"
 
 namespace osteomill {
 
@@ -65,34 +64,30 @@ void ServerConnection::send(const OperatorCommand& command) {
         connection = seen_generation_;
     }
     asio::post(io_, [this, input = std::move(input), connection]() mutable {
-        if (!accepts_operator_ || connection != generation_) return;
-        if (!std::holds_alternative<OperatorCommand>(operator_command_from(input, burr_count_))) return;
-        input.set_number(++input_number_);
-        newest_input_ = std::move(input);
+        if (connection != generation_) return;
+        outbox_.put(std::move(input));
         write_newest();
     });
 }
 
 void ServerConnection::send(const SessionControl& control) {
     asio::post(io_, [this, message = to_message(control)]() mutable {
-        if (!accepts_controls_ || !receiver_.is_live() || controls_.size() >= most_waiting_controls) return;
-        controls_.push_back(std::move(message));
+        if (!receiver_.is_live()) return;
+        outbox_.put(std::move(message));
         write_newest();
     });
 }
 
 void ServerConnection::send(const Viewpoint& view) {
     asio::post(io_, [this, view] {
-        if (view_ == view) return;
-        view_ = view;
-        owes_view_ = records_view_;
+        outbox_.put(view);
         write_newest();
     });
 }
 
 void ServerConnection::ask_for_ct() {
     asio::post(io_, [this] {
-        wants_ct_ = has_ct_;
+        outbox_.request_ct();
         write_newest();
     });
 }
@@ -105,7 +100,7 @@ std::optional<ToolState> ServerConnection::newest_tool() const {
 void ServerConnection::send(const v2::CompareBone& request, std::uint64_t session_number) {
     asio::post(io_, [this, request, session_number] {
         if (!receiver_.is_live() || counters_.connections != session_number) return;
-        newest_request_ = request;
+        outbox_.put(request);
         write_newest();
     });
 }
@@ -204,17 +199,8 @@ void ServerConnection::disconnect() {
     decoder_ = {};
     receiver_ = SessionReceiver(gaps());
     is_paused_ = false;
-    accepts_operator_ = false;
     forget_seen();
-    owes_hello_ = false;
-    newest_input_.reset();
-    input_number_ = 0;
-    newest_request_.reset();
-    controls_.clear();
-    accepts_controls_ = false;
-    has_ct_ = wants_ct_ = false;
-    records_view_ = owes_view_ = false;
-    sent_sequence_ = 0;
+    outbox_.end();
     is_writing_ = false;
 }
 
@@ -283,13 +269,7 @@ void ServerConnection::take_event(SnapshotGoesOn) {
 }
 
 void ServerConnection::take_event(SessionInfo session) {
-    accepts_operator_ = session.accepts_operator;
-    accepts_controls_ = session.accepts_controls;
-    has_ct_ = session.has_ct;
-    records_view_ = session.records_view;
-    owes_view_ = records_view_ && view_;
-    burr_count_ = session.burrs.size();
-    owes_hello_ = true;
+    outbox_.begin(session);
     write_newest();
     ++counters_.connections;
     counters_.snapshot_bricks = 0;
@@ -335,28 +315,11 @@ void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
 }
 
 void ServerConnection::write_newest() {
-    if (is_writing_ ||
-        !(owes_hello_ || newest_input_ || newest_request_ || !controls_.empty() || wants_ct_ || owes_view_))
-        return;
-    v2::ClientFrame frame;
-    frame.set_sequence(++sent_sequence_);
-    if (std::exchange(owes_hello_, false)) {
-        frame.mutable_hello()->set_protocol_major(protocol_major);
-        frame.mutable_hello()->set_protocol_minor(protocol_minor);
-    } else if (newest_request_) {
-        *frame.mutable_compare_bone() = *std::exchange(newest_request_, std::nullopt);
-    } else if (std::exchange(wants_ct_, false)) {
-        frame.mutable_ct_request();
-    } else if (!controls_.empty()) {
-        *frame.mutable_session_control() = std::move(controls_.front());
-        controls_.pop_front();
-    } else if (std::exchange(owes_view_, false)) {
-        *frame.mutable_viewpoint() = to_message(*view_);
-    } else {
-        *frame.mutable_operator_input() = *std::exchange(newest_input_, std::nullopt);
-    }
+    if (is_writing_) return;
+    const auto frame = outbox_.next();
+    if (!frame) return;
     std::string bytes;
-    append_frame(frame, bytes);
+    append_frame(*frame, bytes);
     is_writing_ = true;
     stream_->write(std::move(bytes), [this, generation = generation_](error_code error) {
         if (generation != generation_) return;

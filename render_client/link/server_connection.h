@@ -8,7 +8,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -23,6 +22,7 @@
 #include "common/recording/recording_writer.h"
 #include "common/wire/frame.h"
 #include "common/wire/session_receiver.h"
+#include "render_client/link/client_outbox.h"
 #include "render_client/link/link_queue.h"
 
 namespace osteomill {
@@ -47,8 +47,6 @@ class ServerConnection {
     ServerConnection(const ServerConnection&) = delete;
     ServerConnection& operator=(const ServerConnection&) = delete;
 
-    static constexpr std::size_t most_waiting_controls = 64;
-
     LinkQueue& events() { return events_; }
     const LinkCounters& counters() const { return counters_; }
 
@@ -56,9 +54,10 @@ class ServerConnection {
     /// As the answer to newest_tool(). Dropped while nothing has been seen, and where the server would not
     /// take it.
     void send(const OperatorCommand& command);
-    /// Dropped where the server would not take it, and beyond most_waiting_controls that wait to be written.
+    /// Dropped where the server would not take it, and beyond ClientOutbox::most_waiting_controls that wait
+    /// to be written.
     void send(const SessionControl& control);
-    /// From where its operator looks, told again to whom it connects later; only to servers that record it.
+    /// From where its operator looks, sent again on later connections; only to servers that record it.
     void send(const Viewpoint& view);
     /// Asks for the CT; dropped where the server has none.
     void ask_for_ct();
@@ -138,9 +137,6 @@ class ServerConnection {
     FrameDecoder decoder_;
     SessionReceiver receiver_;
     bool is_paused_ = false;
-    bool accepts_operator_ = false;
-    bool accepts_controls_ = false;
-    std::size_t burr_count_ = 0;
 
     // What the reader of the operator's mouse has before it: the newest state, though it may not be drawn
     // yet.
@@ -149,17 +145,7 @@ class ServerConnection {
     std::uint64_t seen_state_ = 0;  // 0: none
     std::optional<ToolState> seen_tool_;
 
-    bool owes_hello_ = false;
-    bool has_ct_ = false;  // the server does
-    bool wants_ct_ = false;
-    bool records_view_ = false;  // the server does
-    bool owes_view_ = false;
-    std::optional<Viewpoint> view_;  // the newest
-    std::optional<v2::OperatorInput> newest_input_;
-    std::uint64_t input_number_ = 0;  // of this connection
-    std::optional<v2::CompareBone> newest_request_;
-    std::deque<v2::SessionControl> controls_;  // that have yet to be written
-    std::uint64_t sent_sequence_ = 0;
+    ClientOutbox outbox_;
     bool is_writing_ = false;
 
     LinkStatus announced_ = LinkStatus::connecting;
