@@ -75,7 +75,7 @@ double milling_force_n(double depth_mm, double feed_mm_per_s) {
 
 }  // namespace
 
-std::vector<std::string> force_models() {
+std::vector<std::string> contact_models() {
     std::vector<std::string> names;
     for (const ForceModelEntry& model : force_models())
         if (!model.has_cutting_law) names.push_back(model.name);
@@ -92,7 +92,7 @@ std::vector<double> contact_depths_mm(bool quick) {
 ContactRow measure_contact(double depth_mm) {
     const Bone bone = flat_block();
     ContactRow row{.depth_mm = depth_mm};
-    for (const std::string& name : force_models())
+    for (const std::string& name : contact_models())
         row.force_n.push_back(resting_force_n(name, bone, depth_mm));
     for (const double feed : feeds_mm_per_s) row.milling_force_n.push_back(milling_force_n(depth_mm, feed));
     return row;
@@ -104,7 +104,7 @@ double contact_step_us(const std::string& model, bool quick) {
 
 Table table_of(const std::vector<ContactRow>& rows) {
     std::vector<std::string> columns{"depth_mm"};
-    for (const std::string& model : force_models()) columns.push_back(model);
+    for (const std::string& model : contact_models()) columns.push_back(model);
     for (const double feed : feeds_mm_per_s) columns.push_back(fmt::format("milling {} mm/s", feed));
     Table table(columns);
     for (const ContactRow& row : rows) {

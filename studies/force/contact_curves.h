@@ -18,7 +18,7 @@ struct ContactRow {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContactRow, depth_mm, force_n, milling_force_n)
 
 /// Of force_models.h, those that know no cutting law.
-std::vector<std::string> force_models();
+std::vector<std::string> contact_models();
 std::vector<double> contact_depths_mm(bool quick);
 
 /// A 5 mm burr, upright, spindle off, over 0.1 mm voxels; the milling force at 10 000 rpm.

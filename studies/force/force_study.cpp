@@ -88,7 +88,7 @@ void run_force_study(const ForceStudyOptions& options, const StudySurroundings& 
     const auto by_depth = plan_curve(depth_curve());
     const auto by_feed = plan_curve(feed_curve());
     const auto by_rpm = plan_curve(rpm_curve());
-    const std::vector<std::string> models = force_models();
+    const std::vector<std::string> models = contact_models();
     const auto contact = run.plan(
         contact_depths_mm(options.quick), [](double mm) { return fmt::format("contact at {} mm", mm); },
         measure_contact);
