@@ -10,6 +10,7 @@
 #include "common/scene/viewpoint.h"
 #include "common/wire/frame.h"
 #include "common/wire/session_info.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
