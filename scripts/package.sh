@@ -15,7 +15,7 @@ in_changelog=$(dpkg-parsechangelog -S Version)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/osteomill-$version"
-git archive HEAD | tar -x -C "$work/osteomill-$version"
+git archive HEAD | tar -x --no-same-permissions -C "$work/osteomill-$version"
 git rev-parse --short=12 HEAD >"$work/osteomill-$version/COMMIT"
 (cd "$work/osteomill-$version" && dpkg-buildpackage --no-sign --build=full --jobs="${JOBS:-$(nproc)}" >"$work/build.log" 2>&1) ||
     { tail -40 "$work/build.log" >&2; exit 1; }
