@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <utility>
+
 namespace osteomill {
 
 std::string SessionSound::switch_to(bool on) {
-    if (!on) {
-        speaker_.reset();
-        return "sound off";
-    }
-    if (speaker_) return "sound on";
+    is_on_ = false;
+    if (!on) return "sound off";
     try {
-        speaker_ = std::make_unique<Speaker>();
+        if (!speaker_) speaker_ = std::make_unique<Speaker>();
+        is_on_ = true;
+        has_no_speaker_ = false;
         heard_time_s_ = -1.0;
         return fmt::format("sound on: {}", speaker_->device_name());
     } catch (const NoSound& error) {
@@ -22,11 +23,24 @@ std::string SessionSound::switch_to(bool on) {
     }
 }
 
+void SessionSound::open_for_warnings() {
+    try {
+        speaker_ = std::make_unique<Speaker>();
+    } catch (const NoSound&) {
+        has_no_speaker_ = true;
+    }
+}
+
 std::string SessionSound::hear(const std::optional<ToolState>& tool, const SessionInfo* session,
                                std::span<const StructureDistance> distances, bool warns) {
+    const StructureWarning warning =
+        warns && session != nullptr ? gravest_warning(distances, session->tissues) : StructureWarning::none;
+    if (!speaker_ && !has_no_speaker_ && warning != StructureWarning::none) open_for_warnings();
     if (!speaker_) return {};
     if (speaker_->has_lost_device()) {
         speaker_.reset();
+        has_no_speaker_ = true;
+        if (!std::exchange(is_on_, false)) return {};
         const std::string line = "no sound: the loudspeaker is gone";
         spdlog::warn("{}", line);
         return line;
@@ -34,8 +48,7 @@ std::string SessionSound::hear(const std::optional<ToolState>& tool, const Sessi
     const bool is_news = tool && tool->time_s != heard_time_s_;
     if (!is_news || session == nullptr || tool->burr >= session->burrs.size()) return {};
     heard_time_s_ = tool->time_s;
-    speaker_->hear(cue_of(*tool, session->burrs[tool->burr]),
-                   warns ? gravest_warning(distances, session->tissues) : StructureWarning::none);
+    speaker_->hear(is_on_ ? cue_of(*tool, session->burrs[tool->burr]) : SoundCue{}, warning);
     return {};
 }
 

@@ -1,5 +1,5 @@
-// The sound of the session that a client shows: off until it is requested. Without a loudspeaker it says so
-// in one line, and everything else goes on.
+// The sound of the session that a client shows: of the burr where it is requested, and the tone that warns of
+// protected structures. Without a loudspeaker everything else goes on.
 #pragma once
 
 #include <memory>
@@ -15,18 +15,23 @@ namespace osteomill {
 
 class SessionSound {
   public:
-    /// Returns one line on what came of it, for people. It is also logged where it went wrong.
+    /// The burr. Returns one line on what came of it, for people. It is also logged where it went wrong.
     std::string switch_to(bool on);
-    bool is_on() const { return speaker_ != nullptr; }
+    bool is_on() const { return is_on_; }
 
     /// The newest state of the tool, as often as there is one. Returns a line once the loudspeaker is lost,
     /// and is then off; mostly nothing.
-    /// `warns`: of protected structures at these distances.
+    /// `warns`: of protected structures at these distances, also where the burr is not heard. For that the
+    /// loudspeaker is opened at the first warning, and where there is none, nothing is said: the banner warns.
     std::string hear(const std::optional<ToolState>& tool, const SessionInfo* session,
                      std::span<const StructureDistance> distances, bool warns);
 
   private:
+    void open_for_warnings();
+
     std::unique_ptr<Speaker> speaker_;
+    bool is_on_ = false;
+    bool has_no_speaker_ = false;  // for warnings; F9 tries again
     double heard_time_s_ = -1.0;  // session time of the state that was passed on last
 };
 

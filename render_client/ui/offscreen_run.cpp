@@ -79,7 +79,8 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     for (int frame = 1; going_on; ++frame) {
         const Clock::time_point start = Clock::now();
         const SessionNews news = session.take_in();
-        sound.hear(session.tool(), session.session(), session.link().distances, session.view().warns);
+        sound.hear(session.tool(), session.session(), session.link().distances,
+                   options.sound && session.view().warns);
         if (news == SessionNews::change) redraw.note_change(start);
         if (news == SessionNews::figures) redraw.note_figures();
         const LinkStatus status = session.link().status;
