@@ -268,7 +268,7 @@ void Commands::tell(const std::vector<ControlEvent>& events, double now_s) {
         if (event.action == SessionAction::place && std::exchange(waits_for_place_, false) &&
             !clutch_.is_held())
             session_.show_tool_at(std::nullopt);
-        say(event.is_refused ? fmt::format("no {}: {}", name_of(event.action), event.text)
+        say(event.is_refused ? trf("no {}: {}", name_of(event.action), event.text)
                              : fmt::format("{} {}", words_for(event.action), event.text),
             now_s);
     }
@@ -277,12 +277,12 @@ void Commands::tell(const std::vector<ControlEvent>& events, double now_s) {
 void Commands::write_pictures(const gl::Framebuffer& picture, double now_s) {
     try {
         if (std::exchange(picture_wanted_, false))
-            say("written: " + pictures_.write(picture.read_back()).string(), now_s);
+            say(trf("written: {}", pictures_.write(picture.read_back()).string()), now_s);
         if (export_wanted_ && !pictures_.is_exporting())
-            say("writing every frame into " + pictures_.begin_frames().string() + " until O", now_s);
+            say(trf("writing every frame into {} until O", pictures_.begin_frames().string()), now_s);
         if (!export_wanted_ && pictures_.is_exporting()) {
             pictures_.end_frames();
-            say("no more frames are written", now_s);
+            say(tr("no more frames are written"), now_s);
         }
         if (pictures_.is_exporting()) pictures_.add_frame(picture.read_back(), now_s);
     } catch (const std::runtime_error& error) {

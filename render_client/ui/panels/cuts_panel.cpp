@@ -4,29 +4,29 @@
 #include <array>
 
 #include "render_client/ui/panels/input_panel.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
 namespace {
 
-constexpr std::array<const char*, CutSettings::count> cut_names{"left/right (X)", "front/back (Y)",
-                                                                "above/below (Z)", "across the view (C)"};
-
 void draw_row(CutSettings& cuts, std::size_t index, const Camera& camera) {
+    const std::array<const char*, CutSettings::count> names{tr("left/right (X)"), tr("front/back (Y)"),
+                                                            tr("above/below (Z)"), tr("across the view (C)")};
     const CutSettings::Cut& cut = cuts[index];
     bool is_on = cut.is_on;
-    if (ImGui::Checkbox(cut_names[index], &is_on)) is_on ? cuts.step(index, camera) : cuts.switch_off(index);
+    if (ImGui::Checkbox(names[index], &is_on)) is_on ? cuts.step(index, camera) : cuts.switch_off(index);
     auto position_mm = static_cast<float>(cut.position_mm);
     // One that was never on has no direction yet, and so no reach.
     const float reach_mm = std::max(static_cast<float>(cuts.reach_mm(index)), 0.1f);
     ImGui::BeginDisabled(!cut.is_on);
-    const float flip_width = 5.0f * ImGui::GetFontSize();
+    const float flip_width = 5.5f * ImGui::GetFontSize();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - flip_width - ImGui::GetStyle().ItemSpacing.x);
     if (ImGui::SliderFloat("##position", &position_mm, -reach_mm, reach_mm, "%.1f mm",
                            ImGuiSliderFlags_NoInput))
         cuts.move_to(index, position_mm);
     ImGui::SameLine();
-    if (ImGui::Button("turn over", {flip_width, 0.0f})) cuts.turn_over(index);
+    if (ImGui::Button(tr("turn over"), {flip_width, 0.0f})) cuts.turn_over(index);
     ImGui::EndDisabled();
 }
 
@@ -47,7 +47,7 @@ void draw_cuts_panel(CutSettings& cuts, const Camera& camera, const PanelPlace& 
         draw_row(cuts, index, camera);
         ImGui::PopID();
     }
-    ImGui::TextDisabled("alt + wheel moves the last; F4 closes");
+    ImGui::TextDisabled("%s", tr("alt + wheel moves the last; F4 closes"));
 }
 
 }  // namespace osteomill

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "render_client/ui/words/translation.h"
+
 namespace osteomill {
 
 namespace {
@@ -30,7 +32,7 @@ void draw_inset(const PanelPainter& painter, const gl::Framebuffer& inset, Inset
         to_imgui(place.first), to_imgui(end), {is_axial ? 1.0f : 0.0f, 1.0f}, {is_axial ? 0.0f : 1.0f, 0.0f});
     painter.canvas().AddRect(to_imgui(place.first), to_imgui(end), colour_of(painter.theme().on_picture));
     const float padding = painter.padding();
-    painter.draw_on_picture(place.first + padding, is_axial ? "axial" : "endoscope");
+    painter.draw_on_picture(place.first + padding, is_axial ? tr("axial") : tr("endoscope"));
     if (!is_axial) return;
     const auto burr_px = static_cast<float>(burr_diameter_mm / axial_width_mm) * place.size.x;
     painter.canvas().AddCircle(to_imgui(0.5f * (place.first + end)), std::max(0.5f * burr_px, 2.0f),

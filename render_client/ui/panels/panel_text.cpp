@@ -14,8 +14,8 @@ TextLine line(Tone tone, std::string text) {
 }
 
 std::string quality_in_words(const PictureQuality& quality) {
-    if (quality.refined) return "full quality";
-    if (quality.scale == 1.0) return "refining";
+    if (quality.refined) return tr("full quality");
+    if (quality.scale == 1.0) return tr("refining");
     return trf("coarse, {:.0f} %", 100.0 * quality.scale);
 }
 
@@ -30,14 +30,14 @@ std::string received_part(const LinkUpdate& link) {
 }
 
 void add_details(const OverlayContent& content, PanelText& text) {
-    text.push_back(line(Tone::dim, fmt::format("picture {:.0f} frames/s, {}", content.render_frames_per_s,
-                                               quality_in_words(content.quality))));
+    text.push_back(line(Tone::dim, trf("picture {:.0f} frames/s, {}", content.render_frames_per_s,
+                                       quality_in_words(content.quality))));
     text.push_back(
-        line(Tone::dim, fmt::format("{} {:.0f} frames/s, {:.1f} kB/s", content.player ? "file" : "link",
-                                    content.link.frames_per_s, 1e-3 * content.link.bytes_per_s)));
+        line(Tone::dim, trf("{} {:.0f} frames/s, {:.1f} kB/s", content.player ? tr("file") : tr("link"),
+                            content.link.frames_per_s, 1e-3 * content.link.bytes_per_s)));
     if (const auto& delay = content.link.delay)
-        text.push_back(line(Tone::dim, fmt::format("delay {:.0f} ms by the clocks, {:.0f} over the least",
-                                                   1e3 * delay->by_clocks_s, 1e3 * delay->over_least_s)));
+        text.push_back(line(Tone::dim, trf("delay {:.0f} ms by the clocks, {:.0f} over the least",
+                                           1e3 * delay->by_clocks_s, 1e3 * delay->over_least_s)));
 }
 
 }  // namespace
@@ -94,8 +94,14 @@ PanelText warning_text(const OverlayContent& content) {
             line(Tone::plain, tr("you watch: the server does not list this client as an operator")));
     const PanelText structures = structure_warnings(content);
     text.insert(text.end(), structures.begin(), structures.end());
-    if (!content.view->notice.empty()) text.push_back(line(Tone::plain, content.view->notice));
+    const PanelText notice = notice_text(content);
+    text.insert(text.end(), notice.begin(), notice.end());
     return text;
+}
+
+PanelText notice_text(const OverlayContent& content) {
+    if (content.view->notice.empty()) return {};
+    return {line(Tone::plain, content.view->notice)};
 }
 
 bool is_alarm(const OverlayContent& content) {

@@ -21,6 +21,8 @@ PanelText session_text(const OverlayContent& content);
 PanelText tool_text(const OverlayContent& content);
 /// Warnings that must not be overlooked, and the notice; empty without any.
 PanelText warning_text(const OverlayContent& content);
+/// The notice alone: there may be no session.
+PanelText notice_text(const OverlayContent& content);
 /// Whether there is a fault, or the burr is near a protected structure: a banner with a frame round the
 /// picture says so.
 bool is_alarm(const OverlayContent& content);

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "render_client/ui/panels/input_panel.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
@@ -33,13 +34,13 @@ float rows() {
 const char* name_of(SlicePlane plane) {
     switch (plane) {
         case SlicePlane::axial:
-            return "axial";
+            return tr("axial");
         case SlicePlane::coronal:
-            return "coronal";
+            return tr("coronal");
         case SlicePlane::sagittal:
             break;
     }
-    return "sagittal";
+    return tr("sagittal");
 }
 
 /// "L 12.3  P 4.0  S 56.7": which side of the origin, for people.
@@ -111,17 +112,18 @@ void draw_settings(const OverlayContent& content) {
     auto level = static_cast<float>(slices.window().level_hu);
     auto width = static_cast<float>(slices.window().window_hu);
     ImGui::SetNextItemWidth(10.0f * letter);
-    if (ImGui::SliderFloat("##level", &level, -1000.0f, 3000.0f, "level %.0f HU", ImGuiSliderFlags_NoInput))
+    if (ImGui::SliderFloat("##level", &level, -1000.0f, 3000.0f, trf("level {:.0f} HU", level).c_str(),
+                           ImGuiSliderFlags_NoInput))
         slices.window().level_hu = level;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(10.0f * letter);
-    if (ImGui::SliderFloat("##window", &width, narrowest_window_hu, widest_window_hu, "window %.0f HU",
-                           ImGuiSliderFlags_NoInput))
+    if (ImGui::SliderFloat("##window", &width, narrowest_window_hu, widest_window_hu,
+                           trf("window {:.0f} HU", width).c_str(), ImGuiSliderFlags_NoInput))
         slices.window().window_hu = width;
     ImGui::SameLine();
     const bool may = content.requests != nullptr && content.link.controls.may_control && content.tool;
     ImGui::BeginDisabled(!may);
-    if (ImGui::Button("Place the tool here") && may)
+    if (ImGui::Button(tr("Place the tool here")) && may)
         content.requests->controls.push_back({.action = SessionAction::place,
                                               .text = {},
                                               .pose = {*slices.cross_mm(), content.tool->spindle_axis}});
@@ -149,8 +151,8 @@ void draw_slices_panel(const OverlayContent& content, const PanelPlace& place) {
     if (slices.ct() == nullptr) {
         const bool has_ct =
             content.player == nullptr && content.session != nullptr && content.session->has_ct;
-        ImGui::TextWrapped("%s", has_ct ? "the CT is on its way"
-                                        : "there is no CT to show: a recording, or a bone without one");
+        ImGui::TextWrapped("%s", has_ct ? tr("the CT is on its way")
+                                        : tr("there is no CT to show: a recording, or a bone without one"));
         return;
     }
     const int edge = edge_px(place.choice);

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "render_client/ui/words/translation.h"
+
 namespace osteomill {
 
 namespace {
 
 std::string name_of(const Tissue& tissue) {
-    return tissue.is_protected ? tissue.name + " (protected)" : tissue.name;
+    return tissue.is_protected ? trf("{} (protected)", tissue.name) : tissue.name;
 }
 
 }  // namespace

@@ -292,7 +292,7 @@ void draw_speed(const OverlayContent& content) {
     if (rpm == 0.0f) rpm = static_cast<float>(spindle_rpm(*content.tool, burr));
     ImGui::SetNextItemWidth(14.0f * ImGui::GetFontSize());
     ImGui::SliderFloat("##rpm", &rpm, std::min(slowest_rpm, static_cast<float>(own_rpm)),
-                       std::max(fastest_rpm, static_cast<float>(own_rpm)), "%.0f rpm",
+                       std::max(fastest_rpm, static_cast<float>(own_rpm)), trf("{:.0f} rpm", rpm).c_str(),
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     storage.SetFloat(dragged, ImGui::IsItemActive() ? rpm : 0.0f);
     const auto choose = [&](double chosen_rpm) {

@@ -8,6 +8,7 @@
 
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/view/hu_axis.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
@@ -133,16 +134,17 @@ void edit_field(const PanelPainter& painter, TransferEditor& editor, const Field
     else if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left))
         editor.move(value, opacity);
     if (ImGui::IsItemHovered() || ImGui::IsItemActive())
-        ImGui::SetTooltip("%.0f HU, stiffness %.2f, opacity %.2f",
-                          std::clamp(field.hu_at(mouse.x), 0.0, Field::highest_hu()), value,
-                          std::clamp(opacity, 0.0, 1.0));
+        ImGui::SetTooltip("%s", trf("{:.0f} HU, stiffness {:.2f}, opacity {:.2f}",
+                                    std::clamp(field.hu_at(mouse.x), 0.0, Field::highest_hu()), value,
+                                    std::clamp(opacity, 0.0, 1.0))
+                                    .c_str());
 }
 
 void draw_presets(TransferEditor& editor, float width_of_others) {
-    const std::string current = editor.function() ? editor.function()->name : "own colours";
+    const std::string current = editor.function() ? editor.function()->name : tr("own colours");
     ImGui::SetNextItemWidth(-1.0f - width_of_others);
     if (!ImGui::BeginCombo("##preset", current.c_str())) return;
-    if (ImGui::Selectable("own colours", !editor.function())) editor.choose(std::nullopt);
+    if (ImGui::Selectable(tr("own colours"), !editor.function())) editor.choose(std::nullopt);
     for (const TransferFunction& preset : transfer_presets())
         if (ImGui::Selectable(preset.name.c_str(), current == preset.name)) editor.choose(preset);
     ImGui::EndCombo();
@@ -154,18 +156,18 @@ void draw_point_controls(TransferEditor& editor) {
     if (editor.selected())
         for (std::size_t i = 0; i < 3; ++i)
             colour[i] = static_cast<float>(editor.function()->points[*editor.selected()].srgb[i]) / 255.0f;
-    if (ImGui::ColorEdit3("colour", colour.data(), ImGuiColorEditFlags_NoInputs)) {
+    if (ImGui::ColorEdit3(tr("colour"), colour.data(), ImGuiColorEditFlags_NoInputs)) {
         std::array<std::uint8_t, 3> srgb{};
         for (std::size_t i = 0; i < 3; ++i)
             srgb[i] = static_cast<std::uint8_t>(std::lround(255.0f * colour[i]));
         editor.set_colour(srgb);
     }
     ImGui::SameLine();
-    if (ImGui::Button("remove")) editor.remove();
+    if (ImGui::Button(tr("remove"))) editor.remove();
     ImGui::EndDisabled();
     ImGui::SameLine();
     bool is_translucent = editor.function()->mode == TransferMode::translucent;
-    if (ImGui::Checkbox("see through", &is_translucent))
+    if (ImGui::Checkbox(tr("see through"), &is_translucent))
         editor.set_mode(is_translucent ? TransferMode::translucent : TransferMode::surface);
 }
 
@@ -183,17 +185,17 @@ void draw_transfer_panel(const PanelPainter& painter, ViewSettings& view, const 
                             place.choice == 0 ? InputPanel::Size::whole : InputPanel::Size::scrolls);
     TransferEditor& editor = view.transfer;
     const float letter = ImGui::GetFontSize();
-    const float save_width = 4.0f * letter;
+    const float save_width = 5.5f * letter;
     draw_presets(editor, view.transfer_has_file ? save_width + ImGui::GetStyle().ItemSpacing.x : 0.0f);
     if (view.transfer_has_file) {
         ImGui::SameLine();
-        if (ImGui::Button("save", {save_width, 0.0f})) view.transfer_save_wanted = true;
+        if (ImGui::Button(tr("save"), {save_width, 0.0f})) view.transfer_save_wanted = true;
     }
-    ImGui::SetNextItemWidth(-2.5f * letter);
-    ImGui::SliderFloat("wet", &view.specular, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SetNextItemWidth(-3.0f * letter);
+    ImGui::SliderFloat(tr("wet"), &view.specular, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     if (!editor.function()) {
-        ImGui::TextDisabled("tissues, or stiffness, in their own");
-        ImGui::TextDisabled("colours; choose a preset to edit it");
+        ImGui::TextDisabled("%s",
+                            tr("tissues, or stiffness, in their own\ncolours; choose a preset to edit it"));
         return;
     }
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -208,8 +210,8 @@ void draw_transfer_panel(const PanelPainter& painter, ViewSettings& view, const 
     draw_axes(painter, field);
     ImGui::Dummy({1.0f, letter});
     draw_point_controls(editor);
-    ImGui::TextDisabled("opacity upwards; HU by the usual relation");
-    ImGui::TextDisabled("double click: new point; F5 closes");
+    ImGui::TextDisabled("%s", tr("opacity upwards; HU by the usual relation"));
+    ImGui::TextDisabled("%s", tr("double click: new point; F5 closes"));
 }
 
 }  // namespace osteomill

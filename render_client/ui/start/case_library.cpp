@@ -15,6 +15,7 @@
 #include "common/scene/scene_file.h"
 #include "common/scene/shipped_scenes.h"
 #include "common/text/file_name.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
@@ -42,6 +43,7 @@ void describe(ShelvedCase& shelved, const Read& read) {
         for (const Tissue& tissue : scene.tissues)
             if (tissue.is_protected) names.push_back(tissue.name);
         shelved.protected_names = fmt::format("{}", fmt::join(names, ", "));
+        std::ranges::replace(shelved.protected_names, '_', ' ');  // of label maps, for people
     } catch (const SceneError& error) {
         shelved.description = error.what();
     }
@@ -83,14 +85,13 @@ std::string wrong_with_name(const std::string& name, const std::filesystem::path
     const bool is_good = !name.empty() && name == as_file_name(name) && name.front() != '.' &&
                          name.front() != ' ' && name.back() != ' ';
     if (!is_good)
-        return fmt::format(
-            "a case's name has 1 to {} characters, no / or \\, no dot first, no blank at its ends",
-            longest_file_name_characters);
+        return trf("a case's name has 1 to {} characters, no / or \\, no dot first, no blank at its ends",
+                   longest_file_name_characters);
     if (std::ranges::find(phantom_names, name) != phantom_names.end())
-        return fmt::format("'{}' is built in; choose another name", name);
+        return trf("'{}' is built in; choose another name", name);
     std::error_code error;
     if (std::filesystem::exists(folder / name, error))
-        return fmt::format("there is a case '{}' already; choose another name", name);
+        return trf("there is a case '{}' already; choose another name", name);
     return {};
 }
 
@@ -108,9 +109,8 @@ std::string make_folder_at_home(const std::filesystem::path& folder) {
     // A folder may be there on a disk that takes nothing.
     if (!error && ::access(folder.c_str(), W_OK) != 0) error.assign(errno, std::generic_category());
     if (!error) return {};
-    return fmt::format(
-        "nothing can be kept in {} ({}): start render_client with --home DIR, a folder of yours",
-        folder.string(), error.message());
+    return trf("nothing can be kept in {} ({}): start render_client with --home DIR, a folder of yours",
+               folder.string(), error.message());
 }
 
 }  // namespace osteomill

@@ -13,6 +13,7 @@
 #include "common/scene/stiffness_relation.h"
 #include "common/scene/toml_reader.h"
 #include "render_client/ui/view/hu_axis.h"
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
@@ -108,14 +109,14 @@ std::optional<std::optional<TransferFunction>> TransferFile::open(const std::fil
 }
 
 std::string TransferFile::save(const std::optional<TransferFunction>& look) const {
-    if (is_bad_) return fmt::format("not saved: {} is no look; mend or remove it first", file_.string());
+    if (is_bad_) return trf("not saved: {} is no look; mend or remove it first", file_.string());
     try {
         if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
         write_atomic_file(file_, look_text(look), Link::replace);
     } catch (const std::exception& error) {
         return error.what();
     }
-    return "the look is saved in " + file_.string();
+    return trf("the look is saved in {}", file_.string());
 }
 
 }  // namespace osteomill

@@ -5,14 +5,19 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "render_client/ui/input/key_bindings.h"
+#include "render_client/ui/start/case_library.h"
 
 namespace osteomill::translation_test {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
@@ -20,8 +25,9 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
         text.replace(at, from.size(), to);
 }
 
-/// The literal that begins at `at`, with those that C++ joins to it; "" where there is none.
-std::string literal_at(const std::string& source, std::size_t at) {
+/// The literal that begins at `at`, with those that C++ joins to it, and `at` behind it; "" where there is
+/// none.
+std::string literal_at(const std::string& source, std::size_t& at) {
     std::string text;
     for (;;) {
         while (at < source.size() && std::isspace(static_cast<unsigned char>(source[at]))) ++at;
@@ -35,35 +41,84 @@ std::string literal_at(const std::string& source, std::size_t at) {
     replace_all(text, "\\u00b3", "\u00b3");
     replace_all(text, "\\n", "\n");
     replace_all(text, "\\\"", "\"");
+    replace_all(text, "\\\\", "\\");
     return text;
+}
+
+/// The window's sources, by file.
+std::map<std::string, std::string> sources() {
+    std::map<std::string, std::string> sources;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(WINDOW_SOURCES)) {
+        if (entry.path().extension() != ".cpp") continue;
+        std::ostringstream text;
+        text << std::ifstream(entry.path()).rdbuf();
+        sources[entry.path().filename().string()] = text.str();
+    }
+    return sources;
+}
+
+/// Where the arguments of each call of that function begin.
+std::vector<std::size_t> calls_of(const std::string& source, const std::string& function) {
+    std::vector<std::size_t> calls;
+    for (std::size_t at = source.find(function + "("); at != std::string::npos;
+         at = source.find(function + "(", at + 1)) {
+        const char before = at > 0 ? source[at - 1] : ' ';
+        if (!std::isalnum(static_cast<unsigned char>(before)) && before != '_')
+            calls.push_back(at + function.size() + 1);
+    }
+    return calls;
+}
+
+/// Three small letters in a row: no unit, no place for a value.
+bool has_word(const std::string& text) {
+    int letters = 0;
+    for (const char letter : text) {
+        letters = std::islower(static_cast<unsigned char>(letter)) ? letters + 1 : 0;
+        if (letters == 3) return true;
+    }
+    return false;
+}
+
+/// Words among a call's arguments that are not handed to tr; what is behind ## is not shown.
+std::vector<std::string> bare_words(const std::string& source, std::size_t at) {
+    std::vector<std::string> bare;
+    for (int depth = 1; at < source.size() && depth > 0;) {
+        if (source[at] != '"') {
+            depth += source[at] == '(' ? 1 : source[at] == ')' ? -1 : 0;
+            ++at;
+            continue;
+        }
+        const std::string_view before = std::string_view(source).substr(0, at);
+        const std::string text = literal_at(source, at);
+        const bool is_translated = before.ends_with("tr(") || before.ends_with("trf(");
+        if (!is_translated && has_word(text.substr(0, text.find("##")))) bare.push_back(text);
+    }
+    return bare;
+}
+
+std::vector<HelpLine> all_help() {
+    std::vector<HelpLine> all;
+    for (const Situation situation :
+         {Situation::starting, Situation::drilling, Situation::looking_on, Situation::playing}) {
+        const std::vector<HelpLine> lines = help_lines(situation);
+        all.insert(all.end(), lines.begin(), lines.end());
+    }
+    return all;
 }
 
 /// All that the window's sources translate.
 std::set<std::string> english_words() {
     std::set<std::string> words{"left", "back", "up"};  // axes of the plot
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(WINDOW_SOURCES)) {
-        if (entry.path().extension() != ".cpp") continue;
-        std::ostringstream text;
-        text << std::ifstream(entry.path()).rdbuf();
-        const std::string source = text.str();
-        for (const std::string call : {"tr(", "trf("})
-            for (std::size_t at = source.find(call); at != std::string::npos;
-                 at = source.find(call, at + 1)) {
-                const char before = at > 0 ? source[at - 1] : ' ';
-                if (std::isalnum(static_cast<unsigned char>(before)) || before == '_') continue;
-                words.insert(literal_at(source, at + call.size()));
-            }
-    }
+    for (const auto& [file, source] : sources())
+        for (const char* function : {"tr", "trf"})
+            for (std::size_t arguments : calls_of(source, function))
+                words.insert(literal_at(source, arguments));
+    for (const ShelvedCase& built_in : cases_in("/nowhere")) words.insert(built_in.description);
     // Of the help, what is no name of a key.
-    for (const Situation situation :
-         {Situation::starting, Situation::drilling, Situation::looking_on, Situation::playing})
-        for (const HelpLine& line : help_lines(situation)) {
-            words.insert(line.meaning);
-            for (std::size_t i = 1; i < line.name.size(); ++i)
-                if (std::islower(static_cast<unsigned char>(line.name[i - 1])) &&
-                    std::islower(static_cast<unsigned char>(line.name[i])))
-                    words.insert(line.name);
-        }
+    for (const HelpLine& line : all_help()) {
+        words.insert(line.meaning);
+        if (has_word(line.name)) words.insert(line.name);
+    }
     words.erase("");
     return words;
 }
@@ -91,6 +146,27 @@ TEST(Translation, AreThereInEveryLanguageForAllThatTheSourcesTranslate) {
             if (!translation_into(language).contains(words)) missing.push_back(words);
         EXPECT_THAT(missing, IsEmpty()) << language;
     }
+}
+
+TEST(Translation, AreOfNothingThatTheSourcesDoNotSay) {
+    std::set<std::string> said = english_words();
+    for (const HelpLine& line : all_help()) said.insert(line.name);  // keys have names, too
+    for (const std::string& language : languages())
+        for (const auto& [english, translated] : translation_into(language))
+            EXPECT_TRUE(said.contains(english)) << language << ": " << english;
+}
+
+TEST(Translation, LeaveNoWordsOfThePanelsAside) {
+    for (const auto& [file, source] : sources())
+        for (const char* function :
+             {"Text",         "TextUnformatted", "TextDisabled", "TextWrapped", "SetTooltip",
+              "Button",       "Checkbox",        "Selectable",   "BeginCombo",  "SliderFloat",
+              "ColorEdit3",   "InputText",       "InputDouble",  "button",      "text_field",
+              "number_field", "draw_on_picture", "draw_text",    "line",        "say"})
+            for (const std::size_t arguments : calls_of(source, function))
+                EXPECT_THAT(bare_words(source, arguments), IsEmpty()) << file << ": " << function;
+    EXPECT_THAT(bare_words(R"(tr("a word"), "%.0f HU", size("bare " "word"), "##hidden") and "more")", 0),
+                ElementsAre("bare word"));
 }
 
 TEST(Translation, HaveTheSamePlacesForValues) {

@@ -35,7 +35,7 @@ TEST(CaseLibrary, HasTheBuiltInCasesAndWhatWasImported) {
         EXPECT_FALSE(cases[i].description.empty()) << cases[i].name;
     }
     EXPECT_EQ(cases[0].protected_names, "pulp, nerve canal");
-    EXPECT_THAT(cases[1].protected_names, AllOf(HasSubstr("Facial_Nerve"), HasSubstr("Sinus_+_Dura")));
+    EXPECT_THAT(cases[1].protected_names, AllOf(HasSubstr("Facial Nerve"), HasSubstr("Sinus + Dura")));
     EXPECT_EQ(cases[5].name, "a jaw");
     EXPECT_EQ(cases[5].description, "An imported jaw");
     EXPECT_EQ(cases[5].protected_names, "nerve");
