@@ -116,8 +116,10 @@ void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, con
     if (options.only_reads()) {
         std::string error;
         if (options.surface || options.difference) error = write_bones(options, stop);
-        if (options.report)
+        if (options.report) {
             error = write_report(options.recording, *options.report, [&] { require_going_on(stop); });
+            output.out->write(fmt::format("report: {}\n", (*options.report / "report.html").string()));
+        }
         if (options.hdf5)
             error =
                 write_hdf5(options.recording, *options.hdf5, options.layout, [&] { require_going_on(stop); });

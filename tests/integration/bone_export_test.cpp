@@ -1,11 +1,14 @@
 // The way out: a session's bone as a surface that another program opens, and as what was removed of it.
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <thread>
 
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -73,6 +76,27 @@ TEST_F(BoneExport, GivesTheSameSurfaceOfTheSavedBoneAndOfTheRecording) {
         EXPECT_TRUE(std::regex_search(checked.out, std::regex(line))) << line << checked.out;
     ASSERT_TRUE(std::regex_search(checked.out, volume, std::regex("Volume *: *([-0-9.]+)"))) << checked.out;
     EXPECT_GT(std::stod(volume[1]), 0.0) << "else normals point inwards";
+}
+
+TEST_F(BoneExport, ThatIsStoppedLeavesNothingAndSaysSo) {
+    const Finished large = run_program({HAPTIC_SERVER, "--case", "jaw", "--clock", "virtual", "--duration-s",
+                                        "0.001", "--save-bone", file("jaw.nrrd")});
+    ASSERT_EQ(large.status, 0) << large.err;
+    std::filesystem::create_directory(file("out"));
+    bool was_in_time = false;
+    // It may be told before it listens, or be done before it is told; then once more.
+    for (int attempt = 0; attempt < 20 && !was_in_time; ++attempt) {
+        testing::ChildProcess exported({BONE_EXPORT, file("jaw.nrrd"), file("out/a.stl")});
+        std::this_thread::sleep_for(std::chrono::milliseconds(100 * (attempt + 1)));
+        exported.send_signal(attempt % 2 == 0 ? SIGINT : SIGTERM);
+        if (exported.wait(std::chrono::seconds(100)) == 1) {
+            was_in_time = true;
+            EXPECT_EQ(exported.err(), "bone_export: stopped; nothing was written\n");
+            EXPECT_TRUE(std::filesystem::is_empty(file("out")));
+        }
+        std::filesystem::remove(file("out/a.stl"));
+    }
+    EXPECT_TRUE(was_in_time);
 }
 
 TEST_F(BoneExport, SaysInOneLineWhatIsWrong) {

@@ -122,6 +122,29 @@ TEST(Documents, BeginWithAShortReadme) {
     EXPECT_LT(std::filesystem::file_size(repository_folder / "README.md"), 8000u);
 }
 
+TEST(Documents, NameNoProgramThatTheDemoLeavesUnbuilt) {
+    const std::string demo = text_in_repository("demo.sh"), readme = text_in_repository("README.md");
+    std::string built;
+    const std::regex build("\nbuild release ([^\n]*)"), row("\n\\| `(\\w+)` \\|");
+    for (std::sregex_iterator match(demo.begin(), demo.end(), build), end; match != end; ++match)
+        built += ' ' + match->str(1) + ' ';
+    int programs = 0;
+    for (std::sregex_iterator match(readme.begin(), readme.end(), row), end; match != end;
+         ++match, ++programs)
+        EXPECT_THAT(built, HasSubstr(' ' + match->str(1) + ' '));
+    EXPECT_EQ(programs, 7);
+}
+
+TEST(Documents, LetTheViewerOfTwoMachinesDrill) {
+    const std::string page = text_in_repository("docs/network.md");
+    const std::regex server("\nbuild/release/bin/haptic_server[^\n]*--tls-cert[^\n]*");
+    std::smatch command;
+    ASSERT_TRUE(std::regex_search(page, command, server));
+    EXPECT_THAT(command.str(), HasSubstr("--device client"));
+    EXPECT_THAT(command.str(), ::testing::Not(HasSubstr("--operators")))
+        << "then the client's name is needed, too";
+}
+
 TEST(Documents, DescribeEveryMessageAndFieldOfTheProtocol) {
     const std::string page = text_in_repository("docs/protocol.md");
     const auto describes = [&](const std::string& word) {

@@ -40,6 +40,7 @@ TEST_F(ReportProgram, OfTheLiveSessionIsThatOfItsRecording) {
     EXPECT_THAT(live.out, HasSubstr("report.html"));
     const Finished again = run_program({PACKET_REPLAY, file("anna/session.pcap"), "--report", file("again")});
     ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(again.out, "report: " + file("again/report.html") + "\n");
     for (const std::string name : {"report.html", "metrics.csv", "metrics.json"}) {
         EXPECT_GT(text("anna/" + name).size(), 100u);
         EXPECT_EQ(text("anna/" + name), text("again/" + name)) << name;
