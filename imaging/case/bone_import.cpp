@@ -91,16 +91,28 @@ void preview(osteomill::ImportOptions options, const osteomill::BegunCase& begun
              const std::filesystem::path& picture, const osteomill::ImportSurroundings& surroundings) {
     const std::optional<osteomill::Region> region = std::exchange(options.region, std::nullopt);
     options.threshold_hu.reset();
+    if (picture.has_parent_path()) std::filesystem::create_directories(picture.parent_path());
     const ScratchFolder scratch(picture);
     options.output = scratch.path() / "coarse.nrrd";
     import(options, begun, surroundings, true);
     const osteomill::CtVolume ct = osteomill::whole_ct(options.output);
     surroundings.messages << osteomill::summary_of(ct);
-    osteomill::write_preview(ct, region, picture);
+    if (picture.extension() == ".raw")
+        osteomill::write_preview_voxels(ct, begun.segmentations, picture);
+    else
+        osteomill::write_preview(ct, region, picture);
     for (const auto& segmentation : begun.segmentations)
         for (const osteomill::Segment& segment : segmentation->segments)
             surroundings.messages << "segment " << segment.name << '\n';
     surroundings.messages << "preview: " << picture.string() << '\n';
+}
+
+/// What there is now, and the next command where `option` says how the server takes it.
+std::string made(const std::string& what, const std::string& path, const std::string& option) {
+    const std::string shown = osteomill::printable(path);
+    std::string line = what + ": " + shown;
+    if (!option.empty()) line += "; next: haptic_server --device client " + option + " '" + shown + "'";
+    return line + '\n';
 }
 
 void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts) {
@@ -112,9 +124,11 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
                    "folder to make a case in, instead: case.toml, bone.nrrd and the segmentation")
         ->type_name("DIR")
         ->excludes(output);
-    app.add_option("--preview", texts.preview,
-                   "instead of a bone: say what the scan covers and its HU, and draw three slices of it, at "
-                   "0.5 mm unless --spacing-mm says otherwise, with the --region")
+    app.add_option(
+           "--preview", texts.preview,
+           "instead of a bone: say what the scan covers and its HU, and draw three slices of it, at "
+           "0.5 mm unless --spacing-mm says otherwise, with the --region; VOXELS.raw: all slices, a byte "
+           "of grey for each voxel, then one of its segment")
         ->type_name("PICTURE.png")
         ->excludes(output)
         ->excludes("--case");
@@ -289,6 +303,10 @@ int main(int argc, char** argv) {
             if (makes_case) {
                 osteomill::finish_case(texts.case_folder, begun, messages, surroundings.go_on);
                 unfinished->finish();
+                messages << made("case", texts.case_folder, "--case");
+            } else if (texts.preview.empty()) {
+                // Without a threshold it is not known what of it is bone.
+                messages << made("bone", options.output.string(), options.threshold_hu ? "--bone" : "");
             }
         } catch (const std::exception& error) {
             messages << "bone_import: " << osteomill::printable(error.what()) << '\n';

@@ -12,6 +12,7 @@
 
 #include "common/files/atomic_file.h"
 #include "imaging/bone_file/hu_file.h"
+#include "imaging/segmentation/segment_structure.h"
 
 namespace osteomill {
 
@@ -20,6 +21,7 @@ namespace {
 constexpr double black_hu = -200.0;
 constexpr double white_hu = 1800.0;
 constexpr int gap_px = 4;
+constexpr int most_shown_segments = 255;
 
 /// Which axes of the patient run to the right and down in a picture, and which one is looked along.
 struct Plane {
@@ -43,6 +45,13 @@ std::uint8_t grey_of(double hu) {
     return static_cast<std::uint8_t>(std::lround(255.0 * share));
 }
 
+std::size_t place_of(const glm::ivec3& size, const glm::ivec3& voxel) {
+    return static_cast<std::size_t>(voxel.x) +
+           static_cast<std::size_t>(size.x) *
+               (static_cast<std::size_t>(voxel.y) +
+                static_cast<std::size_t>(size.y) * static_cast<std::size_t>(voxel.z));
+}
+
 void draw(const CtVolume& ct, const Plane& plane, const glm::ivec3& middle, int left_px, Canvas& canvas) {
     const glm::ivec3& size = ct.grid.size_voxels;
     for (int down = 0; down < size[plane.down]; ++down)
@@ -50,12 +59,7 @@ void draw(const CtVolume& ct, const Plane& plane, const glm::ivec3& middle, int 
             glm::ivec3 voxel = middle;
             voxel[plane.right] = right;
             voxel[plane.down] = plane.is_down_reversed ? size[plane.down] - 1 - down : down;
-            const std::size_t place =
-                static_cast<std::size_t>(voxel.x) +
-                static_cast<std::size_t>(size.x) *
-                    (static_cast<std::size_t>(voxel.y) +
-                     static_cast<std::size_t>(size.y) * static_cast<std::size_t>(voxel.z));
-            const std::uint8_t grey = grey_of(ct.hu[place]);
+            const std::uint8_t grey = grey_of(ct.hu[place_of(size, voxel)]);
             canvas.set({left_px + right, down}, {grey, grey, grey});
         }
 }
@@ -72,6 +76,16 @@ void draw_region(const CtVolume& ct, const Plane& plane, const Region& region, i
     for (int along = low[plane.down]; along <= high[plane.down]; ++along)
         for (const int right : {low[plane.right], high[plane.right]})
             canvas.set({left_px + right, row(along)}, orange);
+}
+
+void mark(const StructureMask& structure, std::uint8_t number, std::vector<std::uint8_t>& numbers) {
+    const Grid& grid = structure.grid();
+    for (const StructureBrick& brick : structure.bricks()) {
+        const glm::ivec3 first = brick_edge_voxels * brick_position(size_in_bricks(grid), brick.brick);
+        brick.voxels.for_each([&](std::size_t offset) {
+            numbers[place_of(grid.size_voxels, first + voxel_in_brick(offset))] = number;
+        });
+    }
 }
 
 Region box_of(const CtVolume& ct) {
@@ -127,6 +141,26 @@ void write_preview(const CtVolume& ct, const std::optional<Region>& region,
         left_px += size[plane.right] + gap_px;
     }
     write_png(canvas, png);
+}
+
+void write_preview_voxels(const CtVolume& ct,
+                          std::span<const std::shared_ptr<const Segmentation>> segmentations,
+                          const std::filesystem::path& raw) {
+    std::vector<std::uint8_t> bytes(ct.hu.size());
+    std::ranges::transform(ct.hu, bytes.begin(), grey_of);
+    AtomicFile file(raw);
+    file.write(std::as_bytes(std::span(bytes)));
+    if (!segmentations.empty()) {
+        std::ranges::fill(bytes, std::uint8_t{0});
+        int number = 0;
+        for (const auto& segmentation : segmentations)
+            for (const Segment& segment : segmentation->segments)
+                if (++number <= most_shown_segments)
+                    mark(structure_of(*segmentation, segment, ct.grid), static_cast<std::uint8_t>(number),
+                         bytes);
+        file.write(std::as_bytes(std::span(bytes)));
+    }
+    file.commit();
 }
 
 }  // namespace osteomill

@@ -1,13 +1,16 @@
 // A scan at a glance, before an hour of import: where it lies, what HU it has, and three slices with the
-// region drawn that is to become bone.
+// region drawn that is to become bone, or all slices.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/bone/ct_volume.h"
 #include "imaging/resampling/region.h"
+#include "imaging/segmentation/segmentation.h"
 
 namespace osteomill {
 
@@ -22,5 +25,13 @@ std::string summary_of(const CtVolume& ct);
 /// patient's right, up is anterior in the first and superior in the others. Throws std::runtime_error where
 /// it cannot be written.
 void write_preview(const CtVolume& ct, const std::optional<Region>& region, const std::filesystem::path& png);
+
+/// For a program that goes through the slices itself: the same greys of every voxel, a byte each, x fastest,
+/// then y, then z; and behind them, where there are segmentations, in which segment each voxel lies, counted
+/// from 1 in their order, the last of several; 0: in none of the first 255. Throws std::runtime_error where
+/// it cannot be written.
+void write_preview_voxels(const CtVolume& ct,
+                          std::span<const std::shared_ptr<const Segmentation>> segmentations,
+                          const std::filesystem::path& raw);
 
 }  // namespace osteomill

@@ -48,7 +48,7 @@ struct RenderOptions {
     std::filesystem::path screenshots;  ///< empty writes none
     int screenshot_every = 0;           ///< 0 spreads about 30 over `frames`
     std::optional<glm::ivec2> window_size_px;
-    ThemeName theme = ThemeName::dark;
+    std::optional<ThemeName> theme{};
     std::optional<double> ui_scale;  ///< of panels and letters; absent: the display's, 1 offscreen
     std::string language = "en";     ///< of translation.h
     bool panels = true;

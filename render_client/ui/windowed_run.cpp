@@ -10,7 +10,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <thread>
 
 #include "common/scene/scene_file.h"
@@ -20,6 +19,8 @@
 #include "render_client/ui/input/hand_input.h"
 #include "render_client/ui/input/input_mailbox.h"
 #include "render_client/ui/panels/start_panel.h"
+#include "render_client/ui/view/drawing_thread.h"
+#include "render_client/ui/view/kept_settings.h"
 #include "render_client/ui/view/picture_options.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/screenshots.h"
@@ -78,6 +79,10 @@ bool can_start_here(const RenderOptions& options) {
     return is_here && !options.replay && !options.tls && !options.until_server_ends;
 }
 
+std::filesystem::path home_of(const RenderOptions& options) {
+    return options.home.value_or(home_of_cases());
+}
+
 /// What the two threads of a window share.
 struct Shared {
     InputMailbox mailbox{};
@@ -105,14 +110,15 @@ class Drawing {
             session_.make_storage_by(*storage_);
         }
         take_over(session_, options);
-        session_.view().sound = options.sound;
+        take_over_kept();
         session_.view().transfer_has_file = look_.has_file();
         session_.offer_controls();
         if (can_start_here(options)) {
             start_.emplace(StartPlaces{.programs = folder_of_this_program(),
-                                       .home = options.home.value_or(home_of_cases()),
+                                       .home = home_of(options),
                                        .connects_to = {options.host, options.port}});
             session_.offer_start(*start_);
+            if (!settings_.settings().tour_seen) start_->page.tour_card = 0;
         }
         redraw_.note_change(began_);
     }
@@ -150,6 +156,7 @@ class Drawing {
 
         work_look(std::chrono::duration<double>(now - began_).count());
         work_sound(std::chrono::duration<double>(now - began_).count());
+        keep_settings(std::chrono::duration<double>(now - began_).count());
 
         const SessionNews news = session_.take_in();
         if (session_.has_bone() && now - view_told_ >= view_period) {
@@ -198,6 +205,30 @@ class Drawing {
             commands_.say(look_.save(view.transfer.function()), now_s);
     }
 
+    /// What the command line says comes first.
+    void take_over_kept() {
+        const KeptSettings& kept = settings_.settings();
+        ViewSettings& view = session_.view();
+        if (!options_.theme) view.theme = kept.theme;
+        view.sound = options_.sound || kept.sound;
+        view.warns = kept.warns;
+        view.details_shown = kept.details_shown;
+    }
+
+    void keep_settings(double now_s) {
+        const ViewSettings& view = session_.view();
+        // Who is in a session has found the way.
+        if (start_ && session_.link().status == LinkStatus::live) start_->page.tour_card.reset();
+        const bool tour_seen = settings_.settings().tour_seen || (start_ && !start_->page.tour_card);
+        if (const std::string wrong = settings_.keep({.theme = view.theme,
+                                                      .sound = view.sound,
+                                                      .warns = view.warns,
+                                                      .details_shown = view.details_shown,
+                                                      .tour_seen = tour_seen});
+            !wrong.empty())
+            commands_.say(wrong, now_s);
+    }
+
     /// On and off as a person wants it; without a loudspeaker it is off again.
     void work_sound(double now_s) {
         bool& wanted = session_.view().sound;
@@ -225,7 +256,11 @@ class Drawing {
             session_.size_px());
         for (const Action action :
              actions_of(input_.presses, situation_of(drills_, source_.player() != nullptr)))
-            if (!has_keyboard() || action == Action::end) commands_.take(action);
+            if (action == Action::end && start_ && start_->is_due(session_.link().status) &&
+                start_->page.tour_card)
+                start_->page.tour_card.reset();
+            else if (!has_keyboard() || action == Action::end)
+                commands_.take(action);
         if (session_.view().click_places && ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
             !ImGui::GetIO().WantCaptureMouse)
             commands_.place_at({ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y},
@@ -273,6 +308,7 @@ class Drawing {
     Panels panels_;
     std::optional<StartScreen> start_;
     std::optional<gl::StorageThread> storage_;
+    SettingsFile settings_{home_of(options_) / "window.toml"};
     TransferFile look_{options_.look_file, options_.look.transfer};
     SessionPicture session_;
     Commands commands_;
@@ -285,53 +321,6 @@ class Drawing {
     Clock::time_point view_told_{};
     bool drills_ = false;
     bool session_over_ = false;
-};
-
-/// Has the window's context on this thread, whatever becomes of what is drawn.
-class CurrentContext {
-  public:
-    explicit CurrentContext(Window& window) : window_(window) { window_.make_context_current(); }
-    ~CurrentContext() { window_.release_context(); }
-    CurrentContext(const CurrentContext&) = delete;
-    CurrentContext& operator=(const CurrentContext&) = delete;
-
-  private:
-    Window& window_;
-};
-
-/// Runs `draw` on a thread of its own; whatever becomes of the caller, it ends that thread first.
-class DrawingThread {
-  public:
-    template <typename Draw>
-    DrawingThread(std::atomic<bool>& is_over, Draw&& draw) : is_over_(is_over) {
-        thread_ = std::thread([this, draw = std::forward<Draw>(draw)] {
-            try {
-                draw();
-            } catch (...) {
-                failure_ = std::current_exception();
-            }
-            is_over_ = true;
-        });
-    }
-    ~DrawingThread() { end(); }
-    DrawingThread(const DrawingThread&) = delete;
-    DrawingThread& operator=(const DrawingThread&) = delete;
-
-    /// Throws what `draw` threw.
-    void finish() {
-        end();
-        if (failure_) std::rethrow_exception(failure_);
-    }
-
-  private:
-    void end() {
-        is_over_ = true;
-        if (thread_.joinable()) thread_.join();
-    }
-
-    std::atomic<bool>& is_over_;
-    std::exception_ptr failure_;
-    std::thread thread_;
 };
 
 }  // namespace

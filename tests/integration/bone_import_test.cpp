@@ -58,6 +58,9 @@ TEST_F(BoneImport, MakesABoneFileOfADicomSeries) {
     ASSERT_EQ(outcome.exit_status, 0) << outcome.last();
     EXPECT_THAT(outcome.lines.front(), HasSubstr("GiB of memory")) << "the estimate comes first";
     EXPECT_THAT(outcome.lines, ::testing::Contains("refining 100 %"));
+    EXPECT_EQ(outcome.last(), "bone: " + output_.string() +
+                                  "; next: haptic_server --device client --bone '" + output_.string() +
+                                  "'");
     const DenseBoneFile file = read_bone_file(output_);
     EXPECT_EQ(file.threshold_hu, 250.0);
     EXPECT_EQ(file.volume.grid,
@@ -93,6 +96,25 @@ TEST_F(BoneImport, KeepsSoftTissueWhereToldTo) {
     EXPECT_EQ(checksum(bone_from_hu(kept.volume, 250.0, relation)),
               checksum(bone_from_hu(near_bone.volume, 250.0, relation)))
         << "the bone is the same";
+}
+
+TEST_F(BoneImport, PreviewsEveryVoxelAsAByteOfGrey) {
+    testing::write_series(folder_ / "series", testing::synthetic_series(5));
+    ASSERT_EQ(import(folder_ / "series", "--spacing-mm 0.5").exit_status, 0);
+    const std::vector<std::int16_t> hu = read_bone_file(output_).volume.hu;
+    const std::string raw = (folder_ / "new/look.raw").string();
+    const std::string command = std::string(BONE_IMPORT) + " '" + (folder_ / "series").string() +
+                                "' --preview '" + raw + "' > /dev/null 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const std::string greys = [&] {
+        std::ifstream in(raw, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    }();
+    ASSERT_EQ(greys.size(), hu.size());
+    for (std::size_t i = 0; i < hu.size(); ++i) {  // -200 HU is black, 1800 white
+        const double grey = 255.0 * std::clamp((hu[i] + 200.0) / 2000.0, 0.0, 1.0);
+        ASSERT_NEAR(static_cast<std::uint8_t>(greys[i]), grey, 0.5) << "voxel " << i;
+    }
 }
 
 TEST_F(BoneImport, ClipsARegionAndSaysSo) {

@@ -346,7 +346,12 @@ class WindowPermissions : public Permissions {
     }
     void press_pedal(const glm::ivec2& size_px, const std::vector<std::string>& more = {}) {
         display_.emplace(size_px);
-        std::vector<std::string> command{RENDER_CLIENT, "--connect", address_, "--window-size",
+        std::vector<std::string> command{RENDER_CLIENT,
+                                         "--connect",
+                                         address_,
+                                         "--home",
+                                         (folder_ / "home").string(),
+                                         "--window-size",
                                          fmt::format("{}x{}", size_px.x, size_px.y)};
         command.insert(command.end(), more.begin(), more.end());
         window_.emplace(display_->shown_here(command));

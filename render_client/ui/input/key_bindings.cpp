@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "render_client/ui/words/translation.h"
@@ -108,7 +109,7 @@ const std::vector<KeyBinding>& table() {
         {panels, always, {GLFW_KEY_F4}, Action::cuts_panel, "F4", "panel of the cuts"},
         {panels, always, {GLFW_KEY_F5}, Action::transfer_panel, "F5", "panel of colours and opacity"},
         {panels, always, {GLFW_KEY_F7}, Action::slices, "F7", "slices of the CT"},
-        {panels, always, {GLFW_KEY_F9}, Action::sound, "F9", "sound of the burr, and warnings: on, off"},
+        {panels, always, {GLFW_KEY_F9}, Action::sound, "F9", "sound of the burr: on, off"},
         {panels, always, {GLFW_KEY_N}, Action::warnings, "N", "the tone of the warnings: on, off"},
         {panels, always, {GLFW_KEY_F11}, Action::fullscreen, "F11", "the whole screen: on, off"},
         {panels, always, {GLFW_KEY_F12}, Action::details, "F12", "figures of picture, link and solver"},
@@ -119,12 +120,17 @@ const std::vector<KeyBinding>& table() {
     return bindings;
 }
 
+/// Those that change something there: nothing yet is to be looked at.
+bool acts_on_start_page(Action action) {
+    using enum Action;
+    constexpr std::array acting{help, theme, sound, warnings, fullscreen, screenshot, end};
+    return std::ranges::find(acting, action) != acting.end();
+}
+
 }  // namespace
 
 bool holds(const KeyBinding& binding, Situation situation) {
-    // There is nothing yet to look at.
-    if (situation == Situation::starting)
-        return binding.situation == Situation::always && binding.topic == Topic::panels;
+    if (situation == Situation::starting) return acts_on_start_page(binding.action);
     return binding.situation == Situation::always || binding.situation == situation ||
            (binding.situation == Situation::live && situation != Situation::playing);
 }
@@ -165,6 +171,7 @@ std::vector<HelpLine> help_lines(Situation situation) {
                  {"Import labels ...", "make a case of a segmentation, without a CT"},
                  {"Open a recording ...", "see a session again, in a window of its own"},
                  {"Compare all sessions", "learning curves of the sessions that were kept here"},
+                 {"Tour", "what the window is for, on the three cards that a new user sees"},
                  {"Hide this", "look at the bone of the last session until the next begins"},
                  {"", "Mouse and keys of a session: F1, once it runs."}};
     std::optional<Topic> topic;

@@ -68,6 +68,11 @@ class PanelList {
     std::vector<Draw> draws_;
 };
 
+/// There is no session, or it is over: nothing of it goes on, and nothing of it is to cover the page.
+bool shows_start_page(const OverlayContent& content) {
+    return content.start != nullptr && content.start->is_due(content.link.status);
+}
+
 void add_plot(PanelList& panels, const OverlayContent& content, const PanelPainter& painter) {
     std::vector<glm::vec2> sizes;
     for (const PlotDetail detail : {PlotDetail::all, PlotDetail::forces, PlotDetail::numbers})
@@ -122,8 +127,7 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
 void add_readings(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                   const glm::ivec2& size_px, float side_width) {
     // Length and force are read at any time, but not under a page or a question, which is to be seen whole.
-    const bool is_page_open = content.view->help_shown || content.view->question != SessionQuestion::none ||
-                              (content.start != nullptr && content.start->is_due(content.link.status));
+    const bool is_page_open = content.view->help_shown || content.view->question != SessionQuestion::none;
     if (content.has_bone) {
         const ScaleBar bar = scale_bar_of(*content.camera, size_px);
         panels.add(Anchor::bottom, {scale_bar_size(painter, bar)},
@@ -185,8 +189,8 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     const float side_width =
         glm::clamp(0.45f * picture.x, 200.0f * painter.scale(), 360.0f * painter.scale());
     PanelList panels;
+    const bool starts = shows_start_page(content);
     if (content.view->help_shown) {
-        const bool starts = content.start != nullptr && content.start->is_due(content.link.status);
         const Situation situation =
             starts ? Situation::starting
                    : situation_of(content.operator_command.has_value(), content.player != nullptr);
@@ -194,34 +198,36 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
             Anchor::middle, help_size(painter, situation, picture - 2.0f * margin),
             [&painter, situation](const PanelPlace& place) { draw_help(painter, situation, place); });
     }
-    // Before the warnings, which come and go: a button must not slip away under the pointer.
-    if (content.view->panels_shown && has_tool_bar(content))
-        panels.add(Anchor::top, tool_bar_sizes(content, painter),
-                   [&](const PanelPlace& place) { draw_tool_bar(content, place); });
-    if (is_alarm(content)) draw_alarm_frame(painter, size_px);
-    if (const PanelText warnings = warning_text(content); !warnings.empty())
-        panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin,
-                        is_alarm(content) ? banner_letters : 1.0f);
-    if (content.view->question != SessionQuestion::none && content.requests != nullptr)
-        panels.add_page(Anchor::middle, session_dialog_size(content, painter),
-                        [&](const PanelPlace& place) { draw_session_dialog(content, place); });
     if (content.start != nullptr && content.link.status == LinkStatus::finished)
         content.start->page.note_end_of_session();
-    if (content.start != nullptr && content.start->is_due(content.link.status))
-        panels.add_page(Anchor::middle, start_panel_size(picture - 2.0f * margin),
+    if (starts)
+        panels.add_page(Anchor::middle, start_panel_size(content.start->page, picture - 2.0f * margin),
                         [&](const PanelPlace& place) {
                             draw_start_panel(content.start->page, content.start->picture, place);
                         });
-    if (content.inset != nullptr && content.tool) add_inset(panels, content, painter, size_px);
-    if (content.view->panels_shown) {
+    // Before the warnings, which come and go: a button must not slip away under the pointer.
+    const bool shows_panels = content.view->panels_shown && !starts;
+    if (shows_panels && has_tool_bar(content))
+        panels.add(Anchor::top, tool_bar_sizes(content, painter),
+                   [&](const PanelPlace& place) { draw_tool_bar(content, place); });
+    const bool alarms = is_alarm(content) && !starts;
+    if (alarms) draw_alarm_frame(painter, size_px);
+    if (const PanelText warnings = starts ? notice_text(content) : warning_text(content); !warnings.empty())
+        panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin,
+                        alarms ? banner_letters : 1.0f);
+    if (content.view->question != SessionQuestion::none && content.requests != nullptr)
+        panels.add_page(Anchor::middle, session_dialog_size(content, painter),
+                        [&](const PanelPlace& place) { draw_session_dialog(content, place); });
+    if (content.inset != nullptr && content.tool && !starts) add_inset(panels, content, painter, size_px);
+    if (shows_panels) {
         add_controls(panels, content, painter, picture, side_width);
         add_readings(panels, content, painter, size_px, side_width);
     }
     const auto places = panels.draw_in(picture, margin, burr_in(content, size_px));
-    if (content.tool && content.has_bone && content.bone && content.operator_command)
+    if (content.tool && content.has_bone && content.bone && content.operator_command && !starts)
         draw_touch_ring(painter, *content.bone, *content.tool, burr_radius_mm(content), *content.camera,
                         size_px);
-    if (content.tool && content.has_bone && content.view->panels_shown)
+    if (content.tool && content.has_bone && shows_panels)
         draw_force_label(painter, *content.tool, burr_radius_mm(content), *content.camera, size_px, places);
 }
 

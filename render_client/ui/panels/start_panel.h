@@ -17,7 +17,9 @@ namespace osteomill {
 /// PictureTexture does.
 struct StartPicture {
     std::optional<gl::PictureTexture> texture{};
-    std::uint64_t number = 0;              ///< of the page's picture that it has,
+    glm::ivec2 size_px{0};
+    std::uint64_t number = 0;              ///< of the page's voxels that it has,
+    glm::dvec3 slices_at_mm{0.0};          ///< where the slices in it meet,
     std::optional<double> threshold_hu{};  ///< and of the contour in it
     std::optional<glm::dvec2> drag{};      ///< where a drag began, pixels of the picture
     CardPictures of_cases{};
@@ -37,8 +39,8 @@ struct StartScreen {
     StartPicture picture{};
 };
 
-/// As large as is useful, within `available`.
-glm::vec2 start_panel_size(const glm::vec2& available);
+/// As large as is useful for what the page shows, within `available`.
+glm::vec2 start_panel_size(const StartPage& page, const glm::vec2& available);
 
 void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place);
 

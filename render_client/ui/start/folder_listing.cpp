@@ -3,10 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+
+#include "render_client/ui/words/translation.h"
 
 namespace osteomill {
 
-FolderListing list_folder(const std::filesystem::path& folder) {
+namespace {
+
+bool ends_with_one_of(const std::string& name, const std::vector<std::string>& endings) {
+    std::string ending = std::filesystem::path(name).extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char letter) { return std::tolower(letter); });
+    return endings.empty() || std::ranges::find(endings, ending) != endings.end();
+}
+
+}  // namespace
+
+FolderListing list_folder(const std::filesystem::path& folder, const std::vector<std::string>& endings) {
     std::error_code error;
     FolderListing listing{.folder = std::filesystem::absolute(folder, error).lexically_normal()};
     if (!listing.folder.has_filename()) listing.folder = listing.folder.parent_path();
@@ -15,15 +28,16 @@ FolderListing list_folder(const std::filesystem::path& folder) {
         const std::string name = entry->path().filename().string();
         if (name.empty() || name.front() == '.') continue;
         std::error_code ignored;
-        auto& names = entry->is_directory(ignored) ? listing.folders : listing.files;
-        names.push_back(name);
+        if (entry->is_directory(ignored))
+            listing.folders.push_back(name);
+        else if (ends_with_one_of(name, endings))
+            listing.files.push_back(name);
     }
-    if (error)
-        listing.problem = fmt::format("{}: cannot be read: {}", listing.folder.string(), error.message());
+    if (error) listing.problem = trf("{}: cannot be read: {}", listing.folder.string(), error.message());
     for (auto* names : {&listing.folders, &listing.files}) {
         std::sort(names->begin(), names->end());
         if (names->size() <= most_listed) continue;
-        listing.problem = fmt::format("only {} of {} are shown", most_listed, names->size());
+        listing.problem = trf("only {} of {} are shown", most_listed, names->size());
         names->resize(most_listed);
     }
     return listing;

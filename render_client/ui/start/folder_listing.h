@@ -17,6 +17,7 @@ struct FolderListing {
 /// Shows at most so many of either; the rest is in `problem`.
 inline constexpr std::size_t most_listed = 2000;
 
-FolderListing list_folder(const std::filesystem::path& folder);
+/// All files, or those with one of these endings, such as ".csv", in capitals or not.
+FolderListing list_folder(const std::filesystem::path& folder, const std::vector<std::string>& endings = {});
 
 }  // namespace osteomill

@@ -38,11 +38,16 @@ double most_memory_bytes(const ImportForm& form) {
     return bytes_per_voxel * voxels_of(form);
 }
 
+double estimated_s(const ImportForm& form, const ScanPreview& look) {
+    const ImportForm looked_at{.region = look.covers, .spacing_mm = preview_mm_per_px};
+    const double reading_s = std::max(look.took_s - voxels_of(looked_at) / imported_voxels_per_s, 0.0);
+    return reading_s + voxels_of(form) / imported_voxels_per_s;
+}
+
 std::vector<std::string> look_command(const std::string& bone_import, const ImportForm& form,
-                                      const std::filesystem::path& picture, bool at_region) {
+                                      const std::filesystem::path& voxels) {
     std::vector<std::string> command = command_with_files(bone_import, form);
-    command.insert(command.end(), {"--preview", picture.string()});
-    if (at_region) command.push_back(region_option(form.region));
+    command.insert(command.end(), {"--preview", voxels.string()});
     return command;
 }
 
@@ -53,6 +58,8 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
                                    fmt::format("--spacing-mm={}", form.spacing_mm)});
     if (!form.are_labels) command.push_back(fmt::format("--threshold-hu={}", form.threshold_hu));
     if (!form.are_labels && form.keeps_soft_tissue) command.emplace_back("--keep-soft-tissue");
+    if (std::ranges::any_of(form.segments, &SegmentChoice::is_protected))
+        command.push_back(fmt::format("--warn-mm={}", form.warn_mm));
     for (const SegmentChoice& segment : form.segments) {
         if (segment.is_protected) command.push_back("--protect=" + segment.name);
         if (segment.is_target) command.push_back("--target=" + segment.name);

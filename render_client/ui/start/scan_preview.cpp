@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <fstream>
 #include <glm/common.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string_view>
 
 namespace osteomill {
@@ -61,6 +63,80 @@ std::array<PreviewSlice, 3> preview_slices(const ScanBox& covers, double mm_per_
     return slices;
 }
 
+std::array<std::uint8_t, 3> colour_of_segment(std::size_t index) {
+    // Of Okabe and Ito's set, told apart by the colour-blind, what neither region nor contour has.
+    constexpr std::array<std::array<std::uint8_t, 3>, 4> colours{
+        {{0, 158, 115}, {240, 228, 66}, {204, 121, 167}, {213, 94, 0}}};
+    return colours[index % colours.size()];
+}
+
+std::optional<PreviewSlice> slice_at(const ScanBox& covers, double mm_per_px, const glm::dvec2& px) {
+    for (const PreviewSlice& slice : preview_slices(covers, mm_per_px)) {
+        const glm::dvec2 in_slice = px - slice.first_px;
+        if (in_slice.x >= 0.0 && in_slice.y >= 0.0 && in_slice.x <= slice.size_px.x &&
+            in_slice.y <= slice.size_px.y)
+            return slice;
+    }
+    return std::nullopt;
+}
+
+ScanVoxels read_scan_voxels(const std::filesystem::path& raw, const ScanBox& covers, double mm_per_px) {
+    ScanVoxels voxels{.size = glm::ivec3(glm::round((covers.high_mm - covers.low_mm) / mm_per_px)) + 1};
+    const auto count = static_cast<std::size_t>(voxels.size.x) * static_cast<std::size_t>(voxels.size.y) *
+                       static_cast<std::size_t>(voxels.size.z);
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(raw, error);
+    if (error || (bytes != count && bytes != 2 * count))
+        throw std::runtime_error(raw.string() + ": is not the scan that was looked at");
+    voxels.greys.resize(count);
+    voxels.segments.resize(bytes - count);
+    std::ifstream file(raw, std::ios::binary);
+    for (auto* part : {&voxels.greys, &voxels.segments})
+        if (!file.read(reinterpret_cast<char*>(part->data()), static_cast<std::streamsize>(part->size())))
+            throw std::runtime_error(raw.string() + ": cannot be read");
+    return voxels;
+}
+
+Picture picture_of(const ScanVoxels& voxels, const ScanBox& covers, double mm_per_px,
+                   const glm::dvec3& place_mm) {
+    const auto slices = preview_slices(covers, mm_per_px);
+    double height_px = 0.0;
+    for (const PreviewSlice& slice : slices) height_px = std::max(height_px, slice.size_px.y);
+    Picture picture(glm::ivec2(slices.back().first_px.x + slices.back().size_px.x, height_px));
+    const glm::ivec3 place = glm::clamp(glm::ivec3(glm::round((place_mm - covers.low_mm) / mm_per_px)),
+                                        glm::ivec3(0), voxels.size - 1);
+    for (const PreviewSlice& slice : slices) {
+        const glm::ivec2 first(slice.first_px), size(slice.size_px);
+        const auto voxel_at = [&](int column, int row) {
+            glm::ivec3 voxel = place;
+            voxel[slice.right_axis] = column;
+            voxel[slice.down_axis] = slice.is_down_reversed ? size.y - 1 - row : row;
+            return static_cast<std::size_t>(voxel.x) +
+                   static_cast<std::size_t>(voxels.size.x) *
+                       (static_cast<std::size_t>(voxel.y) +
+                        static_cast<std::size_t>(voxels.size.y) * static_cast<std::size_t>(voxel.z));
+        };
+        const auto segment_at = [&](int column, int row) {
+            const bool is_inside = column >= 0 && row >= 0 && column < size.x && row < size.y;
+            return is_inside && !voxels.segments.empty() ? voxels.segments[voxel_at(column, row)] : 0;
+        };
+        for (int row = 0; row < size.y; ++row)
+            for (int column = 0; column < size.x; ++column) {
+                const std::uint8_t grey = voxels.greys[voxel_at(column, row)];
+                const int segment = segment_at(column, row);
+                const bool is_outline =
+                    segment != 0 &&
+                    (segment_at(column - 1, row) != segment || segment_at(column + 1, row) != segment ||
+                     segment_at(column, row - 1) != segment || segment_at(column, row + 1) != segment);
+                const auto* pixel = picture.at(first.x + column, first.y + row);
+                std::ranges::copy(is_outline ? colour_of_segment(static_cast<std::size_t>(segment - 1))
+                                             : std::array{grey, grey, grey},
+                                  picture.rgb.begin() + (pixel - picture.rgb.data()));
+            }
+    }
+    return picture;
+}
+
 std::array<const char*, 4> letters_of(const PreviewSlice& slice) {
     constexpr std::array<const char*, 3> low{"R", "A", "I"};  // of patient LPS
     constexpr std::array<const char*, 3> high{"L", "P", "S"};
@@ -74,14 +150,19 @@ Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_
     Picture result = picture;
     if (!(look.white_hu > look.black_hu)) return result;
     const double grey = 255.0 * (threshold_hu - look.black_hu) / (look.white_hu - look.black_hu);
-    const auto is_bone = [&](int x, int y) { return *picture.at(x, y) >= grey; };
+    const auto is_grey = [&](int x, int y) {
+        const auto* pixel = picture.at(x, y);
+        return pixel[0] == pixel[1] && pixel[1] == pixel[2];
+    };
+    // Not where a segment's outline is: what is under that is not known.
+    const auto is_bone = [&](int x, int y) { return !is_grey(x, y) || *picture.at(x, y) >= grey; };
     for (const PreviewSlice& slice : preview_slices(look.covers, mm_per_px)) {
         const glm::ivec2 first(slice.first_px);
         const glm::ivec2 last = glm::min(first + glm::ivec2(slice.size_px), picture.size_px) - 1;
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
                 const bool is_edge =
-                    is_bone(x, y) &&
+                    is_grey(x, y) && is_bone(x, y) &&
                     ((x > first.x && !is_bone(x - 1, y)) || (x < last.x && !is_bone(x + 1, y)) ||
                      (y > first.y && !is_bone(x, y - 1)) || (y < last.y && !is_bone(x, y + 1)));
                 if (is_edge)
@@ -94,25 +175,20 @@ Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_
 
 std::optional<ScanBox> dragged_box(const ScanBox& covers, const ScanBox& before, double mm_per_px,
                                    const glm::dvec2& from_px, const glm::dvec2& to_px) {
-    for (const PreviewSlice& slice : preview_slices(covers, mm_per_px)) {
-        const glm::dvec2 in_slice = from_px - slice.first_px;
-        if (in_slice.x < 0.0 || in_slice.y < 0.0 || in_slice.x > slice.size_px.x ||
-            in_slice.y > slice.size_px.y)
-            continue;
-        ScanBox box = before;
-        const auto set = [&](int axis, double a_mm, double b_mm) {
-            box.low_mm[axis] = std::clamp(std::min(a_mm, b_mm), covers.low_mm[axis], covers.high_mm[axis]);
-            box.high_mm[axis] = std::clamp(std::max(a_mm, b_mm), covers.low_mm[axis], covers.high_mm[axis]);
-        };
-        const auto right_mm = [&](double px) {
-            return covers.low_mm[slice.right_axis] + (px - slice.first_px.x - 0.5) * mm_per_px;
-        };
-        set(slice.right_axis, right_mm(from_px.x), right_mm(to_px.x));
-        set(slice.down_axis, row_mm(covers, mm_per_px, slice, from_px.y),
-            row_mm(covers, mm_per_px, slice, to_px.y));
-        return box;
-    }
-    return std::nullopt;
+    const std::optional<PreviewSlice> slice = slice_at(covers, mm_per_px, from_px);
+    if (!slice) return std::nullopt;
+    ScanBox box = before;
+    const auto set = [&](int axis, double a_mm, double b_mm) {
+        box.low_mm[axis] = std::clamp(std::min(a_mm, b_mm), covers.low_mm[axis], covers.high_mm[axis]);
+        box.high_mm[axis] = std::clamp(std::max(a_mm, b_mm), covers.low_mm[axis], covers.high_mm[axis]);
+    };
+    const auto right_mm = [&](double px) {
+        return covers.low_mm[slice->right_axis] + (px - slice->first_px.x - 0.5) * mm_per_px;
+    };
+    set(slice->right_axis, right_mm(from_px.x), right_mm(to_px.x));
+    set(slice->down_axis, row_mm(covers, mm_per_px, *slice, from_px.y),
+        row_mm(covers, mm_per_px, *slice, to_px.y));
+    return box;
 }
 
 std::array<glm::dvec2, 2> box_in_slice(const ScanBox& covers, const ScanBox& box, double mm_per_px,

@@ -1,8 +1,10 @@
-// Preview of a scan before its import: the figures that bone_import --preview printed, and the patient
-// coordinates in its picture of three slices.
+// Preview of a scan before its import: the figures that bone_import --preview printed, its three slices
+// through a place, and the patient coordinates in their picture.
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -28,7 +30,22 @@ struct ScanPreview {
     double black_hu = 0.0;  ///< of the picture's greys
     double white_hu = 0.0;
     std::vector<std::string> segments{};  ///< names, as segmentations have them
+    double took_s = 0.0;                  ///< to look at all of it
 };
+
+/// The scan's voxels, x fastest, then y, then z.
+struct ScanVoxels {
+    glm::ivec3 size{0};
+    std::vector<std::uint8_t> greys{};     ///< 0 is black_hu, 255 white_hu
+    std::vector<std::uint8_t> segments{};  ///< 1 is the first of ScanPreview::segments; empty: there are none
+};
+
+/// A segment's outline in the slices, sRGB; `index` in ScanPreview::segments.
+std::array<std::uint8_t, 3> colour_of_segment(std::size_t index);
+
+/// What bone_import --preview VOXELS.raw wrote. Throws std::runtime_error, in one line, where that is not
+/// what the scan covers.
+ScanVoxels read_scan_voxels(const std::filesystem::path& raw, const ScanBox& covers, double mm_per_px);
 
 /// Nothing where the text does not say what a scan covers.
 std::optional<ScanPreview> read_scan_preview(const std::string& preview_output);
@@ -39,10 +56,20 @@ struct PreviewSlice {
     bool is_down_reversed;
     glm::dvec2 first_px;  ///< upper left corner
     glm::dvec2 size_px;
+
+    int through_axis() const { return 3 - right_axis - down_axis; }
 };
 
 /// Of a picture with a pixel for each `mm_per_px`.
 std::array<PreviewSlice, 3> preview_slices(const ScanBox& covers, double mm_per_px);
+
+/// The one with this pixel; nothing between two of them.
+std::optional<PreviewSlice> slice_at(const ScanBox& covers, double mm_per_px, const glm::dvec2& px);
+
+/// The slices through a place, patient LPS, with the segments outlined; the nearest ones where it is outside
+/// the scan.
+Picture picture_of(const ScanVoxels& voxels, const ScanBox& covers, double mm_per_px,
+                   const glm::dvec3& place_mm);
 
 /// The patient's directions at a slice's edges: left, right, above, below.
 std::array<const char*, 4> letters_of(const PreviewSlice& slice);

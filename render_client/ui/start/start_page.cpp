@@ -11,7 +11,6 @@
 
 #include "common/text/file_name.h"
 #include "render_client/ui/words/translation.h"
-#include "render_client/volume/png_file.h"
 
 namespace osteomill {
 
@@ -56,8 +55,8 @@ std::string without_program(const std::string& line) {
 std::string end_in_words(const ChildProgram& server, const std::filesystem::path& report_folder) {
     const int status = server.status().value_or(0);
     if (status < 0)
-        return fmt::format("haptic_server was ended by signal {}; what it had recorded is in {}", -status,
-                           report_folder.string());
+        return trf("haptic_server was ended by signal {}; what it had recorded is in {}", -status,
+                   report_folder.string());
     return status == 0 ? std::string() : without_program(server.last_line());
 }
 
@@ -80,13 +79,29 @@ void StartPage::look_at_home() {
 
 void StartPage::show(View view) {
     if (view == View::cases) look_at_home();
-    const bool browses = view != View::cases && view != View::import;
-    if (browses && listing_.folder.empty()) {
-        const char* home = std::getenv("HOME");
-        browse(home != nullptr && *home != '\0' ? home : "/");
-    }
     message_.clear();
     view_ = view;
+    if (view == View::cases || view == View::import) return;
+    const char* home = std::getenv("HOME");
+    browse(!listing_.folder.empty() ? listing_.folder : home != nullptr && *home != '\0' ? home : "/");
+}
+
+void StartPage::browse(const std::filesystem::path& folder) {
+    // DICOM files have any name, or none.
+    listing_ = view_ == View::recording_browser ? list_folder(folder, {".pcap"})
+               : view_ == View::colours_browser ? list_folder(folder, {".csv", ".ctbl", ".label", ".txt"})
+                                                : list_folder(folder);
+}
+
+void StartPage::go_to(const std::string& path) {
+    std::error_code ignored;
+    message_.clear();
+    if (std::filesystem::is_directory(path, ignored))
+        browse(path);
+    else if (std::filesystem::exists(path, ignored))
+        take(path);
+    else
+        message_ = trf("{}: is not there", path);
 }
 
 void StartPage::start() {
@@ -165,7 +180,7 @@ void StartPage::take(const std::filesystem::path& path) {
     if (view_ == View::scan_browser || view_ == View::labels_browser) {
         form = {.scan = path, .are_labels = view_ == View::labels_browser, .name = name_of_scan(path)};
         look_.reset();
-        picture_.reset();
+        voxels_.reset();
         show(View::import);
         look_at_scan(true);
     } else if (view_ == View::recording_browser) {
@@ -188,8 +203,9 @@ void StartPage::look_at_scan(bool is_another_scan) {
         scratch_ = scratch_folder();
         work_ = Work::look;
         is_another_scan_ = is_another_scan;
-        worker_ = std::make_unique<ChildProgram>(
-            look_command(program("bone_import"), form, scratch_ / "look.png", !is_another_scan));
+        worker_ =
+            std::make_unique<ChildProgram>(look_command(program("bone_import"), form, scratch_ / "look.raw"));
+        began_looking_ = std::chrono::steady_clock::now();
         message_ = tr("looking at the scan ...");
     } catch (const std::exception& error) {
         message_ = error.what();
@@ -229,7 +245,7 @@ void StartPage::end_of_work() {
     const std::string said = worker_->output();
     const std::string last = without_program(worker_->last_line());
     worker_.reset();
-    message_ = is_good ? std::string() : last.empty() ? "it failed without a word" : last;
+    message_ = is_good ? std::string() : last.empty() ? tr("it failed without a word") : last;
     if (work_ == Work::import && is_good) {
         show(View::cases);
         for (std::size_t i = 0; i < cases_.size(); ++i)
@@ -238,14 +254,7 @@ void StartPage::end_of_work() {
     } else if (work_ == Work::compare && is_good) {
         open_page(places_.home / "comparison" / "sessions.html");
     } else if (work_ == Work::look && is_good) {
-        look_ = read_scan_preview(said);
-        try {
-            picture_ = read_png(scratch_ / "look.png");
-            ++picture_number_;
-        } catch (const std::exception& error) {
-            message_ = error.what();
-        }
-        if (look_) take_look(form, *look_, is_another_scan_);
+        take_in_look(said);
         form_before_ = form;
     } else if (work_ == Work::look && !is_another_scan_) {
         form.segmentations = form_before_.segmentations;
@@ -253,6 +262,21 @@ void StartPage::end_of_work() {
     }
     remove_quietly(scratch_);
     scratch_.clear();
+}
+
+void StartPage::take_in_look(const std::string& said) {
+    look_ = read_scan_preview(said);
+    if (!look_) return;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began_looking_;
+    look_->took_s = took.count();
+    try {
+        voxels_ = read_scan_voxels(scratch_ / "look.raw", look_->covers, preview_mm_per_px);
+        ++voxels_number_;
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+    if (is_another_scan_) slices_at_mm = 0.5 * (look_->covers.low_mm + look_->covers.high_mm);
+    take_look(form, *look_, is_another_scan_);
 }
 
 void StartPage::look_for_address() {

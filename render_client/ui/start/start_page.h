@@ -3,6 +3,7 @@
 // (panels/start_panel.h).
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -16,7 +17,6 @@
 #include "render_client/ui/start/case_library.h"
 #include "render_client/ui/start/folder_listing.h"
 #include "render_client/ui/start/import_form.h"
-#include "render_client/volume/picture.h"
 
 namespace osteomill {
 
@@ -80,21 +80,26 @@ class StartPage {
     }
     /// Of every session in the reports: tables and learning curves, which are opened when they are there.
     void compare_sessions();
+    std::optional<std::size_t> tour_card{};  ///< which of the tour's cards is over the page
     bool is_hidden = false;  ///< until the next session: what is left of the last is looked at
 
     ImportForm form{};
     /// Of the scan, once it was looked at.
     const std::optional<ScanPreview>& look() const { return look_; }
-    const std::optional<Picture>& picture() const { return picture_; }
-    std::uint64_t picture_number() const { return picture_number_; }  ///< another for each picture
-    bool is_working() const { return worker_ != nullptr; }            ///< looks or imports
-    /// The slices through the middle of the region; of a scan that could not be looked at, of all of it.
-    void look_again() { look_at_scan(!look_); }
+    const std::optional<ScanVoxels>& voxels() const { return voxels_; }
+    std::uint64_t voxels_number() const { return voxels_number_; }  ///< another for each look
+    glm::dvec3 slices_at_mm{0.0};                                   ///< where the slices meet, patient LPS
+    bool is_working() const { return worker_ != nullptr; }          ///< looks or imports
+    /// At a scan that could not be looked at before.
+    void look_again() { look_at_scan(true); }
     void import();
     void give_up_work();
 
     const FolderListing& listing() const { return listing_; }
-    void browse(const std::filesystem::path& folder) { listing_ = list_folder(folder); }
+    /// With the files that may be what the browser was opened for.
+    void browse(const std::filesystem::path& folder);
+    /// What a person wrote: a folder is browsed, a file taken.
+    void go_to(const std::string& path);
     /// A file, or a folder of DICOM, for what the browser was opened for.
     void take(const std::filesystem::path& path);
 
@@ -103,6 +108,7 @@ class StartPage {
     void open_page(const std::filesystem::path& page);
     void look_at_scan(bool is_another_scan);
     void look_at_home();
+    void take_in_look(const std::string& said);
     void end_of_work();
 
     StartPlaces places_;
@@ -120,8 +126,9 @@ class StartPage {
     std::unique_ptr<ChildProgram> worker_;
     std::filesystem::path scratch_;  // of the look that is under way
     std::optional<ScanPreview> look_;
-    std::optional<Picture> picture_;
-    std::uint64_t picture_number_ = 0;
+    std::chrono::steady_clock::time_point began_looking_{};
+    std::optional<ScanVoxels> voxels_;
+    std::uint64_t voxels_number_ = 0;
 
     void look_for_address();
 

@@ -10,7 +10,7 @@ inline void take_over(SessionPicture& session, const RenderOptions& options) {
     session.limit_textures({.budget_bytes = options.texture_budget_bytes});
     session.set_first_magnification(options.magnification);
     ViewSettings& view = session.view();
-    view.theme = options.theme;
+    view.theme = options.theme.value_or(ThemeName::dark);
     view.ambient_occlusion = options.ambient_occlusion;
     view.specular = static_cast<float>(options.specular);
     view.light_field = options.light_field;

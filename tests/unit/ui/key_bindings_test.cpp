@@ -43,9 +43,10 @@ TEST(KeyBindings, HelpOfTheStartPageExplainsThatPage) {
     std::set<std::string> names;
     for (const HelpLine& line : help_lines(Situation::starting)) names.insert(line.name);
     for (const char* button :
-         {"Start", "Import a scan ...", "Import labels ...", "Compare all sessions", "F1"})
+         {"Start", "Import a scan ...", "Import labels ...", "Compare all sessions", "Tour", "F1"})
         EXPECT_TRUE(names.contains(button)) << button;
-    EXPECT_FALSE(names.contains("right drag")) << "there is nothing to look at yet";
+    for (const char* key : {"right drag", "F4", "F12"})
+        EXPECT_FALSE(names.contains(key)) << key << ": there is nothing to look at yet";
 }
 
 TEST(KeyBindings, ReachEveryAction) {

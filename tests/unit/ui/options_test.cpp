@@ -116,7 +116,7 @@ TEST(Options, SetTheView) {
     EXPECT_EQ(result.options.theme, ThemeName::light);
     EXPECT_EQ(result.options.ui_scale, 1.5);
     EXPECT_FALSE(result.options.panels);
-    EXPECT_EQ(parsed({}).options.theme, ThemeName::dark);
+    EXPECT_EQ(parsed({}).options.theme, std::nullopt) << "as it was left";
     EXPECT_TRUE(parsed({}).options.panels);
     expect_refused({"--theme", "pink"}, "--theme");
     expect_refused({"--ui-scale", "9"}, "--ui-scale");

@@ -21,6 +21,15 @@ TEST(FolderListing, HasFoldersAndFilesByNameWithoutHiddenOnes) {
     EXPECT_EQ(listing.problem, "");
 }
 
+TEST(FolderListing, HasTheFilesThatAreAskedFor) {
+    const testing::TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "a");
+    for (const char* name : {"b.CSV", "b.ctbl", "b.csv.gz", "csv"}) std::ofstream(folder / name) << "x";
+    const FolderListing listing = list_folder(folder.path(), {".csv", ".ctbl"});
+    EXPECT_EQ(listing.folders, (std::vector<std::string>{"a"}));
+    EXPECT_EQ(listing.files, (std::vector<std::string>{"b.CSV", "b.ctbl"}));
+}
+
 TEST(FolderListing, SaysWhyAFolderCannotBeRead) {
     EXPECT_THAT(list_folder("/no/such/folder").problem,
                 ::testing::HasSubstr("/no/such/folder: cannot be read"));

@@ -17,14 +17,14 @@ TEST(ImportForm, OfLabelsInPicturesNamesTheirColoursSpacingAndMaterials) {
         .segments = {{.name = "Bone=hard", .material = "enamel"}, {.name = "Dura", .is_protected = true}},
         .region = {.low_mm = {-1.0, 0.0, 0.0}, .high_mm = {1.0, 2.0, 3.0}},
         .spacing_mm = 0.25};
-    EXPECT_THAT(look_command("bone_import", form, "look.png", false),
+    EXPECT_THAT(look_command("bone_import", form, "look.raw"),
                 ElementsAre("bone_import", "--labels=[fivrs]", "--colours=fivrs.ctbl",
-                            "--stack-spacing=0.2,0.2,0.2", "--preview", "look.png"));
+                            "--stack-spacing=0.2,0.2,0.2", "--preview", "look.raw"));
     EXPECT_THAT(
         import_command("bone_import", form, "case"),
         ElementsAre("bone_import", "--labels=[fivrs]", "--colours=fivrs.ctbl", "--stack-spacing=0.2,0.2,0.2",
                     "--case", "case", "--region=-1.00,0.00,0.00,1.00,2.00,3.00", "--spacing-mm=0.25",
-                    "--material=Bone=hard=enamel", "--protect=Dura"));
+                    "--warn-mm=1", "--material=Bone=hard=enamel", "--protect=Dura"));
 }
 
 TEST(ImportForm, OfAScanLeavesMaterialsToItsNumbers) {
@@ -42,6 +42,16 @@ TEST(ImportForm, OfAWholeHeadBeginsWithAsManyVoxelsAsAMachineHolds) {
     EXPECT_EQ(form.spacing_mm, 0.4);
     EXPECT_LT(voxels_of(form), usual_voxels);
     EXPECT_NEAR(most_memory_bytes(form), 3.0 * 501 * 601 * 551, 1.0);
+}
+
+TEST(ImportForm, TakesTheTimeToReadTheScanAndThatOfEveryVoxel) {
+    const ImportForm form{.region = {.high_mm = {40.0, 40.0, 40.0}}, .spacing_mm = 0.1};
+    const ScanPreview look{.covers = {.high_mm = {100.0, 100.0, 100.0}}, .took_s = 3.0};
+    const double voxels = 401.0 * 401.0 * 401.0, looked_at = 201.0 * 201.0 * 201.0;
+    EXPECT_DOUBLE_EQ(estimated_s(form, look), 3.0 + (voxels - looked_at) / 1.6e7);
+    ScanPreview quick = look;
+    quick.took_s = 0.1;
+    EXPECT_DOUBLE_EQ(estimated_s(form, quick), voxels / 1.6e7) << "nothing is read in less than no time";
 }
 
 TEST(ImportForm, KeepsWhatWasChosenOfSegmentsThatAreThereAgain) {

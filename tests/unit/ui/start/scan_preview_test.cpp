@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "render_client/ui/start/import_form.h"
+#include "tests/support/temporary_folder.h"
 
 namespace osteomill {
 namespace {
@@ -74,6 +76,68 @@ TEST(ScanPreview, OutlinesWhatReachesTheThreshold) {
     EXPECT_EQ(with_contour(picture, {.covers = covers}, 0.5, 300.0), picture) << "HU are not known";
 }
 
+TEST(ScanPreview, ShowsTheSlicesThroughAPlace) {
+    // 40 x 40 x 60 voxels, of which one line along each axis is white: they meet at voxel (7, 30, 50).
+    ScanVoxels voxels{.size = {40, 40, 60}, .greys = std::vector<std::uint8_t>(40 * 40 * 60, 0)};
+    const glm::ivec3 meet(7, 30, 50);
+    const auto set = [&](int x, int y, int z) {
+        voxels.greys[static_cast<std::size_t>(x + 40 * (y + 40 * z))] = 255;
+    };
+    for (int i = 0; i < 60; ++i) {
+        set(std::min(i, 39), meet.y, meet.z);
+        set(meet.x, std::min(i, 39), meet.z);
+        set(meet.x, meet.y, i);
+    }
+    const glm::dvec3 place_mm = covers.low_mm + 0.5 * glm::dvec3(meet);
+    const auto is_white = [&](const Picture& picture, int x, int y) { return *picture.at(x, y) == 255; };
+    const Picture through = picture_of(voxels, covers, 0.5, place_mm);
+    EXPECT_EQ(through.size_px, glm::ivec2(128, 60));
+    EXPECT_TRUE(is_white(through, 20, 30) && is_white(through, 7, 5)) << "axial: along x and y";
+    EXPECT_TRUE(is_white(through, 44 + 20, 59 - 50) && is_white(through, 44 + 7, 3))
+        << "coronal: x and z, up";
+    EXPECT_TRUE(is_white(through, 88 + 12, 59 - 50) && is_white(through, 88 + 30, 3)) << "sagittal: y and z";
+    const Picture beside = picture_of(voxels, covers, 0.5, place_mm + glm::dvec3(0.0, 0.0, 1.0));
+    EXPECT_FALSE(is_white(beside, 20, 30));
+    EXPECT_TRUE(is_white(beside, 7, 30)) << "where the line along z pierces it";
+    EXPECT_EQ(picture_of(voxels, covers, 0.5, glm::dvec3(1e9)),
+              picture_of(voxels, covers, 0.5, covers.high_mm));
+}
+
+TEST(ScanPreview, OutlinesSegmentsInTheirColours) {
+    // The second segment is a cube of 10 voxels from (5, 5, 5) on.
+    ScanVoxels voxels{.size = {40, 40, 60},
+                      .greys = std::vector<std::uint8_t>(40 * 40 * 60, 100),
+                      .segments = std::vector<std::uint8_t>(40 * 40 * 60, 0)};
+    for (int z = 5; z < 15; ++z)
+        for (int y = 5; y < 15; ++y)
+            for (int x = 5; x < 15; ++x) voxels.segments[static_cast<std::size_t>(x + 40 * (y + 40 * z))] = 2;
+    const Picture picture = picture_of(voxels, covers, 0.5, covers.low_mm + 0.5 * glm::dvec3(9.0));
+    const auto outline = colour_of_segment(1);
+    EXPECT_NE(outline, colour_of_segment(0));
+    int pixels = 0;
+    for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 128; ++x) pixels += std::equal(outline.begin(), outline.end(), picture.at(x, y));
+    EXPECT_EQ(pixels, 3 * 36) << "the edge of a square of 10 in each slice";
+    EXPECT_EQ(*picture.at(7, 7), 100) << "inside it is as it was";
+    const ScanPreview look{.covers = covers, .black_hu = -200.0, .white_hu = 1800.0};
+    EXPECT_EQ(with_contour(picture, look, 0.5, 300.0), picture) << "an outline is no edge of bone";
+}
+
+TEST(ScanPreview, ReadsTheVoxelsThatBelongToTheScan) {
+    const testing::TemporaryFolder folder;
+    const auto raw = folder / "look.raw";
+    std::ofstream(raw) << std::string(40 * 40 * 60 - 1, 'a') << 'z';
+    const ScanVoxels voxels = read_scan_voxels(raw, covers, 0.5);
+    EXPECT_EQ(voxels.size, glm::ivec3(40, 40, 60));
+    EXPECT_EQ(voxels.greys.front(), 'a');
+    EXPECT_EQ(voxels.greys.back(), 'z');
+    EXPECT_TRUE(voxels.segments.empty());
+    std::ofstream(raw, std::ios::app) << std::string(40 * 40 * 60, '\2');
+    EXPECT_EQ(read_scan_voxels(raw, covers, 0.5).segments.back(), 2);
+    EXPECT_THROW((void)read_scan_voxels(raw, covers, 0.6), std::runtime_error);
+    EXPECT_THROW((void)read_scan_voxels(folder / "none", covers, 0.5), std::runtime_error);
+}
+
 TEST(ScanPreview, ADragSetsTheTwoSidesThatItsSliceShows) {
     // Axial: x to the right, y down, half a millimetre a pixel, from the middle of the first.
     auto box = dragged_box(covers, covers, 0.5, {10.5, 4.5}, {20.5, 14.5});
@@ -84,6 +148,7 @@ TEST(ScanPreview, ADragSetsTheTwoSidesThatItsSliceShows) {
     box = dragged_box(covers, *box, 0.5, {44 + 30.5, 20.5}, {44 + 10.5, -50.0});
     EXPECT_EQ(box->low_mm, glm::dvec3(-5.0, 22.0, 719.5));
     EXPECT_EQ(box->high_mm, glm::dvec3(5.0, 27.0, 729.5));
+    EXPECT_EQ(slice_at(covers, 0.5, {44 + 30.5, 20.5})->through_axis(), 1);
     EXPECT_FALSE(dragged_box(covers, *box, 0.5, {42.0, 5.0}, {60.0, 5.0})) << "between two slices";
     EXPECT_FALSE(dragged_box(covers, *box, 0.5, {5.0, 55.0}, {6.0, 56.0})) << "below the first";
 }
@@ -111,14 +176,14 @@ TEST(ImportForm, BecomesACommand) {
                                             "--spacing-mm=0.1",
                                             "--threshold-hu=300",
                                             "--keep-soft-tissue",
+                                            "--warn-mm=1",
                                             "--protect=Dura",
                                             "--target=Tumour"};
     EXPECT_EQ(import_command("bone_import", form, "/c/head 1"), expected);
     EXPECT_NEAR(voxels_of(form), 401.0 * 401.0 * 401.0, 1.0);
-    EXPECT_EQ(look_command("bone_import", form, "/t/look.png", false),
+    EXPECT_EQ(look_command("bone_import", form, "/t/look.raw"),
               (std::vector<std::string>{"bone_import", "/s/head", "--segmentation=/s/a b.seg.nrrd",
-                                        "--preview", "/t/look.png"}));
-    EXPECT_EQ(look_command("bone_import", form, "/t/look.png", true).at(5), expected.at(5));
+                                        "--preview", "/t/look.raw"}));
     form.are_labels = true;  // which have no HU
     form.segmentations.clear();
     form.segments.clear();

@@ -57,6 +57,42 @@ TEST_F(StartPageTest, SendsItsWindowToThePortThatTheServerWasGiven) {
     EXPECT_FALSE(window.take_server()) << "it is there";
 }
 
+TEST_F(StartPageTest, LooksAtAScanOnceAndGoesThroughItsSlices) {
+    make_program("bone_import", "echo \"$@\" >> " + (folder_ / "arguments").string() +
+                                    "\nfor last; do :; done\nprintf 12345678 > \"$last\"\n"
+                                    "echo covers 0,0,0,0.5,0.5,0.5\necho HU from -1000 to 2000");
+    std::ofstream(folder_ / "scan.nrrd") << "x";
+    StartPage window = page();
+    window.show(StartPage::View::scan_browser);
+    window.go_to((folder_ / "none").string());
+    EXPECT_THAT(window.message(), HasSubstr("none: is not there"));
+    window.go_to(folder_.path().string());
+    EXPECT_EQ(window.listing().folder, folder_.path());
+    window.go_to((folder_ / "scan.nrrd").string());
+    EXPECT_EQ(window.view(), StartPage::View::import);
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
+    ASSERT_TRUE(window.voxels()) << window.message();
+    EXPECT_EQ(window.voxels()->greys.back(), '8');
+    EXPECT_EQ(window.slices_at_mm, glm::dvec3(0.25));
+    EXPECT_GT(window.look()->took_s, 0.0);
+    std::ifstream file(folder_ / "arguments");
+    std::string once, again;
+    EXPECT_TRUE(std::getline(file, once));
+    EXPECT_FALSE(std::getline(file, again)) << again;
+}
+
+TEST_F(StartPageTest, OffersTheFilesThatMayBeMeant) {
+    for (const char* name : {"session.pcap", "IM0001", "names.ctbl"}) std::ofstream(folder_ / name) << "x";
+    StartPage window = page();
+    window.show(StartPage::View::scan_browser);
+    window.browse(folder_.path());
+    EXPECT_EQ(window.listing().files.size(), 3U) << "DICOM has any name";
+    window.show(StartPage::View::recording_browser);
+    EXPECT_EQ(window.listing().files, std::vector<std::string>{"session.pcap"});
+    window.show(StartPage::View::colours_browser);
+    EXPECT_EQ(window.listing().files, std::vector<std::string>{"names.ctbl"});
+}
+
 TEST_F(StartPageTest, GoesBackToTheWindowsOwnServerWhenTheSessionIsOver) {
     make_program("haptic_server", "echo listening on 127.0.0.1:43210");
     StartPage window = page();

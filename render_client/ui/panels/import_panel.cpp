@@ -1,0 +1,234 @@
+#include "render_client/ui/panels/import_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "common/scene/material.h"
+#include "common/scene/tissue_tables.h"
+#include "render_client/ui/panels/page_widgets.h"
+#include "render_client/ui/words/translation.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr double mm_per_notch = 1.0;  // of the wheel
+
+void number_field(const char* label, double& number, const char* format) {
+    // Six of them stand in a row, with words for two more.
+    const float letter = ImGui::GetFontSize();
+    ImGui::SetNextItemWidth(std::clamp((ImGui::GetWindowContentRegionMax().x - 12.0f * letter) / 6.0f,
+                                       3.0f * letter, 5.0f * letter));
+    ImGui::InputDouble(label, &number, 0.0, 0.0, format);
+}
+
+void upload(const StartPage& page, StartPicture& picture) {
+    const std::optional<double> threshold_hu =
+        page.form.are_labels ? std::nullopt : std::optional(page.form.threshold_hu);
+    const bool is_new = picture.number != page.voxels_number() || picture.slices_at_mm != page.slices_at_mm ||
+                        !picture.texture;
+    if (!is_new && picture.threshold_hu == threshold_hu) return;
+    if (!picture.texture) picture.texture.emplace();
+    const Picture slices =
+        picture_of(*page.voxels(), page.look()->covers, preview_mm_per_px, page.slices_at_mm);
+    picture.texture->upload(
+        threshold_hu ? with_contour(slices, *page.look(), preview_mm_per_px, *threshold_hu) : slices);
+    picture.size_px = slices.size_px;
+    picture.number = page.voxels_number();
+    picture.slices_at_mm = page.slices_at_mm;
+    picture.threshold_hu = threshold_hu;
+}
+
+void draw_letters(ImDrawList& canvas, const PreviewSlice& slice, const ImVec2& low, const ImVec2& high) {
+    const float letter = ImGui::GetFontSize();
+    const ImVec2 middle{0.5f * (low.x + high.x) - 0.3f * letter, 0.5f * (low.y + high.y) - 0.5f * letter};
+    const std::array places{ImVec2{low.x + 0.2f * letter, middle.y}, ImVec2{high.x - 0.8f * letter, middle.y},
+                            ImVec2{middle.x, low.y}, ImVec2{middle.x, high.y - letter}};
+    const auto letters = letters_of(slice);
+    for (std::size_t edge = 0; edge < letters.size(); ++edge) {
+        canvas.AddText({places[edge].x + 1.0f, places[edge].y + 1.0f}, IM_COL32_BLACK, letters[edge]);
+        canvas.AddText(places[edge], IM_COL32_WHITE, letters[edge]);
+    }
+}
+
+/// Where the other two slices cross this one.
+void draw_cross(ImDrawList& canvas, const ImVec2& low, const ImVec2& high, const ImVec2& at) {
+    const ImU32 ink = IM_COL32(90, 200, 255, 110);
+    canvas.AddLine({low.x, at.y}, {high.x, at.y}, ink);
+    canvas.AddLine({at.x, low.y}, {at.x, high.y}, ink);
+}
+
+/// The scan's slices. The wheel goes through the one under the pointer; a drag in it sets two sides of the
+/// region, and the other two follow.
+void draw_slices(StartPage& page, StartPicture& picture, const ImVec2& room) {
+    upload(page, picture);
+    const glm::dvec2 size_px(picture.size_px);
+    const double scale =
+        std::min(static_cast<double>(room.x) / size_px.x, static_cast<double>(room.y) / size_px.y);
+    const ImVec2 first = ImGui::GetCursorScreenPos();
+    const ImVec2 size{static_cast<float>(scale * size_px.x), static_cast<float>(scale * size_px.y)};
+    ImGui::InvisibleButton("slices", size);
+    ImDrawList& canvas = *ImGui::GetWindowDrawList();
+    canvas.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(picture.texture->id())), first,
+                    {first.x + size.x, first.y + size.y});
+    const ScanBox& covers = page.look()->covers;
+    for (const PreviewSlice& slice : preview_slices(covers, preview_mm_per_px)) {
+        const auto corners = box_in_slice(covers, page.form.region, preview_mm_per_px, slice);
+        const auto on_screen = [&](const glm::dvec2& px) {
+            return ImVec2{first.x + static_cast<float>(scale * px.x),
+                          first.y + static_cast<float>(scale * px.y)};
+        };
+        const ImVec2 low = on_screen(slice.first_px), high = on_screen(slice.first_px + slice.size_px);
+        const ScanBox cross{page.slices_at_mm, page.slices_at_mm};
+        draw_cross(canvas, low, high, on_screen(box_in_slice(covers, cross, preview_mm_per_px, slice)[0]));
+        draw_letters(canvas, slice, low, high);
+        canvas.AddRect(on_screen(corners[0]), on_screen(corners[1]), IM_COL32(255, 150, 0, 255), 0.0f, 0,
+                       2.0f);
+    }
+    const ImVec2 mouse = ImGui::GetMousePos();
+    const glm::dvec2 at_px = glm::dvec2(mouse.x - first.x, mouse.y - first.y) / scale;
+    if (ImGui::IsItemActivated()) picture.drag = at_px;
+    if (picture.drag && ImGui::IsItemActive() &&
+        glm::any(glm::greaterThan(glm::abs(at_px - *picture.drag), glm::dvec2(2.0))))
+        if (const auto box = dragged_box(covers, page.form.region, preview_mm_per_px, *picture.drag, at_px)) {
+            const auto through = slice_at(covers, preview_mm_per_px, *picture.drag)->through_axis();
+            const double stays_mm = page.slices_at_mm[through];
+            page.form.region = *box;
+            page.slices_at_mm = 0.5 * (box->low_mm + box->high_mm);
+            page.slices_at_mm[through] = stays_mm;
+        }
+    if (!ImGui::IsItemActive()) picture.drag.reset();
+    const double notches = static_cast<double>(ImGui::GetIO().MouseWheel);
+    const auto under_pointer = slice_at(covers, preview_mm_per_px, at_px);
+    if (notches == 0.0 || !under_pointer || !ImGui::IsItemHovered()) return;
+    double& through_mm = page.slices_at_mm[under_pointer->through_axis()];
+    through_mm = std::clamp(through_mm + mm_per_notch * notches, covers.low_mm[under_pointer->through_axis()],
+                            covers.high_mm[under_pointer->through_axis()]);
+}
+
+/// What a segment is made of; the first choice leaves it open.
+void draw_material(SegmentChoice& segment, const char* left_open) {
+    ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
+    if (!ImGui::BeginCombo("##material", segment.material.empty() ? left_open : segment.material.c_str()))
+        return;
+    const auto offer = [&](const char* shown, const std::string& material) {
+        if (ImGui::Selectable(shown, segment.material == material)) segment.material = material;
+    };
+    offer(left_open, "");
+    offer(tr("soft: no bone"), soft_material);
+    for (const Material& material : shipped_materials()) offer(material.name.c_str(), material.name);
+    ImGui::EndCombo();
+}
+
+void draw_segments(ImportForm& form) {
+    for (std::size_t i = 0; i < form.segments.size(); ++i) {
+        SegmentChoice& segment = form.segments[i];
+        ImGui::PushID(static_cast<int>(i));
+        const auto [red, green, blue] = colour_of_segment(i);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float side = ImGui::GetFrameHeight();
+        ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + 0.3f * side, at.y + side},
+                                                  IM_COL32(red, green, blue, 255));
+        ImGui::Dummy({0.3f * side, side});
+        ImGui::SameLine();
+        ImGui::Checkbox(tr("protect"), &segment.is_protected);
+        ImGui::SameLine();
+        if (ImGui::Checkbox(tr("target"), &segment.is_target) && segment.is_target)
+            for (std::size_t other = 0; other < form.segments.size(); ++other)
+                if (other != i) form.segments[other].is_target = false;
+        ImGui::SameLine();
+        draw_material(segment, form.are_labels ? tr("as its name says") : tr("as its HU say"));
+        ImGui::SameLine();
+        ImGui::TextUnformatted(segment.name.c_str());
+        ImGui::PopID();
+    }
+}
+
+void draw_region(ImportForm& form) {
+    constexpr std::array<const char*, 3> axes{"##x", "##y", "##z"};
+    for (const bool is_low : {true, false}) {
+        ImGui::PushID(is_low ? "low" : "high");
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(is_low ? tr("from") : tr("to"));
+        for (int axis = 0; axis < 3; ++axis) {
+            ImGui::SameLine();
+            number_field(axes[static_cast<std::size_t>(axis)],
+                         (is_low ? form.region.low_mm : form.region.high_mm)[axis], "%.1f");
+        }
+        ImGui::SameLine();
+        ImGui::PopID();
+    }
+    ImGui::TextUnformatted(tr("mm LPS"));
+}
+
+}  // namespace
+
+void draw_import(StartPage& page, StartPicture& picture) {
+    ImportForm& form = page.form;
+    ImGui::TextUnformatted(form.scan.filename().c_str());
+    if (const auto& look = page.look()) {
+        ImGui::SameLine();
+        ImGui::TextDisabled(
+            "%s", trf("HU {:.0f} to {:.0f}; drag a box in two slices: what becomes bone; wheel: other slices",
+                      look->least_hu, look->most_hu)
+                      .c_str());
+    }
+    if (page.look() && page.voxels()) {
+        const float line = ImGui::GetFrameHeightWithSpacing();
+        const ImVec2 all = ImGui::GetContentRegionAvail();
+        draw_slices(page, picture, {all.x, std::max(all.y - 9.0f * line, 4.0f * line)});
+        draw_region(form);
+        if (!form.are_labels) {
+            number_field(tr("HU threshold"), form.threshold_hu, "%.0f");
+            ImGui::SameLine();
+        }
+        number_field(tr("mm a voxel"), form.spacing_mm, "%.2f");
+        form.spacing_mm = std::clamp(form.spacing_mm, 0.02, 10.0);
+        if (!form.are_labels) {
+            ImGui::SameLine();
+            ImGui::Checkbox(tr("keep soft tissue"), &form.keeps_soft_tissue);
+        }
+        ImGui::BeginChild("segments", list_size(3.5f), false);
+        if (button(tr("Add a segmentation ..."), !page.is_working()))
+            page.show(StartPage::View::segmentation_browser);
+        ImGui::SameLine();
+        if (button(tr("Colour table ..."), !form.segments.empty() && !page.is_working()))
+            page.show(StartPage::View::colours_browser);
+        ImGui::SameLine();
+        ImGui::TextDisabled("%s", trf("{:.0f} million voxels, {:.0f} MB at most, some {:.0f} s (estimated)",
+                                      1e-6 * voxels_of(form), 1e-6 * most_memory_bytes(form),
+                                      std::ceil(estimated_s(form, *page.look())))
+                                      .c_str());
+        if (!form.segments.empty()) {
+            number_field(tr("mm: warn of a burr that is nearer to what is protected"), form.warn_mm, "%.1f");
+            form.warn_mm = std::clamp(form.warn_mm, 0.0, most_warn_mm);
+        }
+        draw_segments(form);
+        ImGui::EndChild();
+        text_field(tr("name of the case"), form.name, 14.0f * ImGui::GetFontSize());
+    }
+    if (!page.look() && !page.is_working()) {
+        text_field(tr("mm between pixels and slices of a stack of pictures: x,y,z"), form.stack_spacing,
+                   12.0f * ImGui::GetFontSize());
+        ImGui::SameLine();
+        if (ImGui::Button(tr("Look"))) page.look_again();
+    }
+    if (button(tr("Import"), page.look() && !page.is_working())) page.import();
+    ImGui::SameLine();
+    if (ImGui::Button(page.is_working() ? tr("Give up") : tr("Back"))) {
+        if (page.is_working())
+            page.give_up_work();
+        else
+            page.show(page.look() ? StartPage::View::cases : StartPage::View::scan_browser);
+    }
+    draw_message(page);
+}
+
+}  // namespace osteomill

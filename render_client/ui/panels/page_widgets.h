@@ -1,0 +1,38 @@
+// Widgets that the start page's views share. Each needs an ImGui window to be open.
+#pragma once
+
+#include <imgui.h>
+
+#include <array>
+#include <string>
+
+#include "render_client/ui/start/start_page.h"
+
+namespace osteomill {
+
+inline void text_field(const char* label, std::string& text, float width) {
+    std::array<char, 64> buffer{};
+    text.copy(buffer.data(), buffer.size() - 1);
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::InputText(label, buffer.data(), buffer.size())) text = buffer.data();
+}
+
+inline bool button(const char* text, bool is_enabled) {
+    ImGui::BeginDisabled(!is_enabled);
+    const bool pressed = ImGui::Button(text);
+    ImGui::EndDisabled();
+    return pressed;
+}
+
+/// Room for a list above `lines` of other widgets.
+inline ImVec2 list_size(float lines) {
+    return {0.0f, ImGui::GetContentRegionAvail().y - lines * ImGui::GetFrameHeightWithSpacing()};
+}
+
+inline void draw_message(const StartPage& page) {
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(page.message().c_str());
+    ImGui::PopTextWrapPos();
+}
+
+}  // namespace osteomill

@@ -1,0 +1,82 @@
+#include "render_client/ui/panels/tour.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+#include "render_client/ui/words/translation.h"
+
+namespace osteomill {
+
+namespace {
+
+struct TourCard {
+    const char* title;
+    const char* text;
+};
+
+std::array<TourCard, 3> cards() {
+    return {
+        {{tr("1 of 3: choose a case"),
+          tr("Each card is a piece of bone with a task. Click on one, or go there with the arrow keys; a "
+             "second "
+             "click, or RETURN, starts it.\n\nA CT of your own becomes a card by Import a scan ...")},
+         {tr("2 of 3: drill"), tr("Drag with the left mouse button: the burr goes over the bone. Hold SPACE: "
+                                  "it turns. The wheel, or "
+                                  "W, pushes it into the bone, S pulls it out.\n\nNear what is protected a "
+                                  "banner and a frame warn. "
+                                  "U undoes a stroke. F1 shows all keys.")},
+         {tr("3 of 3: read the report"),
+          tr("Finish, or F10, ends the session. Its report says how long it took, with which forces, what "
+             "was "
+             "removed and what was touched.\n\nIt stays under Sessions so far. Compare all sessions draws "
+             "learning curves.")}}};
+}
+
+bool is_pressed(ImGuiKey key) {
+    return !ImGui::IsAnyItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
+}
+
+void draw_card(StartPage& page) {
+    const std::size_t number = *page.tour_card;
+    const bool is_last = number + 1 == cards().size();
+    ImGui::TextUnformatted(cards()[number].title);
+    ImGui::Separator();
+    ImGui::TextWrapped("%s", cards()[number].text);
+    ImGui::SetCursorPosY(ImGui::GetWindowHeight() - ImGui::GetFrameHeight() -
+                         ImGui::GetStyle().WindowPadding.y);
+    if (ImGui::Button(is_last ? tr("Begin") : tr("Next")) || is_pressed(ImGuiKey_Enter) ||
+        is_pressed(ImGuiKey_RightArrow))
+        is_last ? page.tour_card.reset() : void(page.tour_card = number + 1);
+    ImGui::SameLine();
+    ImGui::BeginDisabled(number == 0);
+    if (ImGui::Button(tr("Back")) || (number > 0 && is_pressed(ImGuiKey_LeftArrow)))
+        page.tour_card = number - 1;
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (ImGui::Button(tr("Skip"))) page.tour_card.reset();
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", tr("RETURN: on   ESC: skip"));
+}
+
+}  // namespace
+
+void draw_tour(StartPage& page) {
+    if (!page.tour_card) return;
+    const float letter = ImGui::GetFontSize();
+    const ImVec2 room = ImGui::GetWindowSize();
+    const ImVec2 size{std::min(36.0f * letter, 0.9f * room.x),
+                      7.0f * letter + 3.0f * ImGui::GetFrameHeightWithSpacing()};
+    ImGui::SetCursorPos({0.5f * (room.x - size.x), 0.5f * (room.y - size.y)});
+    ImVec4 paper = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
+    paper.w = 1.0f;  // the page is not to be read through it
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, paper);
+    ImGui::PushStyleColor(ImGuiCol_Border, ImGui::GetStyleColorVec4(ImGuiCol_NavHighlight));
+    ImGui::BeginChild("tour", size, true, ImGuiWindowFlags_NavFlattened);
+    draw_card(page);
+    ImGui::EndChild();
+    ImGui::PopStyleColor(2);
+}
+
+}  // namespace osteomill

@@ -1,0 +1,37 @@
+// Settings of the window that are kept from one run to the next, in a file at the user's home.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "render_client/ui/panels/theme.h"
+
+namespace osteomill {
+
+struct KeptSettings {
+    ThemeName theme = ThemeName::dark;
+    bool sound = false;  ///< of the burr
+    bool warns = true;   ///< a tone, near a protected structure
+    bool details_shown = false;
+    bool tour_seen = false;
+
+    bool operator==(const KeptSettings&) const = default;
+};
+
+class SettingsFile {
+  public:
+    /// Reads it. What it does not say, or says wrongly, is as usual: no setting is worth an error.
+    explicit SettingsFile(std::filesystem::path file);
+
+    const KeptSettings& settings() const { return settings_; }
+    /// Writes them, as a whole, where they are others than before. Returns one line about what went wrong,
+    /// once; else nothing.
+    std::string keep(const KeptSettings& settings);
+
+  private:
+    std::filesystem::path file_;
+    KeptSettings settings_;
+    bool is_unwritable_ = false;
+};
+
+}  // namespace osteomill
