@@ -11,13 +11,13 @@
 #include "common/scene/phantom_names.h"
 #include "common/scene/scene_file.h"
 #include "imaging/phantoms/distance_fields.h"
-#include "tests/unit/imaging/phantoms/made_bones.h"
 
 namespace osteomill {
 namespace {
 
 const Bone& tooth_bone() {
-    static const Bone& bone = testing::made_bone("tooth");
+    static const Bone bone =
+        bone_from_hu(make_tooth_phantom(), phantom_threshold_hu, default_stiffness_relation());
     return bone;
 }
 
