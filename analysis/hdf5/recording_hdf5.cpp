@@ -18,7 +18,7 @@ double began_unix_s(const std::filesystem::path& recording) {
 
 template <typename Layout>
 std::string write(const std::filesystem::path& recording, Layout layout, Playhead& playhead,
-                  const std::function<void()>& on_frame) {
+                  const ReportProgress& on_frame) {
     std::string error = play_to_end(playhead, on_frame, [&](Playhead::Step step) {
         if (step == Playhead::Step::new_bone)
             throw std::runtime_error(recording.string() +
@@ -37,7 +37,7 @@ std::filesystem::path fivrs_v3_file(const std::filesystem::path& file) {
 }
 
 std::string write_hdf5(const std::filesystem::path& recording, const std::filesystem::path& file,
-                       Hdf5Layout layout, const std::function<void()>& on_frame) {
+                       Hdf5Layout layout, const ReportProgress& on_frame) {
     Playhead playhead(recording);
     const double began_s = began_unix_s(recording);
     if (layout == Hdf5Layout::osteomill)

@@ -3,8 +3,9 @@
 
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <string>
+
+#include "common/program/progress.h"
 
 namespace osteomill {
 
@@ -23,6 +24,6 @@ std::filesystem::path fivrs_v3_file(const std::filesystem::path& file);
 /// RecordingError where there is no bone in it, and std::runtime_error in one line where the file cannot be
 /// written or several sessions were joined.
 std::string write_hdf5(const std::filesystem::path& recording, const std::filesystem::path& file,
-                       Hdf5Layout layout, const std::function<void()>& on_frame);
+                       Hdf5Layout layout, const ReportProgress& on_frame);
 
 }  // namespace osteomill

@@ -6,7 +6,7 @@
 
 namespace osteomill {
 
-RecordedBones bones_of(const std::filesystem::path& file, const std::function<void()>& on_frame) {
+RecordedBones bones_of(const std::filesystem::path& file, const ReportProgress& on_frame) {
     Playhead playhead(file);
     Bone at_start = playhead.bone();
     std::string error = play_to_end(playhead, on_frame, [&](Playhead::Step step) {

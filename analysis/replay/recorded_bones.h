@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include "common/bone/bone.h"
+#include "common/program/progress.h"
 
 namespace osteomill {
 
@@ -18,6 +18,6 @@ struct RecordedBones {
 
 /// Reads a recording through, every checksum with it; `on_frame` is called before each. Throws RecordingError
 /// where there is no bone in it; what is wrong later is said in `error`.
-RecordedBones bones_of(const std::filesystem::path& file, const std::function<void()>& on_frame);
+RecordedBones bones_of(const std::filesystem::path& file, const ReportProgress& on_frame);
 
 }  // namespace osteomill

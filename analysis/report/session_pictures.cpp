@@ -45,7 +45,7 @@ class Pictures {
 
 /// As read_trace, the last session only.
 void add_marks(const std::filesystem::path& file, const Pictures& make, const NamedView& view,
-               const std::function<void()>& on_frame, SessionPictures& pictures) {
+               const ReportProgress& on_frame, SessionPictures& pictures) {
     Playhead playhead(file);
     std::size_t number = 0;
     // Why a torn recording ends there, the trace says.
@@ -89,14 +89,14 @@ std::vector<std::future<SessionPicture>> begin_first(const SessionTrace& trace, 
 }  // namespace
 
 SessionPictures session_pictures(const std::filesystem::path& file, const SessionTrace& trace,
-                                 const std::function<void()>& on_frame) {
+                                 const ReportProgress& on_frame) {
     SessionPictures pictures;
     std::optional<PlannedRegion> plan;
     if (trace.session.plan) plan.emplace(trace.at_start, trace.session);
     const PlannedRegion* const region = plan ? &*plan : nullptr;
     const std::vector<NamedView> views = views_of_work(trace, region);
     if (views.empty()) return pictures;
-    on_frame();
+    on_frame(0.0);
     const Pictures make(trace, region);
     auto first = begin_first(trace, make, region, views.back());
     std::vector<std::future<SessionPicture>> before;

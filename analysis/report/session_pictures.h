@@ -3,11 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "analysis/report/session_trace.h"
+#include "common/program/progress.h"
 
 namespace osteomill {
 
@@ -27,6 +27,6 @@ struct SessionPictures {
 
 /// Reads the recording again for the bone at each mark, if there is one. `on_frame`: see read_trace.
 SessionPictures session_pictures(const std::filesystem::path& file, const SessionTrace& trace,
-                                 const std::function<void()>& on_frame);
+                                 const ReportProgress& on_frame);
 
 }  // namespace osteomill

@@ -138,7 +138,7 @@ std::int64_t TraceSample::restored() const {
                            [](std::int64_t sum, const TissueLevels& l) { return sum + l.restored; });
 }
 
-SessionTrace read_trace(const std::filesystem::path& file, const std::function<void()>& on_frame) {
+SessionTrace read_trace(const std::filesystem::path& file, const ReportProgress& on_frame) {
     Playhead playhead(file);
     SessionTrace trace = begin(playhead);
     std::optional<StructureWatch> structures;  // from the first state on: what is where has been said by then

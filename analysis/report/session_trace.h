@@ -7,13 +7,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "common/program/progress.h"
 #include "common/scene/session_control.h"
 #include "common/scene/structure.h"
 #include "common/scene/structure_watch.h"
@@ -86,6 +86,6 @@ struct SessionTrace {
 
 /// Reads a recording through; `on_frame` is called before each frame. Throws RecordingError where there is no
 /// bone in it; what is wrong later is said in `error`.
-SessionTrace read_trace(const std::filesystem::path& file, const std::function<void()>& on_frame);
+SessionTrace read_trace(const std::filesystem::path& file, const ReportProgress& on_frame);
 
 }  // namespace osteomill

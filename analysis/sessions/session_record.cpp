@@ -38,7 +38,7 @@ std::string digest_of_file(const std::filesystem::path& file) {
 }
 
 SessionRecord record_of(const std::filesystem::path& file, const std::string& digest) {
-    const SessionTrace trace = read_trace(file, [] {});
+    const SessionTrace trace = read_trace(file, [](double) {});
     if (!trace.error.empty()) throw std::runtime_error(trace.error);
     if (!trace.ends) throw std::runtime_error(file.string() + ": is torn: the session's end is missing");
     const SessionInfo& session = trace.session;

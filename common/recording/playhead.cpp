@@ -1,6 +1,7 @@
 #include "common/recording/playhead.h"
 
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "common/wire/sealed_frame.h"
@@ -8,6 +9,9 @@
 namespace osteomill {
 
 Playhead::Playhead(std::filesystem::path file) : reader_(file) {
+    std::error_code unknown;  // of a pipe
+    if (const auto bytes = std::filesystem::file_size(file, unknown); !unknown && bytes > 0)
+        file_bytes_ = bytes;
     read_ahead();
     while (!replica_)
         if (step(std::numeric_limits<double>::infinity()) == Step::end)

@@ -1,6 +1,7 @@
 // A place in a recording and the session as it was there: its bone, its tool. Moves forward frame by frame.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -57,6 +58,10 @@ class Playhead {
     // Since the recording was opened.
     std::uint64_t frames() const { return frames_; }
     std::uint64_t bytes() const { return bytes_; }
+    /// Of the file, 0 to 1.
+    double share_read() const {
+        return std::min(1.0, static_cast<double>(bytes_) / static_cast<double>(file_bytes_));
+    }
     std::uint64_t states() const { return states_; }
     std::uint64_t state_bytes() const { return state_bytes_; }
     std::uint64_t tick_count() const { return tick_count_; }
@@ -105,6 +110,7 @@ class Playhead {
 
     std::uint64_t frames_ = 0;
     std::uint64_t bytes_ = 0;
+    std::uint64_t file_bytes_ = 1;
     std::uint64_t states_ = 0;
     std::uint64_t state_bytes_ = 0;
     std::uint64_t tick_count_ = 0;
@@ -113,14 +119,14 @@ class Playhead {
     std::uint64_t checksums_verified_ = 0;
 };
 
-/// Takes all remaining steps: `on_frame()` before each, `on_step(step)` after each but the end. Returns why
-/// the recording cannot be read to its end, empty if it can; everything before that stays valid. Passes on
-/// exceptions of the two callbacks, except RecordingError.
+/// Takes all remaining steps: `on_frame(share_read())` before each, `on_step(step)` after each but the end.
+/// Returns why the recording cannot be read to its end, empty if it can; everything before that stays valid.
+/// Passes on exceptions of the two callbacks, except RecordingError.
 template <typename OnFrame, typename OnStep>
 std::string play_to_end(Playhead& playhead, const OnFrame& on_frame, const OnStep& on_step) {
     try {
         for (;;) {
-            on_frame();
+            on_frame(playhead.share_read());
             const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());
             if (step == Playhead::Step::end) return {};
             on_step(step);

@@ -88,7 +88,7 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
     failure.of([&] {
         if (recording && !recording->error.empty()) throw std::runtime_error(recording->error);
         if (!files.report) return;
-        const std::string error = write_report(recording_in(*files.report), *files.report, [] {});
+        const std::string error = write_report(recording_in(*files.report), *files.report, [](double) {});
         if (!error.empty()) throw std::runtime_error(error);
         output.out->say(fmt::format("report: {}", (*files.report / "report.html").string()));
     });

@@ -1,10 +1,14 @@
 #include "haptic_server/replay/replay.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <functional>
+#include <iostream>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "analysis/replay/recorded_bones.h"
@@ -15,6 +19,7 @@
 #include "analysis/surface/mesh_file.h"
 #include "analysis/surface/surface_mesh.h"
 #include "common/files/atomic_file.h"
+#include "common/program/progress.h"
 #include "common/program/stop_signals.h"
 #include "haptic_server/replay/recorded_session.h"
 #include "haptic_server/streaming/streaming_server.h"
@@ -28,10 +33,32 @@ void require_going_on(const std::atomic<bool>& stop) {
     if (stop.load()) throw std::runtime_error("interrupted; nothing was written");
 }
 
+/// The progress of a reading that takes seconds, on standard error, until somebody stops it.
+class Reading {
+  public:
+    Reading(const ReplayOptions& options, const std::atomic<bool>& stop, std::string title)
+        : stop_(stop), line_(std::cerr, ::isatty(STDERR_FILENO) == 1, std::move(title)) {
+        constexpr std::uintmax_t long_recording_bytes = std::uintmax_t{1} << 24;
+        std::error_code unknown;
+        const auto bytes = std::filesystem::file_size(options.recording, unknown);
+        takes_long_ = !unknown && bytes > long_recording_bytes;
+    }
+    void operator()(double done) {
+        require_going_on(stop_);
+        if (takes_long_) line_.report(done);
+    }
+
+  private:
+    const std::atomic<bool>& stop_;
+    ProgressLine line_;
+    bool takes_long_ = false;
+};
+
 /// The surface of what is left and what was removed, as far as the recording can be read. Returns why it is
 /// not read further.
 std::string write_bones(const ReplayOptions& options, const std::atomic<bool>& stop) {
-    const RecordedBones bones = bones_of(options.recording, [&] { require_going_on(stop); });
+    Reading reading(options, stop, "bones");
+    const RecordedBones bones = bones_of(options.recording, std::ref(reading));
     if (options.difference) save_removed(*options.difference, bones.at_start, bones.at_end);
     if (options.surface) {
         const SurfaceMesh mesh = surface_of(bones.at_end);
@@ -117,12 +144,14 @@ void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, con
         std::string error;
         if (options.surface || options.difference) error = write_bones(options, stop);
         if (options.report) {
-            error = write_report(options.recording, *options.report, [&] { require_going_on(stop); });
+            Reading reading(options, stop, "report");
+            error = write_report(options.recording, *options.report, std::ref(reading));
             output.out->write(fmt::format("report: {}\n", (*options.report / "report.html").string()));
         }
-        if (options.hdf5)
-            error =
-                write_hdf5(options.recording, *options.hdf5, options.layout, [&] { require_going_on(stop); });
+        if (options.hdf5) {
+            Reading reading(options, stop, "HDF5");
+            error = write_hdf5(options.recording, *options.hdf5, options.layout, std::ref(reading));
+        }
         if (options.info || options.json || options.csv || options.states_csv || options.trajectory ||
             options.sound)
             read(options, stop);

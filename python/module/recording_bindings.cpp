@@ -56,7 +56,7 @@ py::object metrics(const SharedRecording& recording) {
     std::string text;
     {
         const py::gil_scoped_release released;
-        const SessionTrace trace = read_trace(recording->file(), [] {});
+        const SessionTrace trace = read_trace(recording->file(), [](double) {});
         text = metrics_json(trace, metric_rows(session_metrics(trace)));
     }
     return from_json(text)["metrics"];
@@ -80,8 +80,8 @@ void to_hdf5(const SharedRecording& recording, const std::filesystem::path& file
         throw std::invalid_argument(
             fmt::format("layout: takes {}, not '{}'", fmt::join(hdf5_layout_names, ", "), layout));
     const py::gil_scoped_release released;
-    const std::string error =
-        write_hdf5(recording->file(), file, static_cast<Hdf5Layout>(name - hdf5_layout_names.begin()), [] {});
+    const std::string error = write_hdf5(
+        recording->file(), file, static_cast<Hdf5Layout>(name - hdf5_layout_names.begin()), [](double) {});
     if (!error.empty()) throw std::runtime_error(error);
 }
 

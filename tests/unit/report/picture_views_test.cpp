@@ -73,7 +73,7 @@ class Approached : public ::testing::Test {
         for (int i = 0; i <= 8; ++i)
             written.frame({.time_s = 0.1 * i, .burr_position_mm = {2.2, 0.5 * (i - 5), 0.0}});
         written.finish();
-        return read_trace(file, [] {});
+        return read_trace(file, [](double) {});
     }
 
     testing::TemporaryFolder folder_;

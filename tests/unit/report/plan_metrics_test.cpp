@@ -37,7 +37,7 @@ PlanMetrics metrics_of(const Plan& plan, const glm::dvec3& cut_centre) {
     written.cut([&](const glm::dvec3& place) { return is_in_sphere(place, cut_centre); });
     written.frame({.time_s = 1.0, .spindle_on = true});
     written.finish();
-    return plan_metrics(read_trace(folder / "a.pcap", [] {})).value();
+    return plan_metrics(read_trace(folder / "a.pcap", [](double) {})).value();
 }
 
 constexpr double sphere_mm3 = 4.0 / 3.0 * 3.14159265358979 * radius_mm * radius_mm * radius_mm;

@@ -41,7 +41,7 @@ class ReportedSession : public ::testing::Test {
     }
     SessionTrace trace() {
         written_->finish();
-        SessionTrace read = read_trace(file(), [] {});
+        SessionTrace read = read_trace(file(), [](double) {});
         EXPECT_EQ(read.error, "");
         return read;
     }
@@ -305,7 +305,7 @@ TEST_F(ReportedSession, TellsHowNearAProtectedStructureWasAndWhatItLost) {
     tool_.burr_position_mm = {0.1, 0.1, 1.1};
     frame();
     std::filesystem::copy_file(folder_ / "session.part.pcap", folder_ / "so_far.pcap");
-    const auto far = session_metrics(read_trace(folder_ / "so_far.pcap", [] {})).structures;
+    const auto far = session_metrics(read_trace(folder_ / "so_far.pcap", [](double) {})).structures;
     ASSERT_EQ(far.size(), 1u);
     if (far[0].nearest_mm) {
         EXPECT_GE(*far[0].nearest_mm, 0.4 - 1e-5);
@@ -360,7 +360,7 @@ TEST_F(ReportedSession, MeasuresASoftStructureThatOnlyTheRecordingTells) {
         frame();
     }
     std::filesystem::copy_file(folder_ / "session.part.pcap", folder_ / "so_far.pcap");
-    const auto so_far = session_metrics(read_trace(folder_ / "so_far.pcap", [] {})).structures;
+    const auto so_far = session_metrics(read_trace(folder_ / "so_far.pcap", [](double) {})).structures;
     ASSERT_EQ(so_far.size(), 1u);
     EXPECT_EQ(so_far[0].name, "nerve");
     if (so_far[0].nearest_mm) {

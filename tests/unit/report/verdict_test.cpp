@@ -51,7 +51,7 @@ class Judged : public ::testing::Test {
         written.frame({.time_s = time_s, .spindle_on = true});
         written.finish();
         if (!is_whole) std::filesystem::resize_file(file, std::filesystem::file_size(file) - 200);
-        const SessionTrace trace = read_trace(file, [] {});
+        const SessionTrace trace = read_trace(file, [](double) {});
         const SessionMetrics metrics = session_metrics(trace);
         const auto all_rows = metric_rows(metrics);
         const auto folder = folder_ / "all" / name;

@@ -2,7 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "analysis/report/bone_view.h"
 #include "analysis/report/metric_files.h"
@@ -36,7 +41,7 @@ TEST(WriteReport, ShowsHostileNamesAsTextInOnePage) {
     written.cut([](const glm::dvec3& place) { return place.z > 3.0; });
     written.frame({.time_s = 1.0, .spindle_on = true});
     written.finish();
-    EXPECT_EQ(write_report(folder / "a.pcap", folder / "report", [] {}), "");
+    EXPECT_EQ(write_report(folder / "a.pcap", folder / "report", [](double) {}), "");
     const std::string page = testing::bytes_of(folder / "report/report.html");
     EXPECT_THAT(page, Not(HasSubstr("<script")));
     EXPECT_THAT(page, HasSubstr("&lt;script"));
@@ -55,7 +60,7 @@ TEST(WriteReport, ItsTilesSayWhatItsTablesSay) {
     written.frame({.time_s = 0.0});
     written.frame({.time_s = 155.74, .force_n = {0.0, 3.0, 4.123}});
     written.finish();
-    EXPECT_EQ(write_report(folder / "a.pcap", folder / "report", [] {}), "");
+    EXPECT_EQ(write_report(folder / "a.pcap", folder / "report", [](double) {}), "");
     const std::string page = testing::bytes_of(folder / "report/report.html");
     EXPECT_THAT(page, HasSubstr("<b>155.7 s</b>"));
     EXPECT_THAT(page, HasSubstr("<td class='n'>155.7</td><td class='u'>s</td>"));
@@ -67,11 +72,28 @@ TEST(WriteReport, OfATornRecordingIsOfWhatCanBeRead) {
     const testing::TemporaryFolder folder;
     testing::make_recording(folder / "a.pcap");
     testing::spoil(folder / "a.pcap", 20);
-    EXPECT_THAT(write_report(folder / "a.pcap", folder / "report", [] {}), HasSubstr("a.pcap, packet "));
+    EXPECT_THAT(write_report(folder / "a.pcap", folder / "report", [](double) {}),
+                HasSubstr("a.pcap, packet "));
     EXPECT_THAT(testing::bytes_of(folder / "report/report.html"), HasSubstr("could not be read to its end"));
     std::filesystem::resize_file(folder / "a.pcap", 100);
-    EXPECT_THROW((void)write_report(folder / "a.pcap", folder / "other", [] {}), RecordingError);
+    EXPECT_THROW((void)write_report(folder / "a.pcap", folder / "other", [](double) {}), RecordingError);
     EXPECT_FALSE(std::filesystem::exists(folder / "other"));
+}
+
+TEST(WriteReport, SaysHowFarItIsAndLeavesNothingWhenStopped) {
+    const testing::TemporaryFolder folder;
+    testing::make_recording(folder / "a.pcap");
+    std::vector<double> done;
+    EXPECT_EQ(
+        write_report(folder / "a.pcap", folder / "report", [&](double share) { done.push_back(share); }), "");
+    EXPECT_TRUE(std::ranges::is_sorted(done));
+    EXPECT_GE(done.front(), 0.0);
+    EXPECT_EQ(done.back(), 1.0);
+    const auto stop = [](double share) {
+        if (share > 0.3) throw std::runtime_error("stopped");
+    };
+    EXPECT_THROW((void)write_report(folder / "a.pcap", folder / "stopped", stop), std::runtime_error);
+    EXPECT_FALSE(std::filesystem::exists(folder / "stopped"));
 }
 
 TEST(WriteReport, SaysWhereTheSessionsEndIsMissing) {
@@ -80,7 +102,7 @@ TEST(WriteReport, SaysWhereTheSessionsEndIsMissing) {
     testing::make_recording(folder / "cut.pcap");
     std::filesystem::resize_file(folder / "cut.pcap", std::filesystem::file_size(folder / "cut.pcap") - 200);
     for (const std::string name : {"whole", "cut"}) {
-        EXPECT_EQ(write_report(folder / (name + ".pcap"), folder / name, [] {}), "");
+        EXPECT_EQ(write_report(folder / (name + ".pcap"), folder / name, [](double) {}), "");
         const bool is_whole = name == "whole";
         const auto json = nlohmann::json::parse(testing::bytes_of(folder / name / "metrics.json"));
         EXPECT_EQ(json.at("is_complete"), is_whole);
@@ -97,7 +119,7 @@ TEST(WriteReport, SaysWhereTheSessionsEndIsMissing) {
 TEST(WriteReport, CountsWhatTheBoneLost) {
     const testing::TemporaryFolder folder;
     const testing::MadeRecording made = testing::make_recording(folder / "a.pcap");
-    const SessionTrace trace = read_trace(folder / "a.pcap", [] {});
+    const SessionTrace trace = read_trace(folder / "a.pcap", [](double) {});
     EXPECT_NEAR(session_metrics(trace).removal.removed_mm3,
                 bone_volume_mm3(made.before) - bone_volume_mm3(made.after), 1e-9);
     EXPECT_EQ(trace.bone_checksum, checksum(made.after));
