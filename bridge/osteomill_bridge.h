@@ -1,9 +1,9 @@
 /* The arm's side of the bridge between a haptic arm and haptic_server --device bridge: open, exchange, close.
  *
- * One header, C99, no dependencies; C++ takes it, too. POSIX and Windows (link with ws2_32). Include it
- * before other headers where the compiler hides what is not C (gcc -std=c99). Nothing here starts a thread,
- * waits, or allocates. An arm's program calls omb_exchange() about a thousand times a second from the thread
- * that serves the arm, and gives the arm the force that comes back:
+ * One header, C99, no dependencies; C++ takes it, too. POSIX and Windows (link with ws2_32). Include it before
+ * other headers where the compiler hides what is not C (gcc -std=c99). Nothing here starts a thread,
+ * waits, or allocates. An arm's program calls omb_exchange() about a thousand times a second from the thread that
+ * serves the arm, and gives the arm the force that comes back:
  *
  *     omb_link link;
  *     if (omb_open(&link, "unix:/tmp/osteomill.sock", NULL, &arm) != 0) { puts(link.error); return 1; }
@@ -14,8 +14,8 @@
  *     }
  *     omb_close(&link);
  *
- * What comes back is safe by itself: the last force of the server is held for 5 ms, then fades, and is zero
- * 50 ms after the last word of the server; it is within the arm's force and slew, and finite. The messages:
+ * What comes back is safe by itself: the last force of the server is held for 5 ms, then fades, and is zero 50 ms
+ * after the last word of the server; it is within the arm's force and slew, and finite. The messages:
  * docs/device-bridge.md.
  *
  * Device space is the arm's own, right-handed, in mm; the server's scene says where the patient is in it.
@@ -36,9 +36,9 @@
 #include <string.h>
 
 #ifdef _WIN32
-#include <windows.h>
 #include <winsock2.h>
 #include <ws2tcpip.h>
+#include <windows.h>
 typedef SOCKET omb_socket;
 #define OMB_NO_SOCKET INVALID_SOCKET
 #else
@@ -54,8 +54,7 @@ typedef int omb_socket;
 #define OMB_NO_SOCKET (-1)
 #endif
 
-/* ---- What is said
- * ------------------------------------------------------------------------------------------ */
+/* ---- What is said ------------------------------------------------------------------------------------------ */
 
 #define OMB_MAGIC 0x424d534fu /* "OSMB" on the wire */
 #define OMB_VERSION 1u
@@ -63,13 +62,7 @@ typedef int omb_socket;
 #define OMB_TAG_BYTES 16
 #define OMB_NAME_BYTES 16
 
-typedef enum omb_kind {
-    OMB_HELLO = 1,
-    OMB_WELCOME = 2,
-    OMB_POSE = 3,
-    OMB_FORCE = 4,
-    OMB_GOODBYE = 5
-} omb_kind;
+typedef enum omb_kind { OMB_HELLO = 1, OMB_WELCOME = 2, OMB_POSE = 3, OMB_FORCE = 4, OMB_GOODBYE = 5 } omb_kind;
 
 /* Of every message: who says it in which session, and when by the sender's clock. */
 typedef struct omb_header {
@@ -81,17 +74,16 @@ typedef struct omb_header {
 
 /* What the arm is. All lengths and forces in device space. */
 typedef struct omb_arm {
-    char name[OMB_NAME_BYTES];     /* ends with a zero unless it is 16 bytes long */
-    double max_force_n;            /* that it can give all the time */
-    double max_torque_n_mm;        /* 0: it has no actuated rotations */
-    double max_stiffness_n_per_mm; /* of a spring that it renders stably with no delay but its own */
+    char name[OMB_NAME_BYTES];       /* ends with a zero unless it is 16 bytes long */
+    double max_force_n;              /* that it can give all the time */
+    double max_torque_n_mm;          /* 0: it has no actuated rotations */
+    double max_stiffness_n_per_mm;   /* of a spring that it renders stably with no delay but its own */
     double apparent_mass_kg;
-    double position_step_mm; /* of a reading; 0: none to speak of */
+    double position_step_mm;         /* of a reading; 0: none to speak of */
     double workspace_min_mm[3];
     double workspace_max_mm[3];
-    double
-        tool_from_handle_mm[3]; /* the burr's centre seen from what omb_pose places, in the handle's frame */
-    double max_slew_n_per_s;    /* kept here, not sent; 0: 1000 */
+    double tool_from_handle_mm[3];   /* the burr's centre seen from what omb_pose places, in the handle's frame */
+    double max_slew_n_per_s;         /* kept here, not sent; 0: 1000 */
 } omb_arm;
 
 typedef enum omb_button { OMB_PEDAL = 1u, OMB_NEXT_BURR = 2u } omb_button;
@@ -104,8 +96,7 @@ typedef enum omb_status {
 
 typedef struct omb_pose {
     double position_mm[3];
-    double quaternion[4]; /* w, x, y, z: from the handle's frame (z from the burr's tip to the shank) to
-                             device space */
+    double quaternion[4]; /* w, x, y, z: from the handle's frame (z from the burr's tip to the shank) to device space */
     double velocity_mm_per_s[3];
     uint32_t buttons;
     uint32_t status;
@@ -118,13 +109,12 @@ typedef struct omb_pose {
 typedef struct omb_force {
     double force_n[3];
     double torque_n_mm[3]; /* on the hand, about what omb_pose places; zero where the arm gives none */
-    uint32_t is_off; /* the "hold" flag: the server renders nothing now (paused, or a fault); force is zero */
+    uint32_t is_off;       /* the "hold" flag: the server renders nothing now (paused, or a fault); force is zero */
     uint64_t echo_sequence; /* of the pose that this answers */
     uint64_t echo_clock_ns;
 } omb_force;
 
-/* ---- Numbers, little endian
- * -------------------------------------------------------------------------------- */
+/* ---- Numbers, little endian -------------------------------------------------------------------------------- */
 
 static inline void omb_put(uint8_t* to, uint64_t value, int bytes) {
     int i;
@@ -155,8 +145,7 @@ static inline void omb_get_reals(const uint8_t* from, double* values, int count)
     }
 }
 
-/* ---- SHA-256 and HMAC (FIPS 180-4, RFC 2104)
- * --------------------------------------------------------------- */
+/* ---- SHA-256 and HMAC (FIPS 180-4, RFC 2104) --------------------------------------------------------------- */
 
 typedef struct omb_sha256 {
     uint32_t state[8];
@@ -164,29 +153,25 @@ typedef struct omb_sha256 {
     uint8_t block[64];
 } omb_sha256;
 
-static inline uint32_t omb_turn(uint32_t x, int by) {
-    return (x >> by) | (x << (32 - by));
-}
+static inline uint32_t omb_turn(uint32_t x, int by) { return (x >> by) | (x << (32 - by)); }
 
 static inline void omb_sha256_block(uint32_t state[8], const uint8_t block[64]) {
     static const uint32_t k[64] = {
-        0x428a2f98u, 0x71374491u, 0xb5c0fbcfu, 0xe9b5dba5u, 0x3956c25bu, 0x59f111f1u, 0x923f82a4u,
-        0xab1c5ed5u, 0xd807aa98u, 0x12835b01u, 0x243185beu, 0x550c7dc3u, 0x72be5d74u, 0x80deb1feu,
-        0x9bdc06a7u, 0xc19bf174u, 0xe49b69c1u, 0xefbe4786u, 0x0fc19dc6u, 0x240ca1ccu, 0x2de92c6fu,
-        0x4a7484aau, 0x5cb0a9dcu, 0x76f988dau, 0x983e5152u, 0xa831c66du, 0xb00327c8u, 0xbf597fc7u,
-        0xc6e00bf3u, 0xd5a79147u, 0x06ca6351u, 0x14292967u, 0x27b70a85u, 0x2e1b2138u, 0x4d2c6dfcu,
-        0x53380d13u, 0x650a7354u, 0x766a0abbu, 0x81c2c92eu, 0x92722c85u, 0xa2bfe8a1u, 0xa81a664bu,
-        0xc24b8b70u, 0xc76c51a3u, 0xd192e819u, 0xd6990624u, 0xf40e3585u, 0x106aa070u, 0x19a4c116u,
-        0x1e376c08u, 0x2748774cu, 0x34b0bcb5u, 0x391c0cb3u, 0x4ed8aa4au, 0x5b9cca4fu, 0x682e6ff3u,
-        0x748f82eeu, 0x78a5636fu, 0x84c87814u, 0x8cc70208u, 0x90befffau, 0xa4506cebu, 0xbef9a3f7u,
-        0xc67178f2u};
+        0x428a2f98u, 0x71374491u, 0xb5c0fbcfu, 0xe9b5dba5u, 0x3956c25bu, 0x59f111f1u, 0x923f82a4u, 0xab1c5ed5u,
+        0xd807aa98u, 0x12835b01u, 0x243185beu, 0x550c7dc3u, 0x72be5d74u, 0x80deb1feu, 0x9bdc06a7u, 0xc19bf174u,
+        0xe49b69c1u, 0xefbe4786u, 0x0fc19dc6u, 0x240ca1ccu, 0x2de92c6fu, 0x4a7484aau, 0x5cb0a9dcu, 0x76f988dau,
+        0x983e5152u, 0xa831c66du, 0xb00327c8u, 0xbf597fc7u, 0xc6e00bf3u, 0xd5a79147u, 0x06ca6351u, 0x14292967u,
+        0x27b70a85u, 0x2e1b2138u, 0x4d2c6dfcu, 0x53380d13u, 0x650a7354u, 0x766a0abbu, 0x81c2c92eu, 0x92722c85u,
+        0xa2bfe8a1u, 0xa81a664bu, 0xc24b8b70u, 0xc76c51a3u, 0xd192e819u, 0xd6990624u, 0xf40e3585u, 0x106aa070u,
+        0x19a4c116u, 0x1e376c08u, 0x2748774cu, 0x34b0bcb5u, 0x391c0cb3u, 0x4ed8aa4au, 0x5b9cca4fu, 0x682e6ff3u,
+        0x748f82eeu, 0x78a5636fu, 0x84c87814u, 0x8cc70208u, 0x90befffau, 0xa4506cebu, 0xbef9a3f7u, 0xc67178f2u};
     uint32_t w[64];
     uint32_t a = state[0], b = state[1], c = state[2], d = state[3];
     uint32_t e = state[4], f = state[5], g = state[6], h = state[7];
     int i;
     for (i = 0; i < 16; ++i)
-        w[i] = (uint32_t)block[4 * i] << 24 | (uint32_t)block[4 * i + 1] << 16 |
-               (uint32_t)block[4 * i + 2] << 8 | (uint32_t)block[4 * i + 3];
+        w[i] = (uint32_t)block[4 * i] << 24 | (uint32_t)block[4 * i + 1] << 16 | (uint32_t)block[4 * i + 2] << 8 |
+               (uint32_t)block[4 * i + 3];
     for (i = 16; i < 64; ++i) {
         const uint32_t x = w[i - 15], y = w[i - 2];
         w[i] = w[i - 16] + (omb_turn(x, 7) ^ omb_turn(x, 18) ^ (x >> 3)) + w[i - 7] +
@@ -283,8 +268,7 @@ static inline void omb_hmac(const omb_key* key, const uint8_t* data, size_t byte
     omb_sha256_end(&sha, digest);
 }
 
-/* ---- Messages: 32 bytes of header, 144 of body, 16 of tag
- * -------------------------------------------------- */
+/* ---- Messages: 32 bytes of header, 144 of body, 16 of tag -------------------------------------------------- */
 
 /* The tag, last: the first 16 bytes of the HMAC of all before it; zeros without a key. */
 static inline void omb_seal(uint8_t message[OMB_MESSAGE_BYTES], const omb_key* key) {
@@ -305,13 +289,11 @@ static inline void omb_put_header(uint8_t message[OMB_MESSAGE_BYTES], const omb_
 }
 
 /* 1 and the header, for a message of this protocol and of that key; else 0. */
-static inline int omb_get_header(const uint8_t* message, size_t bytes, const omb_key* key,
-                                 omb_header* header) {
+static inline int omb_get_header(const uint8_t* message, size_t bytes, const omb_key* key, omb_header* header) {
     uint8_t sealed[OMB_MESSAGE_BYTES];
     uint8_t differs = 0;
     int i;
-    if (bytes != OMB_MESSAGE_BYTES || omb_get(message, 4) != OMB_MAGIC ||
-        omb_get(message + 4, 2) != OMB_VERSION)
+    if (bytes != OMB_MESSAGE_BYTES || omb_get(message, 4) != OMB_MAGIC || omb_get(message + 4, 2) != OMB_VERSION)
         return 0;
     memcpy(sealed, message, OMB_MESSAGE_BYTES);
     omb_seal(sealed, key);
@@ -360,9 +342,7 @@ static inline void omb_put_welcome(uint8_t message[OMB_MESSAGE_BYTES], uint64_t 
     omb_put(message + 32, nonce, 8);
 }
 
-static inline uint64_t omb_get_welcome(const uint8_t message[OMB_MESSAGE_BYTES]) {
-    return omb_get(message + 32, 8);
-}
+static inline uint64_t omb_get_welcome(const uint8_t message[OMB_MESSAGE_BYTES]) { return omb_get(message + 32, 8); }
 
 static inline void omb_put_pose(uint8_t message[OMB_MESSAGE_BYTES], const omb_pose* pose) {
     uint8_t* body = message + 32;
@@ -406,15 +386,13 @@ static inline void omb_get_force(const uint8_t message[OMB_MESSAGE_BYTES], omb_f
     force->echo_clock_ns = omb_get(body + 64, 8);
 }
 
-/* ---- What reaches the hand
- * --------------------------------------------------------------------------------- */
+/* ---- What reaches the hand --------------------------------------------------------------------------------- */
 
-#define OMB_HOLD_NS 5000000u    /* so long the last force is kept without a word from the server */
-#define OMB_SILENT_NS 50000000u /* after so long it is zero */
-#define OMB_GONE_NS 250000000u  /* after so long the server is asked anew who it is */
+#define OMB_HOLD_NS 5000000u      /* so long the last force is kept without a word from the server */
+#define OMB_SILENT_NS 50000000u   /* after so long it is zero */
+#define OMB_GONE_NS 250000000u    /* after so long the server is asked anew who it is */
 #define OMB_HELLO_EVERY_NS 20000000u
-#define OMB_RELEASE_S \
-    0.012 /* what is still given then, after this process itself stood still, goes in so long */
+#define OMB_RELEASE_S 0.012 /* what is still given then, after this process itself stood still, goes in so long */
 #define OMB_RETURN_S 0.1 /* a force that was off comes back over so long */
 
 /* Without libm. 0 for what is no positive number. */
@@ -426,9 +404,7 @@ static inline double omb_sqrt(double x) {
     return root;
 }
 
-static inline double omb_length(const double v[3]) {
-    return omb_sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
+static inline double omb_length(const double v[3]) { return omb_sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 /* Shortens `v` to `most`; zero where one of its numbers is none. */
 static inline void omb_clamp(double v[3], double most) {
@@ -442,8 +418,8 @@ static inline void omb_clamp(double v[3], double most) {
     }
 }
 
-/* Of a rotation matrix, row by row: its columns are the handle's axes in device space (Shepperd's choice of
- * the largest, J. Guidance and Control 1:223, 1978). */
+/* Of a rotation matrix, row by row: its columns are the handle's axes in device space (Shepperd's choice of the
+ * largest, J. Guidance and Control 1:223, 1978). */
 static inline void omb_quaternion(const double r[3][3], double quaternion[4]) {
     const double trace = r[0][0] + r[1][1] + r[2][2];
     double scale;
@@ -481,17 +457,15 @@ static inline void omb_approach(double given[3], const double wanted[3], double 
     int i;
     for (i = 0; i < 3; ++i) step[i] = wanted[i] - given[i];
     length = omb_length(step);
-    for (i = 0; i < 3; ++i)
-        given[i] = length > most_step ? given[i] + step[i] * most_step / length : wanted[i];
+    for (i = 0; i < 3; ++i) given[i] = length > most_step ? given[i] + step[i] * most_step / length : wanted[i];
 }
 
-/* ---- The link
- * ---------------------------------------------------------------------------------------------- */
+/* ---- The link ---------------------------------------------------------------------------------------------- */
 
 typedef enum omb_state {
     OMB_SEEKING = 0, /* no server has answered; force is zero */
     OMB_RUNNING = 1,
-    OMB_FADING = 2 /* the server has not answered for more than 5 ms */
+    OMB_FADING = 2   /* the server has not answered for more than 5 ms */
 } omb_state;
 
 typedef struct omb_link {
@@ -501,19 +475,19 @@ typedef struct omb_link {
     uint64_t nonce;
     uint64_t session; /* 0: none */
     uint64_t sequence;
-    uint64_t hello_ns;        /* when it was said last */
-    omb_force newest;         /* as the server sent it */
-    uint64_t newest_sequence; /* of that message */
+    uint64_t hello_ns;           /* when it was said last */
+    omb_force newest;            /* as the server sent it */
+    uint64_t newest_sequence;    /* of that message */
     uint64_t newest_clock_ns;
     uint64_t arrived_ns;
-    double trust;      /* 0 to 1: what of the server's force the arm was given last */
-    double given_n[3]; /* to the arm, last */
+    double trust;                /* 0 to 1: what of the server's force the arm was given last */
+    double given_n[3];           /* to the arm, last */
     double given_n_mm[3];
     uint64_t given_ns;
-    uint64_t refused;      /* messages of another key, session or protocol */
-    uint64_t out_of_order; /* messages that came twice, or after a newer one */
-    char own_path[108];    /* of a Unix socket; else empty */
-    char error[160];       /* one line, after omb_open() has failed */
+    uint64_t refused;            /* messages of another key, session or protocol */
+    uint64_t out_of_order;       /* messages that came twice, or after a newer one */
+    char own_path[108];          /* of a Unix socket; else empty */
+    char error[160];             /* one line, after omb_open() has failed */
 } omb_link;
 
 static inline uint64_t omb_now_ns(void) {
@@ -655,9 +629,9 @@ static inline void omb_find_unix_server(omb_link* link) {
 }
 #endif
 
-/* Begins to seek the server at "udp:HOST:PORT" or "unix:PATH". `key_file`: the secret that the server has,
- * too; NULL: none, which a server takes from its own machine alone. 0; or -1 with a line in link->error, and
- * nothing open. The server need not be there yet. */
+/* Begins to seek the server at "udp:HOST:PORT" or "unix:PATH". `key_file`: the secret that the server has, too; NULL:
+ * none, which a server takes from its own machine alone. 0; or -1 with a line in link->error, and nothing open. The
+ * server need not be there yet. */
 static inline int omb_open(omb_link* link, const char* address, const char* key_file, const omb_arm* arm) {
     int failed;
     memset(link, 0, sizeof *link);
@@ -674,15 +648,15 @@ static inline int omb_open(omb_link* link, const char* address, const char* key_
         if (WSAStartup(MAKEWORD(2, 2), &data) != 0) return omb_fail(link, "cannot be started", "Winsock");
     }
 #endif
-    if (strncmp(address, "udp:", 4) == 0) failed = omb_connect_udp(link, address + 4);
+    if (strncmp(address, "udp:", 4) == 0)
+        failed = omb_connect_udp(link, address + 4);
 #ifndef _WIN32
     else if (strncmp(address, "unix:", 5) == 0)
         failed = omb_connect_unix(link, address + 5);
 #endif
     else
         failed = omb_fail(link, "must be udp:HOST:PORT or unix:PATH", address);
-    if (failed == 0 && !omb_does_not_wait(link->socket))
-        failed = omb_fail(link, "cannot be made not to wait", address);
+    if (failed == 0 && !omb_does_not_wait(link->socket)) failed = omb_fail(link, "cannot be made not to wait", address);
     if (failed != 0) omb_shut(link);
     return failed;
 }
@@ -692,8 +666,7 @@ static inline void omb_say(omb_link* link, const uint8_t message[OMB_MESSAGE_BYT
     if (send(link->socket, (const char*)message, OMB_MESSAGE_BYTES, 0) < 0) return;
 }
 
-static inline void omb_begin(omb_link* link, uint8_t message[OMB_MESSAGE_BYTES], omb_kind kind,
-                             uint64_t now_ns) {
+static inline void omb_begin(omb_link* link, uint8_t message[OMB_MESSAGE_BYTES], omb_kind kind, uint64_t now_ns) {
     omb_header header;
     header.kind = (uint16_t)kind;
     header.session = link->session;
@@ -740,8 +713,7 @@ static inline void omb_hear(omb_link* link, const uint8_t* message, size_t bytes
 }
 
 /* For tests with a clock of their own; else omb_exchange(). */
-static inline omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, omb_force* force,
-                                        uint64_t now_ns) {
+static inline omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, omb_force* force, uint64_t now_ns) {
     uint8_t message[OMB_MESSAGE_BYTES + 1]; /* one more, so that what is too long is seen to be */
     double trust = 0.0, step_s, n_per_s, n_mm_per_s;
     uint64_t silent_ns, age_ns;
@@ -752,8 +724,7 @@ static inline omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, om
         omb_hear(link, message, (size_t)bytes, now_ns);
     }
     silent_ns = now_ns - link->arrived_ns;
-    if (link->session != 0 &&
-        silent_ns > OMB_GONE_NS) { /* it may have begun anew: it must know a new nonce */
+    if (link->session != 0 && silent_ns > OMB_GONE_NS) { /* it may have begun anew: it must know a new nonce */
         const uint64_t fresh = omb_random();
         link->session = 0;
         if (fresh != 0) link->nonce = fresh;
@@ -797,8 +768,8 @@ static inline omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, om
     return age_ns > OMB_HOLD_NS ? OMB_FADING : OMB_RUNNING;
 }
 
-/* Says where the arm is and takes what the server wants of it. Returns at once. `force` is what the arm is to
- * give now, whatever has come: zero where nothing has. */
+/* Says where the arm is and takes what the server wants of it. Returns at once. `force` is what the arm is to give
+ * now, whatever has come: zero where nothing has. */
 static inline omb_state omb_exchange(omb_link* link, const omb_pose* pose, omb_force* force) {
     return omb_exchange_at(link, pose, force, omb_now_ns());
 }
