@@ -29,11 +29,14 @@ constexpr float built_in_letter_px = 13.0f;
 /// Keys that texts are edited with and pages are gone through, of GLFW and of Dear ImGui.
 constexpr std::array panel_keys{
     std::pair{GLFW_KEY_BACKSPACE, ImGuiKey_Backspace}, std::pair{GLFW_KEY_DELETE, ImGuiKey_Delete},
-    std::pair{GLFW_KEY_LEFT, ImGuiKey_LeftArrow},      std::pair{GLFW_KEY_RIGHT, ImGuiKey_RightArrow},
-    std::pair{GLFW_KEY_HOME, ImGuiKey_Home},           std::pair{GLFW_KEY_END, ImGuiKey_End},
-    std::pair{GLFW_KEY_ENTER, ImGuiKey_Enter},         std::pair{GLFW_KEY_UP, ImGuiKey_UpArrow},
-    std::pair{GLFW_KEY_DOWN, ImGuiKey_DownArrow},      std::pair{GLFW_KEY_TAB, ImGuiKey_Tab},
-    std::pair{GLFW_KEY_SPACE, ImGuiKey_Space}};
+    std::pair{GLFW_KEY_LEFT, ImGuiKey_LeftArrow}, std::pair{GLFW_KEY_RIGHT, ImGuiKey_RightArrow},
+    std::pair{GLFW_KEY_HOME, ImGuiKey_Home}, std::pair{GLFW_KEY_END, ImGuiKey_End},
+    std::pair{GLFW_KEY_ENTER, ImGuiKey_Enter}, std::pair{GLFW_KEY_UP, ImGuiKey_UpArrow},
+    std::pair{GLFW_KEY_DOWN, ImGuiKey_DownArrow}, std::pair{GLFW_KEY_TAB, ImGuiKey_Tab},
+    std::pair{GLFW_KEY_SPACE, ImGuiKey_Space},
+    // With Ctrl: all, copy, paste, cut, redo, undo.
+    std::pair{GLFW_KEY_A, ImGuiKey_A}, std::pair{GLFW_KEY_C, ImGuiKey_C}, std::pair{GLFW_KEY_V, ImGuiKey_V},
+    std::pair{GLFW_KEY_X, ImGuiKey_X}, std::pair{GLFW_KEY_Y, ImGuiKey_Y}, std::pair{GLFW_KEY_Z, ImGuiKey_Z}};
 
 /// Latin letters, and the signs on the tool bar.
 constexpr std::array<ImWchar, 11> letters{0x20,   0x17F,  0x2190, 0x21FF, 0x2300, 0x231F,
