@@ -1,10 +1,10 @@
 #include "common/recording/recording_outline.h"
 
-#include <chrono>
 #include <cstdint>
 #include <utility>
 
 #include "common/recording/packet_reader.h"
+#include "common/recording/packet_time.h"
 #include "common/recording/recorded_time.h"
 #include "common/wire/sealed_frame.h"
 
@@ -30,10 +30,8 @@ RecordingOutline outline_of(const std::filesystem::path& file) {
         while (const auto packet = packets.next()) {
             const auto opened = open_frame(packet->message);
             const auto* frame = std::get_if<v2::ServerFrame>(&opened);
-            if (frame == nullptr) break;
-            // The time in the frame is sealed, its packet's is not.
-            const double time_s =
-                time.next_s(Stamp(std::chrono::nanoseconds(frame->recorded_unix_ns())), frame->has_hello());
+            if (frame == nullptr || !has_time_of(*frame, *packet)) break;
+            const double time_s = time.next_s(packet->stamp, frame->has_hello());
             if (frame->has_hello()) touches = 0;
             if (!frame->has_state()) continue;
             outline.has_view = outline.has_view || frame->state().has_view();

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "common/recording/packet_time.h"
 #include "common/wire/sealed_frame.h"
 
 namespace osteomill {
@@ -16,9 +17,7 @@ std::optional<RecordedEvent> RecordingReader::next() {
         receiver_ = {};
     else if (packet->place.number == 1)
         throw error_at(packet->place, "a recording begins with a hello, this one's beginning was cut off");
-    const bool has_its_time =
-        std::get<v2::ServerFrame>(frame).has_recorded_unix_ns() &&
-        std::get<v2::ServerFrame>(frame).recorded_unix_ns() == packet->stamp.time_since_epoch().count();
+    const bool has_its_time = has_time_of(std::get<v2::ServerFrame>(frame), *packet);
     auto event = receiver_.take(std::get<v2::ServerFrame>(std::move(frame)));
     if (const auto* error = std::get_if<WireError>(&event)) throw error_at(packet->place, error->line);
     if (const auto* other = std::get_if<SpeaksOtherProtocol>(&std::get<SessionEvent>(event)))
