@@ -168,9 +168,9 @@ std::vector<DatasetCamera> default_cameras() {
     return {camera};
 }
 
-void require_view(std::span<const DatasetCamera> cameras, bool has_view,
+void require_view(std::span<const DatasetCamera> cameras, const std::function<bool()>& has_view,
                   const std::filesystem::path& recording) {
-    if (!has_view && std::ranges::any_of(cameras, &DatasetCamera::follows_trainee))
+    if (std::ranges::any_of(cameras, &DatasetCamera::follows_trainee) && !has_view())
         throw std::runtime_error(recording.string() + ": does not say from where the trainee looked");
 }
 

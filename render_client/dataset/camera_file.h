@@ -20,6 +20,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,7 +58,8 @@ std::vector<DatasetCamera> parse_cameras(std::string_view text, const std::strin
                                          const std::filesystem::path& folder);
 
 /// Throws std::runtime_error, in one line, where one follows a trainee and the recording has no such view.
-void require_view(std::span<const DatasetCamera> cameras, bool has_view,
+/// `has_view` says whether it has; called only if one does, since that may take a reading of the recording.
+void require_view(std::span<const DatasetCamera> cameras, const std::function<bool()>& has_view,
                   const std::filesystem::path& recording);
 
 /// "trainee": one of that name, which follows the trainee; empty: the default; else a file's.

@@ -11,7 +11,8 @@ namespace osteomill {
 DatasetFrames::DatasetFrames(std::filesystem::path recording, DatasetContents contents,
                              std::function<void(const Playhead&)> on_session)
     : contents_(std::move(contents)), on_session_(std::move(on_session)), playhead_(recording) {
-    require_view(contents_.cameras, outline_of(recording).has_view, recording);
+    require_view(
+        contents_.cameras, [&] { return outline_of(recording).has_view; }, recording);
     begin_session();
 }
 

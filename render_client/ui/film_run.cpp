@@ -32,7 +32,8 @@ std::optional<DatasetCamera> camera_of_film(const RenderOptions& options, const 
     const std::vector<DatasetCamera> cameras = cameras_named(which.empty() ? "trainee" : which);
     if (cameras.size() != 1)
         throw std::runtime_error(fmt::format("{}: a film has one camera, not {}", which, cameras.size()));
-    require_view(cameras, player.has_view(), *options.replay);
+    require_view(
+        cameras, [&] { return player.has_view(); }, *options.replay);
     return cameras.front();
 }
 
