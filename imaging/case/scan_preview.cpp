@@ -12,6 +12,7 @@
 
 #include "common/files/atomic_file.h"
 #include "imaging/bone_file/hu_file.h"
+#include "imaging/resampling/voxel_order.h"
 #include "imaging/segmentation/segment_structure.h"
 
 namespace osteomill {
@@ -45,13 +46,6 @@ std::uint8_t grey_of(double hu) {
     return static_cast<std::uint8_t>(std::lround(255.0 * share));
 }
 
-std::size_t place_of(const glm::ivec3& size, const glm::ivec3& voxel) {
-    return static_cast<std::size_t>(voxel.x) +
-           static_cast<std::size_t>(size.x) *
-               (static_cast<std::size_t>(voxel.y) +
-                static_cast<std::size_t>(size.y) * static_cast<std::size_t>(voxel.z));
-}
-
 void draw(const CtVolume& ct, const Plane& plane, const glm::ivec3& middle, int left_px, Canvas& canvas) {
     const glm::ivec3& size = ct.grid.size_voxels;
     for (int down = 0; down < size[plane.down]; ++down)
@@ -59,7 +53,7 @@ void draw(const CtVolume& ct, const Plane& plane, const glm::ivec3& middle, int 
             glm::ivec3 voxel = middle;
             voxel[plane.right] = right;
             voxel[plane.down] = plane.is_down_reversed ? size[plane.down] - 1 - down : down;
-            const std::uint8_t grey = grey_of(ct.hu[place_of(size, voxel)]);
+            const std::uint8_t grey = grey_of(ct.hu[voxel_index(voxel, size)]);
             canvas.set({left_px + right, down}, {grey, grey, grey});
         }
 }
@@ -83,7 +77,7 @@ void mark(const StructureMask& structure, std::uint8_t number, std::vector<std::
     for (const StructureBrick& brick : structure.bricks()) {
         const glm::ivec3 first = brick_edge_voxels * brick_position(size_in_bricks(grid), brick.brick);
         brick.voxels.for_each([&](std::size_t offset) {
-            numbers[place_of(grid.size_voxels, first + voxel_in_brick(offset))] = number;
+            numbers[voxel_index(first + voxel_in_brick(offset), grid.size_voxels)] = number;
         });
     }
 }

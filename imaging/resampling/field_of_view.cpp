@@ -9,17 +9,11 @@
 
 #include "imaging/bone_from_hu.h"
 #include "imaging/resampling/refine.h"
+#include "imaging/resampling/voxel_order.h"
 
 namespace osteomill {
 
 namespace {
-
-std::size_t place_of(const glm::ivec3& voxel, const glm::ivec3& size) {
-    return static_cast<std::size_t>(voxel.x) +
-           static_cast<std::size_t>(size.x) *
-               (static_cast<std::size_t>(voxel.y) +
-                static_cast<std::size_t>(size.y) * static_cast<std::size_t>(voxel.z));
-}
 
 std::byte bit_of(std::size_t place) {
     return std::byte{1} << (place % 8);
@@ -93,7 +87,7 @@ void FieldOfView::clear_outside(const Grid& grid, int z, std::span<std::int16_t>
         for (int x = 0; x < grid.size_voxels.x; ++x, ++out) {
             const glm::dvec3 at = glm::clamp(
                 glm::floor(voxel_at(part_, centre_of_voxel_mm(grid, {x, y, z})) + 0.5), glm::dvec3(0.0), end);
-            const std::size_t place = place_of(glm::ivec3(at), part_.size_voxels);
+            const std::size_t place = voxel_index(glm::ivec3(at), part_.size_voxels);
             if ((is_outside_[place / 8] & bit_of(place)) != std::byte{0}) *out = air_hu;
         }
 }
