@@ -112,8 +112,8 @@ class BoneLink {
     /// does not take it. What comes of it is an event.
     void send_control(const SessionControl& control);
 
-    /// Any thread. From where the operator looks, at most thirty times a second; a server that records the
-    /// session is told when it has changed.
+    /// Any thread. The operator's viewpoint, at most thirty times a second; sent where it has changed, to a
+    /// server that records it.
     void send_view(const Viewpoint& view);
 
     /// UI thread. To another server from now on: the one before is left, and its bone stays until the next

@@ -50,7 +50,7 @@ constexpr std::chrono::milliseconds driving_period(10);
 /// Otherwise events wake the thread, but a mouse that reports a thousand times a second no oftener than this.
 constexpr std::chrono::milliseconds shortest_period(4);
 constexpr double longest_wait_s = 0.1;
-/// Between two viewpoints that the server is told.
+/// Between two viewpoints that are sent to the server.
 constexpr std::chrono::milliseconds view_period(33);
 
 void move_camera(SessionPicture& session, Commands& commands, float wheel_notches, bool left_turns) {

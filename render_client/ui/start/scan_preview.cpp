@@ -64,7 +64,7 @@ std::array<PreviewSlice, 3> preview_slices(const ScanBox& covers, double mm_per_
 }
 
 std::array<std::uint8_t, 3> colour_of_segment(std::size_t index) {
-    // Of Okabe and Ito's set, told apart by the colour-blind, what neither region nor contour has.
+    // The colours of Okabe and Ito's set, distinct to the colour-blind, that neither region nor contour has.
     constexpr std::array<std::array<std::uint8_t, 3>, 4> colours{
         {{0, 158, 115}, {240, 228, 66}, {204, 121, 167}, {213, 94, 0}}};
     return colours[index % colours.size()];
