@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Fuzzes with what the preset `fuzz` built, as many targets at once as there are cores.
+# Fuzzes with what the preset `asan` built, as many targets at once as there are cores.
 #   tests/fuzz/run.sh SECONDS [TARGET...]     all of them, or some: frame_decoder server_session client_session recording scene
 #                                             haply_state nrrd_header meta_image_header nifti_header dicom_header
 #                                             dicom_segmentation
-# SECONDS are for each target. What is found lies in build/fuzz/findings; give it to build/fuzz/bin/fuzz_TARGET to see it
+# SECONDS are for each target. What is found lies in build/asan/fuzz/findings; give it to build/asan/bin/fuzz_TARGET to see it
 # again, and put it into tests/fuzz/seeds/TARGET once it is fixed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -13,12 +13,12 @@ shift
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || targets=(client_session recording server_session scene frame_decoder haply_state
     dicom_header nrrd_header meta_image_header nifti_header dicom_segmentation)
-mkdir -p build/fuzz/findings
+mkdir -p build/asan/fuzz/findings
 
 # Memory: a gigabyte, where the largest input makes tens of megabytes. One allocation may be as large as the largest bone
 # that a snapshot may announce, which costs addresses. A hang: ten seconds where an input takes milliseconds.
 fuzz_one() {
-    local target=$1 seconds=$2 corpus=build/fuzz/corpus/$1 log=build/fuzz/findings/$1.log
+    local target=$1 seconds=$2 corpus=build/asan/fuzz/corpus/$1 log=build/asan/fuzz/findings/$1.log
     local longest options=()
     case $target in
         recording) longest=16384 ;;
@@ -28,8 +28,8 @@ fuzz_one() {
     [ -f "tests/fuzz/dictionaries/$target.dict" ] && options+=(-dict="tests/fuzz/dictionaries/$target.dict")
     local seeds=("tests/fuzz/seeds/$target")
     [ "$target" = scene ] && seeds+=(scenes)
-    if ! "build/fuzz/bin/fuzz_$target" "$corpus" "${seeds[@]}" -max_total_time="$seconds" -max_len="$longest" \
-        -timeout=10 -rss_limit_mb=1024 -malloc_limit_mb=4200 -artifact_prefix="build/fuzz/findings/$target-" \
+    if ! "build/asan/bin/fuzz_$target" "$corpus" "${seeds[@]}" -max_total_time="$seconds" -max_len="$longest" \
+        -timeout=10 -rss_limit_mb=1024 -malloc_limit_mb=4200 -artifact_prefix="build/asan/fuzz/findings/$target-" \
         -print_final_stats=1 "${options[@]}" >"$log" 2>&1; then
         echo "$target: a finding"
         grep -v '^#' "$log" | tail -60
