@@ -2,16 +2,12 @@
 // runs.
 #include <gmock/gmock.h>
 
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/read.hpp>
-#include <boost/asio/write.hpp>
 #include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "tests/support/child_process.h"
+#include "tests/support/scraped_metrics.h"
 
 namespace osteomill::testing {
 namespace {
@@ -19,28 +15,6 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using ::testing::HasSubstr;
-
-tcp::socket connected(asio::io_context& io, const std::string& port) {
-    tcp::socket socket(io);
-    socket.connect({asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(std::stoi(port))});
-    return socket;
-}
-
-/// By name with labels.
-std::map<std::string, double> scraped(const std::string& port) {
-    asio::io_context io;
-    tcp::socket socket = connected(io, port);
-    asio::write(socket, asio::buffer(std::string("GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n")));
-    std::string answer;
-    boost::system::error_code end;
-    asio::read(socket, asio::dynamic_buffer(answer), end);
-    std::map<std::string, double> values;
-    std::istringstream lines(answer.substr(answer.find("\r\n\r\n") + 4));
-    for (std::string line; std::getline(lines, line);)
-        if (!line.starts_with("#"))
-            values[line.substr(0, line.rfind(' '))] = std::stod(line.substr(line.rfind(' ')));
-    return values;
-}
 
 TEST(Metrics, AreOfTheSessionThatRuns) {
     ChildProcess server(

@@ -6,8 +6,8 @@
 // Exits 0 where every bone is the server's at the end, the recording's too, where every session on the
 // virtual clock left the same bone, and where the server's memory has not grown: its median over the last
 // tenth of the time against that over the second tenth. A long run allows a hundredth; one of minutes, in
-// which buffers reach their size, most_growth_mib. Missed deadlines are printed, and judged by who reads
-// them: they are the machine's.
+// which buffers reach their size, most_growth_mib. Ticks' latencies and missed deadlines are printed tenth by
+// tenth, so that a trend shows, and judged by who reads them: they are the machine's.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -31,6 +32,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
 #include "tests/support/link_proxy.h"
+#include "tests/support/scraped_metrics.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::testing {
@@ -43,6 +45,7 @@ constexpr std::size_t clients = 8;
 constexpr double most_growth_share = 0.01;
 constexpr double most_growth_mib = 8.0;
 constexpr double long_run_minutes = 30.0;
+constexpr std::size_t tenths = 10;
 
 /// Strokes over all of the block, each two seconds long and lifted clear of it, ever deeper; enough of them
 /// for `minutes`.
@@ -138,12 +141,15 @@ class Soak {
     bool run() {
         server_ = std::make_unique<ChildProcess>(std::vector<std::string>{
             server_program_, "--bone", file("block.nrrd"), "--trajectory", file("motion.csv"), "--listen",
-            "127.0.0.1:0", "--record", file("session.pcap"), "--json", file("server.json")});
+            "127.0.0.1:0", "--record", file("session.pcap"), "--metrics", "127.0.0.1:0", "--json",
+            file("server.json")});
+        const auto metrics = server_->line_after("metrics on 127.0.0.1:", 60s);
         const auto address = server_->line_after("listening on ", 60s);
-        if (!address) throw std::runtime_error("the server did not begin: " + server_->err());
+        if (!metrics || !address) throw std::runtime_error("the server did not begin: " + server_->err());
         const auto port = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
         for (std::size_t i = 0; i < clients; ++i) stations_.push_back(std::make_unique<Station>(port));
-        let_them_come_and_go();
+        let_them_come_and_go(*metrics);
+        print_ticks();
         const bool bones_are_equal = end_and_compare();
         const bool memory_is_steady = judge_memory();
         return bones_are_equal && memory_is_steady && virtual_sessions_are_equal_;
@@ -156,12 +162,13 @@ class Soak {
         return nlohmann::json::parse(in);
     }
 
-    void let_them_come_and_go() {
+    void let_them_come_and_go(const std::string& metrics_port) {
         const auto began = Clock::now();
         const std::chrono::duration<double> lasts = std::chrono::duration<double, std::ratio<60>>(minutes_);
         auto next_fault = began;
         auto next_sample = began;
         std::size_t faults = 0;
+        ticks_.push_back(scraped(metrics_port));
         while (Clock::now() < began + lasts) {
             for (const auto& station : stations_) station->poll();
             if (Clock::now() >= next_fault) {
@@ -175,9 +182,25 @@ class Soak {
                 next_sample += 1s;
                 run_beside();
             }
+            if (Clock::now() >= began + lasts * static_cast<double>(ticks_.size()) / tenths)
+                ticks_.push_back(scraped(metrics_port));
             std::this_thread::sleep_for(20ms);
         }
+        while (ticks_.size() <= tenths) ticks_.push_back(scraped(metrics_port));
         fmt::print("{} faults of {} clients in {} minutes\n", faults, clients, minutes_);
+    }
+
+    void print_ticks() const {
+        fmt::print("tenth  ticks  latency mean, us  missed deadlines\n");
+        for (std::size_t tenth = 1; tenth <= tenths; ++tenth) {
+            const auto during = [&](const char* name) {
+                const std::string key = fmt::format("osteomill_{}", name);
+                return ticks_[tenth].at(key) - ticks_[tenth - 1].at(key);
+            };
+            fmt::print("{:5}  {:5.0f}  {:16.1f}  {:16.0f}\n", tenth, during("ticks_total"),
+                       1e6 * during("tick_latency_seconds_sum") / during("tick_latency_seconds_count"),
+                       during("missed_deadlines_total"));
+        }
     }
 
     /// Ten seconds of the tooth on the virtual clock, one session after another.
@@ -252,6 +275,7 @@ class Soak {
     std::unique_ptr<ChildProcess> virtual_;
     std::vector<std::unique_ptr<Station>> stations_;
     std::vector<double> memory_mib_;
+    std::vector<std::map<std::string, double>> ticks_;  ///< the metrics at the beginning and after each tenth
     std::string virtual_bone_;
     int virtual_sessions_ = 0;
     bool virtual_sessions_are_equal_ = true;
