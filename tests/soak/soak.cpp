@@ -167,6 +167,7 @@ class Soak {
         const std::chrono::duration<double> lasts = std::chrono::duration<double, std::ratio<60>>(minutes_);
         auto next_fault = began;
         auto next_sample = began;
+        auto next_beside = began;
         std::size_t faults = 0;
         ticks_.push_back(scraped(metrics_port));
         while (Clock::now() < began + lasts) {
@@ -180,7 +181,10 @@ class Soak {
                 memory_mib_.push_back(resident_mib(server_->pid()));
                 server_->read_output();
                 next_sample += 1s;
+            }
+            if (Clock::now() >= next_beside) {
                 run_beside();
+                next_beside += 10s;
             }
             if (Clock::now() >= began + lasts * static_cast<double>(ticks_.size()) / tenths)
                 ticks_.push_back(scraped(metrics_port));
@@ -203,7 +207,7 @@ class Soak {
         }
     }
 
-    /// Ten seconds of the tooth on the virtual clock, one session after another.
+    /// Ten seconds of the tooth on the virtual clock, unless the last session still runs.
     void run_beside() {
         if (virtual_) {
             const auto status = virtual_->wait(0s);
