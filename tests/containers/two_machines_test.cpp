@@ -71,14 +71,16 @@ Progress progress_of(const ChildProcess& server) {
 }
 
 /// Drills a hole by pecking, for a loop that gets no core stops for safety and mills on once it is clear of
-/// the bone; then takes the burr out of the picture. When it is out.
+/// the bone; then takes the burr out of the picture. It rests until both viewers are there, which open on the
+/// tool: their pictures would else differ by where it was. When it is out.
 double write_drilling(const std::filesystem::path& file) {
     constexpr int pecks = 15;
-    constexpr double first_peck_s = 3.0;
+    constexpr double first_peck_s = 12.0;
     constexpr double clear_mm = 4.2;
     constexpr double out_s = first_peck_s + pecks + 1.5;
     std::ofstream out(file);
-    out << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,0.5,0.2,5.5,0,0,1,0\n";
+    out << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,0.5,0.2,5.5,0,0,1,0\n"
+        << first_peck_s - 0.5 << ",0.5,0.2,5.5,0,0,1,0\n";
     for (int peck = 0; peck < pecks; ++peck)
         out << first_peck_s + peck << ",0.5,0.2," << clear_mm << ",0,0,1,1\n"
             << first_peck_s + peck + 0.6 << ",0.5,0.2," << 3.2 - 0.06 * peck << ",0,0,1,1\n";

@@ -123,6 +123,7 @@ class Station {
         return link_->bone() != nullptr && fmt::format("{:016x}", checksum(*link_->bone())) == served;
     }
     std::uint64_t mismatches() const { return last_.checksum_mismatches; }
+    const std::string& status_line() const { return last_.status_line; }
 
   private:
     LinkProxy cable_;
@@ -233,8 +234,10 @@ class Soak {
             });
         };
         const bool live = all(&Station::is_live);
+        if (!live) print_stations("not all are live");
         server_->send_signal(SIGINT);
         const bool finished = all(&Station::is_finished);
+        if (!finished) print_stations("not all have finished");
         const auto status = server_->wait(60s);
         if (status != 0) throw std::runtime_error("the server failed: " + server_->err());
         const std::string served = json("server.json").at("bone_checksum");
@@ -254,6 +257,10 @@ class Soak {
         fmt::print("{} sessions of 10 s on the virtual clock, {}\n", virtual_sessions_,
                    virtual_sessions_are_equal_ ? "one bone" : "DIFFERENT BONES");
         return live && finished && static_cast<std::size_t>(equal) == clients && recorded;
+    }
+
+    void print_stations(const char* why) const {
+        for (const auto& station : stations_) fmt::print("{}: {}\n", why, station->status_line());
     }
 
     bool judge_memory() const {
