@@ -36,6 +36,6 @@ for preset in "${presets[@]}"; do
     # Many tests wait more than they compute: twice as many as there are cores.
     ctest --preset "$preset" "${left_out[@]}" -j "$(($(nproc) * 2))"
     if [ "$preset" = asan ]; then
-        tests/fuzz/run.sh 8  # seconds for each of the eleven targets
+        tests/fuzz/run.sh 15  # seconds for each of the eleven targets
     fi
 done
