@@ -19,7 +19,7 @@
 #include "render_client/ui/options.h"
 #include "render_client/ui/view/transfer_file.h"
 #include "render_client/ui/windowed_run.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include "render_client/link/rate_meter.h"
 #include "render_client/link/server_connection.h"
 #include "render_client/link/verified_replica.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -87,7 +88,7 @@ class BoneLink::Impl {
         const auto outcome = replica_.take(arrived);
         if (const auto* error = std::get_if<WireError>(&outcome)) {
             status_ = LinkStatus::lost;
-            line_ = error->line + "; asking for the bone afresh";
+            line_ = trf("{}; asking for the bone afresh", error->line);
             connection_.events().disown();
             connection_.reconnect();
             return;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "render_client/words/translation.h"
+
 namespace osteomill {
 
 namespace {
@@ -131,8 +133,9 @@ void RecordingPlayer::wind_back() {
 
 std::string RecordingPlayer::status_line() const {
     if (!error_.empty()) return error_;
-    const std::string torn = is_at_end_ && playhead_->is_truncated() ? ", which ends within a frame" : "";
-    return fmt::format("recording {}{}", file_.filename().string(), torn);
+    const std::string name = file_.filename().string();
+    return is_at_end_ && playhead_->is_truncated() ? trf("recording {}, which ends within a frame", name)
+                                                   : trf("recording {}", name);
 }
 
 }  // namespace osteomill

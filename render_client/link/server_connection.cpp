@@ -14,6 +14,7 @@
 #include "common/wire/control_messages.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -43,7 +44,7 @@ ServerConnection::ServerConnection(std::string host, std::uint16_t port,
     if (tls) tls_ = std::make_unique<TlsContext>(*tls, TlsContext::Role::client);
     if (record) recorder_.emplace(*record, nullptr, WhenDiskIsFull::end);
     if (record && recorder_->torn()) spdlog::warn("{}", torn_line(*record, *recorder_->torn()));
-    announce(LinkStatus::connecting, "connecting to " + where_);
+    announce(LinkStatus::connecting, trf("connecting to {}", where_));
     asio::post(io_, [this] { connect(); });
     thread_ = std::thread([this] { run(); });
 }
@@ -162,7 +163,7 @@ void ServerConnection::connect() {
             if (error) return lose("cannot find " + host_ + ": " + error.message());
             asio::async_connect(socket_, endpoints, [this, generation](error_code failure, const auto&) {
                 if (generation != generation_) return;
-                if (failure) return lose("cannot reach " + where_ + ": " + failure.message());
+                if (failure) return lose(trf("cannot reach {}: {}", where_, failure.message()));
                 error_code ignored;  // a socket without it still works
                 socket_.set_option(tcp::no_delay(true), ignored);
                 shake_hands();
@@ -179,7 +180,7 @@ void ServerConnection::shake_hands() {
     stream_->handshake([this, generation = generation_](const std::string& failure) {
         if (generation != generation_) return;
         if (!failure.empty()) {
-            const std::string line = "no TLS with " + where_ + ": " + failure;
+            const std::string line = trf("no TLS with {}: {}", where_, failure);
             return stream_->is_refused() ? refuse(line) : lose(line);
         }
         read();
@@ -207,7 +208,7 @@ void ServerConnection::disconnect() {
 void ServerConnection::watch_silence() {
     silence_.expires_after(longest_silence);
     silence_.async_wait([this, generation = generation_](error_code error) {
-        if (!error && generation == generation_) lose(where_ + " is silent");
+        if (!error && generation == generation_) lose(trf("{} is silent", where_));
     });
 }
 
@@ -275,12 +276,12 @@ void ServerConnection::take_event(SessionInfo session) {
     counters_.snapshot_bricks = 0;
     counters_.snapshot_bricks_total = 0;
     events_.push(SessionBegan{std::move(session), counters_.connections});
-    announce(LinkStatus::receiving_snapshot, "receiving the bone from " + where_);
+    announce(LinkStatus::receiving_snapshot, trf("receiving the bone from {}", where_));
 }
 
 void ServerConnection::take_event(BoneArrived arrived) {
     events_.push(std::move(arrived));
-    announce(LinkStatus::live, "connected to " + where_);
+    announce(LinkStatus::live, trf("connected to {}", where_));
     backoff_ = milliseconds(0);
 }
 
@@ -304,14 +305,13 @@ void ServerConnection::forget_seen() {
 
 void ServerConnection::take_event(const SaidGoodbye& goodbye) {
     disconnect();
-    announce(LinkStatus::finished, where_ + ": " + one_line(goodbye.reason));
+    announce(LinkStatus::finished, where_ + ": " + tr(one_line(goodbye.reason)));
     retry_later();
 }
 
 void ServerConnection::take_event(const SpeaksOtherProtocol& other) {
-    refuse(where_ + " speaks protocol " + std::to_string(other.major) + " (Osteomill " +
-           other.program_version + "), this program " + std::to_string(protocol_major) +
-           ": update the older of the two");
+    refuse(trf("{} speaks protocol {} (Osteomill {}), this program {}: update the older of the two", where_,
+               other.major, other.program_version, protocol_major));
 }
 
 void ServerConnection::write_newest() {
@@ -331,7 +331,7 @@ void ServerConnection::write_newest() {
 void ServerConnection::reject(const std::string& line) {
     ++counters_.rejected_frames;
     announced_ = LinkStatus::lost;  // not to be passed over in silence, whatever came before
-    lose(where_ + " makes no sense: " + line);
+    lose(trf("{} makes no sense: {}", where_, line));
 }
 
 void ServerConnection::lose(const std::string& line) {
@@ -339,7 +339,7 @@ void ServerConnection::lose(const std::string& line) {
     // After a goodbye or a refusal that no one answers is no news.
     if (announced_ != LinkStatus::finished && announced_ != LinkStatus::refused)
         announce(counters_.connections > 0 ? LinkStatus::lost : LinkStatus::connecting,
-                 line + "; trying again");
+                 trf("{}; trying again", line));
     retry_later();
 }
 
@@ -352,9 +352,9 @@ void ServerConnection::refuse(std::string line) {
 
 std::string ServerConnection::describe_loss(error_code error) const {
     if (has_heard_ || (error != asio::error::eof && !is_refusal(error)))
-        return "lost " + where_ + ": " + describe_stream_error(error);
-    if (tls_) return where_ + " turned this client away: " + describe_stream_error(error);
-    return where_ + " hung up at once: it is full, or wants TLS (--tls-cert, --tls-key, --tls-ca)";
+        return trf("lost {}: {}", where_, tr(describe_stream_error(error)));
+    if (tls_) return trf("{} turned this client away: {}", where_, tr(describe_stream_error(error)));
+    return trf("{} hung up at once: it is full, or wants TLS (--tls-cert, --tls-key, --tls-ca)", where_);
 }
 
 void ServerConnection::retry_later() {

@@ -1,23 +1,24 @@
 #include "render_client/sound/session_sound.h"
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <utility>
+
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 
 std::string SessionSound::switch_to(bool on) {
     is_on_ = false;
-    if (!on) return "sound off";
+    if (!on) return tr("sound off");
     try {
         if (!speaker_) speaker_ = std::make_unique<Speaker>();
         is_on_ = true;
         has_no_speaker_ = false;
         heard_time_s_ = -1.0;
-        return fmt::format("sound on: {}", speaker_->device_name());
+        return trf("sound on: {}", speaker_->device_name());
     } catch (const NoSound& error) {
-        const std::string line = fmt::format("no sound: {}", error.what());
+        const std::string line = trf("no sound: {}", error.what());
         spdlog::warn("{}", line);
         return line;
     }
@@ -41,7 +42,7 @@ std::string SessionSound::hear(const std::optional<ToolState>& tool, const Sessi
         speaker_.reset();
         has_no_speaker_ = true;
         if (!std::exchange(is_on_, false)) return {};
-        const std::string line = "no sound: the loudspeaker is gone";
+        const std::string line = tr("no sound: the loudspeaker is gone");
         spdlog::warn("{}", line);
         return line;
     }

@@ -17,7 +17,7 @@
 #include "common/program/option_checks.h"
 #include "common/text/words.h"
 #include "render_client/link/recording_player.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 #include "render_client/volume/magnification.h"
 
 namespace osteomill {

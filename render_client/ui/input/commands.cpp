@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "render_client/ui/words/translation.h"
 #include "render_client/volume/magnification.h"
 #include "render_client/volume/surface_pick.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -268,8 +268,9 @@ void Commands::tell(const std::vector<ControlEvent>& events, double now_s) {
         if (event.action == SessionAction::place && std::exchange(waits_for_place_, false) &&
             !clutch_.is_held())
             session_.show_tool_at(std::nullopt);
-        say(event.is_refused ? trf("no {}: {}", name_of(event.action), event.text)
-                             : fmt::format("{} {}", words_for(event.action), event.text),
+        const std::string text = event.action == SessionAction::mark ? event.text : tr(event.text);
+        say(event.is_refused ? trf("no {}: {}", tr(name_of(event.action)), text)
+                             : fmt::format("{} {}", words_for(event.action), text),
             now_s);
     }
 }

@@ -7,7 +7,7 @@
 #include <array>
 #include <optional>
 
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -7,8 +7,8 @@
 #include <exception>
 
 #include "render_client/ui/start/case_pictures.h"
-#include "render_client/ui/words/translation.h"
 #include "render_client/volume/png_file.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

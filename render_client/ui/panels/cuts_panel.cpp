@@ -4,7 +4,7 @@
 #include <array>
 
 #include "render_client/ui/panels/input_panel.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "render_client/ui/panels/plot_lines.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "render_client/ui/panels/structure_text.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -67,8 +67,9 @@ PanelText tool_text(const OverlayContent& content) {
     PanelText text;
     if (content.session && tool.burr < content.session->burrs.size()) {
         const Burr& burr = content.session->burrs[tool.burr];
-        const std::string_view head =
-            burr.is_ball() ? tr("burr") : head_shape_names[static_cast<std::size_t>(burr.head.shape)];
+        const std::string head =
+            burr.is_ball() ? tr("burr")
+                           : tr(std::string(head_shape_names[static_cast<std::size_t>(burr.head.shape)]));
         text.push_back(line(Tone::plain, trf("{} {:.1f} mm, {} edges", head, burr.diameter_mm, burr.edges)));
         text.push_back(tool.spindle_on ? line(Tone::good, trf("spindle {:.0f} rpm", spindle_rpm(tool, burr)))
                                        : line(Tone::dim, tr("spindle off")));
@@ -86,9 +87,9 @@ PanelText warning_text(const OverlayContent& content) {
     if (content.link.controls.is_paused)
         text.push_back(line(Tone::plain, tr("paused: force and spindle off")));
     else if (content.tool && !content.tool->fault.empty())
-        text.push_back(line(Tone::warning, trf("FAULT: {}", content.tool->fault.text())));
+        text.push_back(line(Tone::warning, trf("FAULT: {}", tr(std::string(content.tool->fault.text())))));
     if (content.tool && !content.tool->notice.empty())
-        text.push_back(line(Tone::plain, std::string(content.tool->notice.text())));
+        text.push_back(line(Tone::plain, tr(std::string(content.tool->notice.text()))));
     if (content.tool && content.tool->driver == ToolDriver::others_only)
         text.push_back(
             line(Tone::plain, tr("you watch: the server does not list this client as an operator")));

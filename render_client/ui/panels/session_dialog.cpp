@@ -6,7 +6,7 @@
 
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/panels/start_panel.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

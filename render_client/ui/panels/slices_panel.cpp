@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "render_client/ui/panels/input_panel.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -12,7 +12,7 @@
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/panels/page_widgets.h"
 #include "render_client/ui/panels/tour.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

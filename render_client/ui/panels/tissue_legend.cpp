@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -12,7 +12,7 @@
 
 #include "common/scene/burr_profile.h"
 #include "render_client/ui/panels/input_panel.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -47,7 +47,8 @@ struct ToolButton {
 std::string burr_words(const Burr& burr) {
     return burr.is_ball()
                ? fmt::format("{:.1f} mm", burr.diameter_mm)
-               : fmt::format("{} {:.1f} mm", head_shape_names[static_cast<std::size_t>(burr.head.shape)],
+               : fmt::format("{} {:.1f} mm",
+                             tr(std::string(head_shape_names[static_cast<std::size_t>(burr.head.shape)])),
                              burr.diameter_mm);
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

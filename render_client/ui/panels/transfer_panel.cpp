@@ -8,7 +8,7 @@
 
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/view/hu_axis.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -15,7 +15,7 @@
 #include "common/scene/scene_file.h"
 #include "common/scene/shipped_scenes.h"
 #include "common/text/file_name.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

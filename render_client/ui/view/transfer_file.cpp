@@ -13,7 +13,7 @@
 #include "common/scene/stiffness_relation.h"
 #include "common/scene/toml_reader.h"
 #include "render_client/ui/view/hu_axis.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -1,4 +1,4 @@
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 #include <gmock/gmock.h>
 
@@ -11,8 +11,12 @@
 #include <string_view>
 #include <vector>
 
+#include "common/scene/burr_head.h"
+#include "common/scene/session_control.h"
 #include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/start/case_library.h"
+#include "simulation/loop/burr_change.h"
+#include "simulation/safety/fault.h"
 
 namespace osteomill::translation_test {
 namespace {
@@ -45,11 +49,12 @@ std::string literal_at(const std::string& source, std::size_t& at) {
     return text;
 }
 
-/// The window's sources, by file.
-std::map<std::string, std::string> sources() {
+/// A folder's sources, by file.
+std::map<std::string, std::string> sources_in(const char* folder) {
     std::map<std::string, std::string> sources;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(WINDOW_SOURCES)) {
-        if (entry.path().extension() != ".cpp") continue;
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(OSTEOMILL_SOURCES) / folder)) {
+        if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
         std::ostringstream text;
         text << std::ifstream(entry.path()).rdbuf();
         sources[entry.path().filename().string()] = text.str();
@@ -106,10 +111,17 @@ std::vector<HelpLine> all_help() {
     return all;
 }
 
-/// All that the window's sources translate.
+/// All that the window's sources translate, and what it needs in every session of what a server says.
 std::set<std::string> english_words() {
     std::set<std::string> words{"left", "back", "up"};  // axes of the plot
-    for (const auto& [file, source] : sources())
+    for (const Fault fault : all_faults) words.insert(describe(fault));
+    for (const BurrChange waits : {BurrChange::spindle, BurrChange::bone}) words.insert(describe(waits));
+    for (auto action = SessionAction::mark; action <= SessionAction::speed;
+         action = static_cast<SessionAction>(static_cast<int>(action) + 1))
+        words.insert(name_of(action));
+    for (const std::string_view shape : head_shape_names)
+        if (shape != "ball") words.emplace(shape);  // which is "burr"
+    for (const auto& [file, source] : sources_in("render_client"))
         for (const char* function : {"tr", "trf"})
             for (std::size_t arguments : calls_of(source, function))
                 words.insert(literal_at(source, arguments));
@@ -120,6 +132,16 @@ std::set<std::string> english_words() {
         if (has_word(line.name)) words.insert(line.name);
     }
     words.erase("");
+    return words;
+}
+
+/// Every text in the sources of the server that may come over the link.
+std::set<std::string> server_words() {
+    std::set<std::string> words;
+    for (const char* folder : {"simulation/loop", "haptic_server/streaming", "common/net"})
+        for (const auto& [file, source] : sources_in(folder))
+            for (std::size_t at = source.find('"'); at != std::string::npos; at = source.find('"', at))
+                words.insert(literal_at(source, at));
     return words;
 }
 
@@ -150,6 +172,7 @@ TEST(Translation, AreThereInEveryLanguageForAllThatTheSourcesTranslate) {
 
 TEST(Translation, AreOfNothingThatTheSourcesDoNotSay) {
     std::set<std::string> said = english_words();
+    said.merge(server_words());
     for (const HelpLine& line : all_help()) said.insert(line.name);  // keys have names, too
     for (const std::string& language : languages())
         for (const auto& [english, translated] : translation_into(language))
@@ -157,7 +180,7 @@ TEST(Translation, AreOfNothingThatTheSourcesDoNotSay) {
 }
 
 TEST(Translation, LeaveNoWordsOfThePanelsAside) {
-    for (const auto& [file, source] : sources())
+    for (const auto& [file, source] : sources_in("render_client/ui"))
         for (const char* function :
              {"Text",         "TextUnformatted", "TextDisabled", "TextWrapped", "SetTooltip",
               "Button",       "Checkbox",        "Selectable",   "BeginCombo",  "SliderFloat",

@@ -1,11 +1,11 @@
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 #include <toml++/toml.h>
 
 #include <cstdlib>
 #include <string_view>
 
-#include "render_client/ui/words/embedded_words.h"
+#include "render_client/words/embedded_words.h"
 
 namespace osteomill {
 
