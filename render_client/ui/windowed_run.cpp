@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <atomic>
@@ -111,6 +112,10 @@ class Drawing {
         }
         take_over(session_, options);
         take_over_kept();
+        if (!settings_.wrong().empty()) {
+            spdlog::warn("{}", settings_.wrong());
+            commands_.say(settings_.wrong(), 0.0);
+        }
         session_.view().transfer_has_file = look_.has_file();
         session_.offer_controls();
         if (can_start_here(options)) {

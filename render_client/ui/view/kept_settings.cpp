@@ -4,32 +4,42 @@
 #include <toml++/toml.h>
 
 #include <exception>
-#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "common/files/atomic_file.h"
+#include "common/scene/scene_file.h"
 #include "common/scene/shallow_toml.h"
-#include "render_client/ui/words/translation.h"
+#include "common/scene/toml_reader.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 
 namespace {
 
-constexpr std::string_view light = "light";
+const std::vector<std::string> theme_names{"dark", "light"};  // by ThemeName
 
+/// Throws SceneError where something is wrong.
 KeptSettings read_settings(const std::filesystem::path& file) {
     KeptSettings settings;
+    const std::string text = read_toml_text(file, "settings");
+    const std::string name = file.string();
+    require_shallow_toml(text, name);
     try {
-        const std::string text = read_toml_text(file, "settings");
-        require_shallow_toml(text, file.string());
-        const toml::table table = toml::parse(text);
-        const auto truth = [&](const char* key, bool& value) { value = table[key].value_or(value); };
-        if (table["theme"].value_or(std::string_view()) == light) settings.theme = ThemeName::light;
+        const toml::table table = toml::parse(text, name);
+        TomlReader reader(table, name, "the window's settings");
+        const auto truth = [&](const char* key, bool& value) { value = reader.truth(key).value_or(value); };
+        if (const auto theme = reader.choice("theme", theme_names))
+            settings.theme = static_cast<ThemeName>(*theme);
         truth("sound", settings.sound);
         truth("warnings", settings.warns);
         truth("figures", settings.details_shown);
         truth("tour_seen", settings.tour_seen);
-    } catch (const std::exception&) {
-        return settings;
+        reader.refuse_other_keys();
+    } catch (const toml::parse_error& error) {
+        throw SceneError(
+            fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
     }
     return settings;
 }
@@ -38,14 +48,23 @@ std::string text_of(const KeptSettings& settings) {
     return fmt::format(
         "# Of render_client's window: F2, F9, N, F12\n"
         "theme = \"{}\"\nsound = {}\nwarnings = {}\nfigures = {}\ntour_seen = {}\n",
-        settings.theme == ThemeName::light ? light : "dark", settings.sound, settings.warns,
+        theme_names[static_cast<std::size_t>(settings.theme)], settings.sound, settings.warns,
         settings.details_shown, settings.tour_seen);
 }
 
 }  // namespace
 
-SettingsFile::SettingsFile(std::filesystem::path file)
-    : file_(std::move(file)), settings_(read_settings(file_)) {}
+SettingsFile::SettingsFile(std::filesystem::path file) : file_(std::move(file)) {
+    std::error_code failed;
+    if (!std::filesystem::exists(file_, failed)) return;
+    try {
+        settings_ = read_settings(file_);
+    } catch (const SceneError& error) {
+        wrong_ = trf("{}; settings are as usual, and none are kept until that is mended or the file removed",
+                     error.what());
+        is_unwritable_ = true;
+    }
+}
 
 std::string SettingsFile::keep(const KeptSettings& settings) {
     if (settings == settings_ || is_unwritable_) return {};

@@ -20,17 +20,21 @@ struct KeptSettings {
 
 class SettingsFile {
   public:
-    /// Reads it. What it does not say, or says wrongly, is as usual: no setting is worth an error.
+    /// Reads it. What it does not say is as usual; all is where something in it is wrong, and such a file is
+    /// never written over: no setting is worth an error, and a person's file worth more than settings.
     explicit SettingsFile(std::filesystem::path file);
 
     const KeptSettings& settings() const { return settings_; }
+    /// One line about what is wrong in the file, where, and what would be right; empty: nothing.
+    const std::string& wrong() const { return wrong_; }
     /// Writes them, as a whole, where they are others than before. Returns one line about what went wrong,
     /// once; else nothing.
     std::string keep(const KeptSettings& settings);
 
   private:
     std::filesystem::path file_;
-    KeptSettings settings_;
+    KeptSettings settings_{};
+    std::string wrong_{};
     bool is_unwritable_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "tests/support/temporary_folder.h"
 
@@ -25,15 +26,36 @@ TEST(KeptSettings, AreThereAgain) {
     EXPECT_EQ(SettingsFile(file).settings(), others);
 }
 
-TEST(KeptSettings, AreAsUsualWhereTheFileIsNone) {
+TEST(KeptSettings, AreAsUsualWhereTheFileIsSpoiltWhichIsSaidAndStaysAsItIs) {
     const testing::TemporaryFolder folder;
     const auto file = folder / "window.toml";
-    for (const std::string text : {"", "theme = ", "theme = 3\nsound = 'loud'", "[[[[[[[["}) {
+    const auto wrong = [&](const std::string& text) {
         std::ofstream(file) << text;
-        EXPECT_EQ(SettingsFile(file).settings(), KeptSettings()) << text;
-    }
-    std::ofstream(file) << "sound = true\nof_a_later_version = 1\n";
-    EXPECT_TRUE(SettingsFile(file).settings().sound);
+        SettingsFile spoilt(file);
+        EXPECT_EQ(spoilt.settings(), KeptSettings()) << text;
+        EXPECT_EQ(spoilt.keep(others), "") << "it was said before";
+        std::ostringstream after;
+        after << std::ifstream(file).rdbuf();
+        EXPECT_EQ(after.str(), text);
+        return spoilt.wrong();
+    };
+    EXPECT_THAT(wrong("theme = "), HasSubstr("window.toml:1: not TOML: "));
+    EXPECT_THAT(wrong("sound = true\ntheme = 'blue'\n"),
+                HasSubstr("window.toml:2: 'theme' is \"blue\"; choose one of: dark, light; settings are as"));
+    EXPECT_THAT(wrong("sound = 'loud'"), HasSubstr("window.toml:1: 'sound' must be true or false"));
+    EXPECT_THAT(wrong("sund = true"), HasSubstr("sund"));
+    EXPECT_THAT(wrong("[[[[[[[["), HasSubstr("not TOML"));
+}
+
+TEST(KeptSettings, ThatTheFileDoesNotSayAreAsUsual) {
+    const testing::TemporaryFolder folder;
+    const auto file = folder / "window.toml";
+    std::ofstream(file) << "sound = true\n";
+    SettingsFile settings(file);
+    EXPECT_EQ(settings.wrong(), "");
+    EXPECT_EQ(settings.settings(), KeptSettings{.sound = true});
+    EXPECT_EQ(settings.keep(others), "");
+    EXPECT_EQ(SettingsFile(file).settings(), others);
 }
 
 TEST(KeptSettings, ThatCannotBeKeptAreSaidOnce) {
