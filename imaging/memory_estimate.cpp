@@ -1,8 +1,6 @@
 #include "imaging/memory_estimate.h"
 
 #include <algorithm>
-#include <sstream>
-#include <string>
 
 #include "common/bone/brick.h"
 #include "imaging/bone_file/nrrd_form.h"
@@ -34,16 +32,6 @@ std::uint64_t import_memory_bytes(std::uint64_t reading_bytes, std::uint64_t par
         slice_bytes(result) * static_cast<std::uint64_t>(slices_at_once(result) + slices_around);
     return program_bytes + std::min(part_floats * float_bytes, most_scan_bytes) +
            std::max(reading_bytes, refining);
-}
-
-std::optional<std::uint64_t> available_memory_bytes(std::istream& meminfo) {
-    for (std::string line; std::getline(meminfo, line);) {
-        std::istringstream words(line);
-        std::string name;
-        std::uint64_t kibibytes = 0;
-        if (words >> name && name == "MemAvailable:" && words >> kibibytes) return kibibytes * 1024;
-    }
-    return std::nullopt;
 }
 
 }  // namespace osteomill

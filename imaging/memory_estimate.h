@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <istream>
-#include <optional>
 
 #include "common/bone/grid.h"
 
@@ -22,8 +20,5 @@ int slices_at_once(const Grid& result);
 /// Peak bytes of an import. `reading_bytes`: what reading the file takes; `part_floats`: the region's
 /// voxels and what is known of their slices' shapes, which are held until the end.
 std::uint64_t import_memory_bytes(std::uint64_t reading_bytes, std::uint64_t part_floats, const Grid& result);
-
-/// MemAvailable of /proc/meminfo, in bytes; std::nullopt where the text has none.
-std::optional<std::uint64_t> available_memory_bytes(std::istream& meminfo);
 
 }  // namespace osteomill

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/report/bone_view.h"
 #include "analysis/report/planned_region.h"
 #include "analysis/report/session_trace.h"
+#include "imaging/picture/bone_view.h"
 
 namespace osteomill {
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "analysis/report/voxel_share.h"
+#include "imaging/picture/voxel_share.h"
 
 namespace osteomill {
 

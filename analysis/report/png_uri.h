@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "analysis/report/bone_view.h"
+#include "imaging/picture/bone_view.h"
 
 namespace osteomill {
 

@@ -7,13 +7,13 @@
 #include <utility>
 #include <variant>
 
+#include "common/program/available_memory.h"
 #include "common/scene/phantom_names.h"
 #include "common/scene/scene_file.h"
 #include "imaging/case/case_folder.h"
 #include "imaging/case/case_placement.h"
 #include "imaging/case/case_trust.h"
 #include "imaging/case/scene_on_bone.h"
-#include "imaging/memory_estimate.h"
 #include "imaging/phantoms/phantom.h"
 
 namespace osteomill {

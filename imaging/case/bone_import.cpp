@@ -1,7 +1,10 @@
 // bone_import: a scan in, a bone file out.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -14,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/program/available_memory.h"
 #include "common/program/option_checks.h"
 #include "common/program/program_output.h"
 #include "common/program/stop_signals.h"
@@ -23,7 +27,6 @@
 #include "imaging/case/scan_preview.h"
 #include "imaging/formats/picture_stack.h"
 #include "imaging/import_bone.h"
-#include "imaging/memory_estimate.h"
 #include "imaging/segmentation/bone_of_labels.h"
 #include "imaging/segmentation/segmentation.h"
 #include "imaging/segmentation/segmentation_file.h"
@@ -46,6 +49,7 @@ struct Texts {
     std::vector<std::string> labels;
     std::vector<std::string> segmentations;
     std::vector<std::string> materials;
+    std::vector<std::string> protect;
     std::string stack_spacing;
     std::string colours;
     std::string target;
@@ -156,9 +160,10 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
            "names and colours of a label map's labels: a colour table of 3D Slicer (.ctbl) or ITK-SNAP")
         ->type_name("FILE");
     osteomill::add_texts(
-        app, "--protect", texts.parts.is_protected,
-        "with --segmentation: a segment that must not be touched; again for each further one")
-        ->type_name("NAME");
+        app, "--protect", texts.protect,
+        "with --segmentation: a segment that must not be touched, and its own --warn-mm; again for each "
+        "further one")
+        ->type_name("NAME[=MM]");
     app.add_option("--warn-mm", texts.parts.warn_mm, "of the protected: warn of a burr that is nearer")
         ->check(osteomill::within(0.0, osteomill::most_warn_mm))
         ->capture_default_str();
@@ -215,6 +220,22 @@ void parse_materials(Texts& texts) {
     }
 }
 
+/// "NAME" or "NAME=MM"; a name may hold "=", and end like a number where MM follows.
+void parse_protected(Texts& texts) {
+    for (const std::string& text : texts.protect) {
+        const std::size_t at = text.rfind('=');
+        double mm = 0.0;
+        const char* const end = text.data() + text.size();
+        const bool has_mm = at != std::string::npos && at > 0 && at + 1 < text.size() &&
+                            std::from_chars(text.data() + at + 1, end, mm).ptr == end;
+        if (has_mm && !(mm >= 0.0 && mm <= osteomill::most_warn_mm))
+            throw std::invalid_argument(
+                fmt::format("--protect '{}': warns from 0 to {} mm on", text, osteomill::most_warn_mm));
+        texts.parts.is_protected.push_back(has_mm ? text.substr(0, at) : text);
+        if (has_mm) texts.parts.warns_from_mm[text.substr(0, at)] = mm;
+    }
+}
+
 void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& options) {
     if (app.count("--threshold-hu") > 0) options.threshold_hu = texts.threshold_hu;
     if (options.keeps_soft_tissue && !options.threshold_hu)
@@ -236,6 +257,7 @@ void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& op
     else if (options.input.empty())
         throw std::invalid_argument("give INPUT, or --labels FILE (see --help)");
     parse_materials(texts);
+    parse_protected(texts);
     if (!texts.stack_spacing.empty())
         options.choice.stack_spacing_mm = texts.parts.stack_spacing_mm =
             osteomill::parse_stack_spacing(texts.stack_spacing);

@@ -20,6 +20,7 @@
 #include "common/scene/scene_file.h"
 #include "common/text/plain_text.h"
 #include "imaging/case/bone_source.h"
+#include "imaging/case/case_card.h"
 #include "imaging/case/case_trust.h"
 #include "imaging/case/scene_on_bone.h"
 #include "imaging/formats/image_reader.h"
@@ -34,6 +35,7 @@ namespace {
 
 constexpr const char* scene_name = "case.toml";
 constexpr const char* segmentation_name = "segmentation.seg.nrrd";
+constexpr const char* picture_name = "picture.png";
 constexpr std::size_t most_tissues = 255;
 /// For segments of which the file says no colour.
 constexpr std::array<std::array<std::uint8_t, 3>, 6> palette{
@@ -49,7 +51,7 @@ constexpr const char* preface =
     "# session says that it is unsigned.\n\n";
 
 std::vector<std::filesystem::path> files_of_case(const std::filesystem::path& folder) {
-    return {folder / scene_name, bone_of_case(folder), folder / segmentation_name};
+    return {folder / scene_name, bone_of_case(folder), folder / segmentation_name, folder / picture_name};
 }
 
 /// Of a folder the label maps in it, by name.
@@ -166,7 +168,8 @@ std::vector<Tissue> tissues_of(const std::vector<CaseStructure>& structures, con
                       .segment = one.name};
         if (std::ranges::find(parts.is_protected, one.name) != parts.is_protected.end()) {
             tissue.is_protected = true;
-            tissue.warn_mm = parts.warn_mm;
+            const auto own = parts.warns_from_mm.find(one.name);
+            tissue.warn_mm = own != parts.warns_from_mm.end() ? own->second : parts.warn_mm;
         }
         if (material != nullptr)
             tissue.strength = TissueStrength{.material = material->name,
@@ -217,6 +220,8 @@ BegunCase read_case_parts(CaseParts parts) {
     for (const auto& path : label_maps(parts.segmentations)) begun.segmentations.push_back(read(path, parts));
     const std::set<std::string> names = segment_names(begun);
     for (std::string& name : parts.is_protected) name = known_name("--protect", name, names);
+    for (const auto& [name, mm] : std::exchange(parts.warns_from_mm, {}))
+        parts.warns_from_mm[known_name("--protect", name, names)] = mm;
     if (parts.target) parts.target = known_name("--target", *parts.target, names);
     for (const auto& [name, material] : std::exchange(parts.materials, {})) {
         (void)material_named(material);
@@ -294,7 +299,11 @@ void finish_case(const std::filesystem::path& folder, const BegunCase& begun, st
     loaded.bone = FileSource{.path = bone_of_case(folder),
                              .threshold_hu = {},
                              .segmentation = segmentation.empty() ? segmentation : folder / segmentation};
-    place_on_bone(scene, load_bone(loaded).bone);
+    const Bone bone = load_bone(loaded).bone;
+    place_on_bone(scene, bone);
+    go_on();
+    scene.description = sentence_about(scene, bone);
+    write_card_picture(scene, bone, folder / picture_name);
     scene.bone =
         FileSource{.path = bone_of_case("").filename(), .threshold_hu = {}, .segmentation = segmentation};
     write_atomic_file(folder / scene_name, with_digest(preface + write_scene(scene)), Link::replace);

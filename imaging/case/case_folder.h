@@ -1,5 +1,5 @@
 // A case: a folder with what a session needs of one patient. Its case.toml is a scene file; beside it lie
-// bone.nrrd and, where there is one, the segmentation on the bone's grid.
+// bone.nrrd, a picture of it for people and, where there is one, the segmentation on the bone's grid.
 #pragma once
 
 #include <array>
@@ -32,6 +32,7 @@ struct CaseParts {
     std::optional<glm::dvec3> stack_spacing_mm{};    ///< of label maps that are a stack of pictures
     std::vector<std::string> is_protected{};         ///< tissues, by name
     double warn_mm = 1.0;                            ///< of those: from what distance on
+    std::map<std::string, double> warns_from_mm{};   ///< by name, of those with a distance of their own
     std::optional<std::string> target{};             ///< the tissue that is to be removed
     /// What tissues are made of, by name, or soft_material (material.h). Of labels that bone is made of,
     /// others are what their names say; of a scan, what its CT numbers say.
@@ -75,9 +76,9 @@ OpenedImage scan_of_labels(const BegunCase& begun, std::ostream& messages, bool 
 std::filesystem::path bone_of_case(const std::filesystem::path& folder);
 
 /// Completes a case whose bone is there: makes a tissue of each segment that lies in the bone's box, writes
-/// them on the bone's grid as the case's segmentation, chooses where the tool starts, and writes case.toml,
-/// last. Segments outside are named in `messages`. Throws std::runtime_error in one line, also where a
-/// tissue that is protected or the target lies outside. `go_on`: see ImportSurroundings.
+/// them on the bone's grid as the case's segmentation, chooses where the tool starts, draws its picture and
+/// writes case.toml, last. Segments outside are named in `messages`. Throws std::runtime_error in one line,
+/// also where a tissue that is protected or the target lies outside. `go_on`: see ImportSurroundings.
 void finish_case(
     const std::filesystem::path& folder, const BegunCase& begun, std::ostream& messages,
     const std::function<void()>& go_on = [] {});

@@ -1,17 +1,16 @@
 #include "imaging/case/scan_preview.h"
 
 #include <fmt/format.h>
-#include <png.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <stdexcept>
 #include <vector>
 
 #include "common/files/atomic_file.h"
 #include "imaging/bone_file/hu_file.h"
+#include "imaging/picture/rgb_png.h"
 #include "imaging/resampling/voxel_order.h"
 #include "imaging/segmentation/segment_structure.h"
 
@@ -86,18 +85,6 @@ Region box_of(const CtVolume& ct) {
     return {ct.grid.origin_mm, centre_of_voxel_mm(ct.grid, ct.grid.size_voxels - 1)};
 }
 
-void write_png(const Canvas& canvas, const std::filesystem::path& path) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.format = PNG_FORMAT_RGB;
-    image.width = static_cast<png_uint_32>(canvas.size_px.x);
-    image.height = static_cast<png_uint_32>(canvas.size_px.y);
-    AtomicFile file(path);
-    if (!png_image_write_to_file(&image, file.part().c_str(), 0, canvas.rgb.data(), 0, nullptr))
-        throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), image.message));
-    file.commit();
-}
-
 }  // namespace
 
 CtVolume whole_ct(const std::filesystem::path& bone_file) {
@@ -134,7 +121,7 @@ void write_preview(const CtVolume& ct, const std::optional<Region>& region,
         if (region) draw_region(ct, plane, *region, left_px, canvas);
         left_px += size[plane.right] + gap_px;
     }
-    write_png(canvas, png);
+    write_rgb_png(canvas.rgb, canvas.size_px, png);
 }
 
 void write_preview_voxels(const CtVolume& ct,

@@ -5,9 +5,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/program/available_memory.h"
 #include "imaging/case/bone_source.h"
 #include "imaging/import_bone.h"
-#include "imaging/memory_estimate.h"
 #include "imaging/phantoms/phantom.h"
 #include "render_client/volume/textures/voxel_box.h"
 #include "studies/render/made_bone.h"
@@ -67,8 +67,7 @@ TrialBone make(const std::string& name, const std::filesystem::path& scans,
                const std::filesystem::path& folder) {
     if (name == skull_trial)
         return scan_trial(
-            name,
-            {.input = scans / "head_ct", .output = {}, .region = parse_region("-60,10,730,-20,50,770")},
+            name, {.input = scans / "head_ct", .output = {}, .region = parse_region("-60,10,730,-20,50,770")},
             folder);
     if (name == vault_trial)
         return scan_trial(name,

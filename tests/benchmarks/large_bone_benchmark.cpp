@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "imaging/memory_estimate.h"
+#include "common/program/available_memory.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/session_picture.h"
 #include "tests/support/child_process.h"

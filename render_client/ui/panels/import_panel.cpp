@@ -13,7 +13,7 @@
 #include "common/scene/material.h"
 #include "common/scene/tissue_tables.h"
 #include "render_client/ui/panels/page_widgets.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -21,12 +21,13 @@ namespace {
 
 constexpr double mm_per_notch = 1.0;  // of the wheel
 
-void number_field(const char* label, double& number, const char* format) {
+/// True where a person changes it.
+bool number_field(const char* label, double& number, const char* format) {
     // Six of them stand in a row, with words for two more.
     const float letter = ImGui::GetFontSize();
     ImGui::SetNextItemWidth(std::clamp((ImGui::GetWindowContentRegionMax().x - 12.0f * letter) / 6.0f,
                                        3.0f * letter, 5.0f * letter));
-    ImGui::InputDouble(label, &number, 0.0, 0.0, format);
+    return ImGui::InputDouble(label, &number, 0.0, 0.0, format);
 }
 
 void upload(const StartPage& page, StartPicture& picture) {
@@ -140,6 +141,13 @@ void draw_segments(ImportForm& form) {
         ImGui::SameLine();
         ImGui::Checkbox(tr("protect"), &segment.is_protected);
         ImGui::SameLine();
+        if (segment.is_protected) {
+            number_field("mm", segment.warn_mm, "%.1f");
+            segment.warn_mm = std::clamp(segment.warn_mm, 0.0, most_warn_mm);
+            if (ImGui::IsItemHovered())
+                ImGui::SetTooltip("%s", tr("the window warns of a burr that is nearer"));
+            ImGui::SameLine();
+        }
         if (ImGui::Checkbox(tr("target"), &segment.is_target) && segment.is_target)
             for (std::size_t other = 0; other < form.segments.size(); ++other)
                 if (other != i) form.segments[other].is_target = false;
@@ -189,7 +197,8 @@ void draw_import(StartPage& page, StartPicture& picture) {
             number_field(tr("HU threshold"), form.threshold_hu, "%.0f");
             ImGui::SameLine();
         }
-        number_field(tr("mm a voxel"), form.spacing_mm, "%.2f");
+        if (!form.is_spacing_chosen) form.spacing_mm = default_spacing_mm(form, *page.look());
+        if (number_field(tr("mm a voxel"), form.spacing_mm, "%.2f")) form.is_spacing_chosen = true;
         form.spacing_mm = std::clamp(form.spacing_mm, 0.02, 10.0);
         if (!form.are_labels) {
             ImGui::SameLine();
@@ -206,10 +215,6 @@ void draw_import(StartPage& page, StartPicture& picture) {
                                       1e-6 * voxels_of(form), 1e-6 * most_memory_bytes(form),
                                       std::ceil(estimated_s(form, *page.look())))
                                       .c_str());
-        if (!form.segments.empty()) {
-            number_field(tr("mm: warn of a burr that is nearer to what is protected"), form.warn_mm, "%.1f");
-            form.warn_mm = std::clamp(form.warn_mm, 0.0, most_warn_mm);
-        }
         draw_segments(form);
         ImGui::EndChild();
         text_field(tr("name of the case"), form.name, 14.0f * ImGui::GetFontSize());

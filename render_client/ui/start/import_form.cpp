@@ -9,6 +9,8 @@ namespace osteomill {
 
 namespace {
 
+constexpr double bytes_per_voxel = 3.0;  // what is left, stiffness, tissue
+
 /// With '=': a region may begin with a minus.
 std::string region_option(const ScanBox& region) {
     const glm::dvec3& low = region.low_mm;
@@ -34,7 +36,6 @@ double voxels_of(const ImportForm& form) {
 }
 
 double most_memory_bytes(const ImportForm& form) {
-    constexpr double bytes_per_voxel = 3.0;  // what is left, stiffness, tissue
     return bytes_per_voxel * voxels_of(form);
 }
 
@@ -58,10 +59,9 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
                                    fmt::format("--spacing-mm={}", form.spacing_mm)});
     if (!form.are_labels) command.push_back(fmt::format("--threshold-hu={}", form.threshold_hu));
     if (!form.are_labels && form.keeps_soft_tissue) command.emplace_back("--keep-soft-tissue");
-    if (std::ranges::any_of(form.segments, &SegmentChoice::is_protected))
-        command.push_back(fmt::format("--warn-mm={}", form.warn_mm));
     for (const SegmentChoice& segment : form.segments) {
-        if (segment.is_protected) command.push_back("--protect=" + segment.name);
+        if (segment.is_protected)
+            command.push_back(fmt::format("--protect={}={}", segment.name, segment.warn_mm));
         if (segment.is_target) command.push_back("--target=" + segment.name);
         if (!segment.material.empty())
             command.push_back("--material=" + segment.name + "=" + segment.material);
@@ -69,15 +69,25 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
     return command;
 }
 
+double default_spacing_mm(const ImportForm& form, const ScanPreview& look) {
+    constexpr double coarsest_mm = 0.1, finest_mm = 0.02;
+    const double fine_mm =
+        look.finest_voxel_mm > 0.0 ? std::clamp(look.finest_voxel_mm, finest_mm, coarsest_mm) : coarsest_mm;
+    double voxels = usual_voxels;
+    if (form.available_bytes > 0)
+        voxels = std::min(
+            voxels, usual_share_of_memory * static_cast<double>(form.available_bytes) / bytes_per_voxel);
+    const glm::dvec3 size_mm = form.region.high_mm - form.region.low_mm;
+    const double spacing_mm = std::max(fine_mm, std::cbrt(size_mm.x * size_mm.y * size_mm.z / voxels));
+    const double steps_per_mm = spacing_mm > coarsest_mm ? 20.0 : 100.0;
+    return std::ceil(steps_per_mm * spacing_mm - 1e-6) / steps_per_mm;
+}
+
 void take_look(ImportForm& form, const ScanPreview& look, bool is_another_scan) {
     if (is_another_scan) {
         form.region = look.covers;
-        const glm::dvec3 size_mm = look.covers.high_mm - look.covers.low_mm;
-        constexpr double steps_per_mm = 20.0;
-        form.spacing_mm =
-            std::max(form.spacing_mm,
-                     std::ceil(steps_per_mm * std::cbrt(size_mm.x * size_mm.y * size_mm.z / usual_voxels)) /
-                         steps_per_mm);
+        form.spacing_mm = default_spacing_mm(form, look);
+        form.is_spacing_chosen = false;
     }
     std::vector<SegmentChoice> segments;
     for (const std::string& name : look.segments) {

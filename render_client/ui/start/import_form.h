@@ -1,11 +1,13 @@
 // Form that a person fills in to make a case of a scan, and the commands that follow from it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/scene/tissue_tables.h"
 #include "render_client/ui/start/scan_preview.h"
 
 namespace osteomill {
@@ -13,8 +15,9 @@ namespace osteomill {
 struct SegmentChoice {
     std::string name;
     bool is_protected = false;
-    bool is_target = false;  ///< of one at most
-    std::string material{};  ///< empty: as its CT numbers say, or of labels its name
+    double warn_mm = usual_warn_mm(true);  ///< where it is protected
+    bool is_target = false;                ///< of one at most
+    std::string material{};                ///< empty: as its CT numbers say, or of labels its name
 };
 
 struct ImportForm {
@@ -27,8 +30,9 @@ struct ImportForm {
     ScanBox region{};
     double threshold_hu = 300.0;
     double spacing_mm = 0.1;
-    double warn_mm = 1.0;           ///< of what is protected
-    bool keeps_soft_tissue = true;  ///< for people who look at the CT in the window
+    bool is_spacing_chosen = false;     ///< by a person; else it follows the region
+    std::uint64_t available_bytes = 0;  ///< of this machine's memory; 0: not known
+    bool keeps_soft_tissue = true;      ///< for people who look at the CT in the window
     std::string name{};
 };
 
@@ -37,8 +41,11 @@ inline constexpr double most_imported_voxels = 1.5e9;
 /// Of the preview's voxels and pixels.
 inline constexpr double preview_mm_per_px = 0.5;
 
-/// Of a default.
+/// Of a default, at most.
 inline constexpr double usual_voxels = 2e8;
+/// Likewise of the available memory, for the bone as the server has it: its mirror, the window and the
+/// window's textures hold it again, and half is for others.
+inline constexpr double usual_share_of_memory = 1.0 / 8.0;
 
 double voxels_of(const ImportForm& form);
 /// Of the bone, if all of the region were bone.
@@ -59,8 +66,13 @@ std::vector<std::string> look_command(const std::string& bone_import, const Impo
 std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
                                         const std::filesystem::path& folder);
 
+/// Edge of a voxel where nobody has chosen one: 0.1 mm, of a finer scan its own, 0.02 mm at least; for a
+/// region of more than the usual voxels, or of more memory than usual, as much longer, in steps of 0.05 mm,
+/// or of 0.01 below 0.1.
+double default_spacing_mm(const ImportForm& form, const ScanPreview& look);
+
 /// Takes the result of a preview: its segments, of which known ones keep their settings; and, for another
-/// scan, the region: all of it, in voxels of 0.1 mm or of the usual number.
+/// scan, the region: all of it, in voxels of the default.
 void take_look(ImportForm& form, const ScanPreview& look, bool is_another_scan);
 
 }  // namespace osteomill

@@ -44,6 +44,13 @@ std::optional<ScanPreview> read_scan_preview(const std::string& preview_output) 
         }
         std::sscanf(line.c_str(), "HU from %lf to %lf", &look.least_hu, &look.most_hu);
         std::sscanf(line.c_str(), "grey from %lf to %lf", &look.black_hu, &look.white_hu);
+        // Of the line that tells what an import makes of the scan; it begins with a path.
+        const std::size_t edges = line.rfind(" voxels of ");
+        glm::dvec3 voxel_mm;
+        if (edges != std::string::npos &&
+            std::sscanf(line.c_str() + edges, " voxels of %lf x %lf x %lf mm become", &voxel_mm.x,
+                        &voxel_mm.y, &voxel_mm.z) == 3)
+            look.finest_voxel_mm = std::min({voxel_mm.x, voxel_mm.y, voxel_mm.z});
         constexpr std::string_view segment = "segment ";
         if (line.starts_with(segment)) look.segments.push_back(line.substr(segment.size()));
     }

@@ -29,6 +29,7 @@ struct ScanPreview {
     double most_hu = 0.0;
     double black_hu = 0.0;  ///< of the picture's greys
     double white_hu = 0.0;
+    double finest_voxel_mm = 0.0;         ///< of the scan: the least of its voxels' edges; 0: not said
     std::vector<std::string> segments{};  ///< names, as segmentations have them
     double took_s = 0.0;                  ///< to look at all of it
 };

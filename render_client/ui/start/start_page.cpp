@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "common/program/available_memory.h"
 #include "common/text/file_name.h"
-#include "render_client/ui/words/translation.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -275,6 +277,8 @@ void StartPage::take_in_look(const std::string& said) {
     } catch (const std::exception& error) {
         message_ = error.what();
     }
+    std::ifstream meminfo("/proc/meminfo");
+    form.available_bytes = available_memory_bytes(meminfo).value_or(0);
     if (is_another_scan_) slices_at_mm = 0.5 * (look_->covers.low_mm + look_->covers.high_mm);
     take_look(form, *look_, is_another_scan_);
 }

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 namespace osteomill {
 namespace {
 
@@ -23,13 +21,6 @@ TEST(MemoryEstimate, StaysBelowItsLimitForLargeScansAndWideSlices) {
 
 TEST(MemoryEstimate, CountsWhatReadingHolds) {
     EXPECT_GE(import_memory_bytes(8'000'000'000, 1000, Grid{.size_voxels = {1, 1, 1}}), 8'000'000'000u);
-}
-
-TEST(MemoryEstimate, ReadsWhatIsAvailable) {
-    std::istringstream meminfo("MemTotal:  100 kB\nMemAvailable:   24 kB\n");
-    EXPECT_EQ(available_memory_bytes(meminfo), 24u * 1024u);
-    std::istringstream none("MemTotal: 100 kB\n");
-    EXPECT_EQ(available_memory_bytes(none), std::nullopt);
 }
 
 }  // namespace

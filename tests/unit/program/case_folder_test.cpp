@@ -13,6 +13,7 @@
 #include "common/scene/scene_file.h"
 #include "imaging/case/bone_source.h"
 #include "imaging/case/case_placement.h"
+#include "imaging/formats/picture_file.h"
 #include "imaging/import_bone.h"
 #include "imaging/segmentation/bone_of_labels.h"
 #include "imaging/segmentation/segmentation_file.h"
@@ -97,6 +98,28 @@ TEST_F(CaseFolder, OfAScanAloneHasNoTissues) {
     EXPECT_TRUE(scene().tissues.empty());
     EXPECT_FALSE(std::filesystem::exists(folder / "segmentation.seg.nrrd"));
     EXPECT_FALSE(load_bone(scene()).bone.content().brick_of_slot.empty());
+}
+
+TEST_F(CaseFolder, HasASentenceAndAPictureForItsCard) {
+    made({.segmentations = {segmentation}, .target = "target"});
+    EXPECT_EQ(scene().description, "10 x 8 x 6 mm in voxels of 0.2 mm; to be removed: target.");
+    const SlicePicture picture = read_png_slice(folder / "picture.png");
+    EXPECT_EQ(picture.width, 240);
+    EXPECT_EQ(picture.height, 160);
+    const auto grey = [&](int x, int y) {
+        return picture.values[static_cast<std::size_t>(y) * 240 + static_cast<std::size_t>(x)];
+    };
+    EXPECT_NE(grey(120, 80), grey(2, 80)) << "bone before a background";
+    EXPECT_NE(grey(2, 2), grey(2, 157)) << "which is not white";
+}
+
+TEST_F(CaseFolder, WarnsOfEachStructureFromItsOwnDistance) {
+    made({.segmentations = {segmentation},
+          .is_protected = {"nerve", "flap"},
+          .warn_mm = 2.5,
+          .warns_from_mm = {{"nerve", 0.5}}});
+    EXPECT_EQ(scene().tissues[1].warn_mm, 0.5);
+    EXPECT_EQ(scene().tissues[2].warn_mm, 2.5);
 }
 
 TEST_F(CaseFolder, IsNeverOverwritten) {

@@ -9,14 +9,14 @@ using ::testing::ElementsAre;
 using ::testing::IsSupersetOf;
 
 TEST(ImportForm, OfLabelsInPicturesNamesTheirColoursSpacingAndMaterials) {
-    const ImportForm form{
-        .scan = "[fivrs]",
-        .are_labels = true,
-        .colours = "fivrs.ctbl",
-        .stack_spacing = "0.2,0.2,0.2",
-        .segments = {{.name = "Bone=hard", .material = "enamel"}, {.name = "Dura", .is_protected = true}},
-        .region = {.low_mm = {-1.0, 0.0, 0.0}, .high_mm = {1.0, 2.0, 3.0}},
-        .spacing_mm = 0.25};
+    const ImportForm form{.scan = "[fivrs]",
+                          .are_labels = true,
+                          .colours = "fivrs.ctbl",
+                          .stack_spacing = "0.2,0.2,0.2",
+                          .segments = {{.name = "Bone=hard", .material = "enamel"},
+                                       {.name = "Dura", .is_protected = true, .warn_mm = 2.5}},
+                          .region = {.low_mm = {-1.0, 0.0, 0.0}, .high_mm = {1.0, 2.0, 3.0}},
+                          .spacing_mm = 0.25};
     EXPECT_THAT(look_command("bone_import", form, "look.raw"),
                 ElementsAre("bone_import", "--labels=[fivrs]", "--colours=fivrs.ctbl",
                             "--stack-spacing=0.2,0.2,0.2", "--preview", "look.raw"));
@@ -24,7 +24,7 @@ TEST(ImportForm, OfLabelsInPicturesNamesTheirColoursSpacingAndMaterials) {
         import_command("bone_import", form, "case"),
         ElementsAre("bone_import", "--labels=[fivrs]", "--colours=fivrs.ctbl", "--stack-spacing=0.2,0.2,0.2",
                     "--case", "case", "--region=-1.00,0.00,0.00,1.00,2.00,3.00", "--spacing-mm=0.25",
-                    "--warn-mm=1", "--material=Bone=hard=enamel", "--protect=Dura"));
+                    "--material=Bone=hard=enamel", "--protect=Dura=2.5"));
 }
 
 TEST(ImportForm, OfAScanLeavesMaterialsToItsNumbers) {
@@ -36,12 +36,30 @@ TEST(ImportForm, OfAScanLeavesMaterialsToItsNumbers) {
 
 TEST(ImportForm, OfAWholeHeadBeginsWithAsManyVoxelsAsAMachineHolds) {
     ImportForm form;
-    take_look(form, {.covers = {.high_mm = {40.0, 40.0, 30.0}}}, true);
-    EXPECT_EQ(form.spacing_mm, 0.1) << "of a jaw, 48 million";
     take_look(form, {.covers = {.high_mm = {200.0, 240.0, 220.0}}}, true);
     EXPECT_EQ(form.spacing_mm, 0.4);
     EXPECT_LT(voxels_of(form), usual_voxels);
     EXPECT_NEAR(most_memory_bytes(form), 3.0 * 501 * 601 * 551, 1.0);
+    take_look(form, {.covers = {.high_mm = {40.0, 40.0, 30.0}}}, true);
+    EXPECT_EQ(form.spacing_mm, 0.1) << "of a jaw, 48 million";
+}
+
+TEST(ImportForm, OfASmallRegionIsAsFineAsTheScan) {
+    ImportForm form{.region = {.high_mm = {10.0, 10.0, 10.0}}};
+    const auto scan_of = [](double finest_voxel_mm) {
+        ScanPreview scan{};
+        scan.finest_voxel_mm = finest_voxel_mm;
+        return scan;
+    };
+    EXPECT_EQ(default_spacing_mm(form, scan_of(0.0)), 0.1) << "a scan that does not say";
+    EXPECT_EQ(default_spacing_mm(form, scan_of(0.4)), 0.1) << "burrs are no coarser";
+    EXPECT_EQ(default_spacing_mm(form, scan_of(0.075)), 0.08);
+    EXPECT_EQ(default_spacing_mm(form, scan_of(0.03)), 0.03);
+    EXPECT_EQ(default_spacing_mm(form, scan_of(0.004)), 0.02);
+    form.region.high_mm = {40.0, 40.0, 40.0};
+    EXPECT_EQ(default_spacing_mm(form, scan_of(0.03)), 0.07) << "200 million voxels";
+    form.available_bytes = std::uint64_t{1} << 30;
+    EXPECT_EQ(default_spacing_mm(form, scan_of(0.03)), 0.15) << "45 million, of 1 GiB";
 }
 
 TEST(ImportForm, TakesTheTimeToReadTheScanAndThatOfEveryVoxel) {

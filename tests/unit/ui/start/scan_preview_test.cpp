@@ -16,7 +16,9 @@ const ScanBox covers{{-10.0, 20.0, 700.0}, {9.5, 39.5, 729.5}};
 
 TEST(ScanPreview, ReadsWhatAPreviewSays) {
     const auto look = read_scan_preview(
-        "reading slices\ncovers -10,20,700,9.5,39.5,729.5 (mm, patient LPS: x0,y0,z0,x1,y1,z1)\n"
+        "of voxels of 9: 40 x 40 x 60 voxels of 0.5 x 0.5 x 0.45 mm become 40 x 40 x 60 of 0.5 mm; about "
+        "0.1 GiB of memory\nreading slices\ncovers -10,20,700,9.5,39.5,729.5 (mm, patient LPS: "
+        "x0,y0,z0,x1,y1,z1)\n"
         "HU from -1024 to 3071\ngrey from -200 to 1800 HU\nsegment Facial nerve\nsegment Dura\npreview: "
         "x.png\n");
     ASSERT_TRUE(look);
@@ -25,6 +27,7 @@ TEST(ScanPreview, ReadsWhatAPreviewSays) {
     EXPECT_EQ(look->most_hu, 3071.0);
     EXPECT_EQ(look->black_hu, -200.0);
     EXPECT_EQ(look->white_hu, 1800.0);
+    EXPECT_EQ(look->finest_voxel_mm, 0.45);
     EXPECT_EQ(look->segments, (std::vector<std::string>{"Facial nerve", "Dura"}));
     EXPECT_FALSE(read_scan_preview("bone_import: cannot be read\n"));
     EXPECT_FALSE(read_scan_preview("covers 1,2,3 (mm)\n"));
@@ -176,8 +179,7 @@ TEST(ImportForm, BecomesACommand) {
                                             "--spacing-mm=0.1",
                                             "--threshold-hu=300",
                                             "--keep-soft-tissue",
-                                            "--warn-mm=1",
-                                            "--protect=Dura",
+                                            "--protect=Dura=1",
                                             "--target=Tumour"};
     EXPECT_EQ(import_command("bone_import", form, "/c/head 1"), expected);
     EXPECT_NEAR(voxels_of(form), 401.0 * 401.0 * 401.0, 1.0);

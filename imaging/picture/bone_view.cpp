@@ -1,4 +1,4 @@
-#include "analysis/report/bone_view.h"
+#include "imaging/picture/bone_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,15 +6,14 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "analysis/report/voxel_share.h"
 #include "common/bone/bone_ray.h"
+#include "imaging/picture/voxel_share.h"
 
 namespace osteomill {
 
 namespace {
 
 constexpr int rays_per_pixel_edge = 2;
-const glm::dvec3 paper(255.0);
 const glm::dvec3 bone_colour(226.0, 216.0, 198.0);
 
 class View {
@@ -30,18 +29,19 @@ class View {
 
     glm::dvec3 right() const { return glm::cross(view_.direction, view_.up); }
 
-    glm::dvec3 colour(const glm::dvec3& place_mm) {
+    /// `background`: where no bone is.
+    glm::dvec3 colour(const glm::dvec3& place_mm, const glm::dvec3& background) {
         const BoneRay ray{to_voxel_coordinates(bone_.grid(), place_mm), view_.direction};
         if (view_.is_section)
             if (const auto structure = structure_colour(ray.origin)) return *structure;
         RaySpan span = span_within(ray, bone_.grid());
         if (view_.is_section) span.from = std::max(span.from, 0.0);
-        if (span.is_empty()) return paper;
+        if (span.is_empty()) return background;
         const glm::dvec3 first = ray.at(span.from + 1e-6);
         if (view_.is_section && span.from == 0.0 && probe_.between(first) > BoneSampler::surface_fraction)
             return 0.92 * tissue_colour(first);
         const auto hit = probe_.first_surface(ray, span, [](double) { return true; });
-        return hit ? lit(ray, *hit) : paper;
+        return hit ? lit(ray, *hit) : background;
     }
 
   private:
@@ -147,18 +147,21 @@ RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const B
     const auto offset = [&](int pixel, int ray) {
         return offset_mm(view, pixel + (ray + 0.5) / rays, size_px);
     };
-    for (int row = 0; row < size_px; ++row)
+    for (int row = 0; row < size_px; ++row) {
+        const glm::dvec3 background = glm::mix(view.background[0], view.background[1], (row + 0.5) / size_px);
         for (int column = 0; column < size_px; ++column) {
             glm::dvec3 sum(0.0);
             for (int j = 0; j < rays; ++j)
                 for (int i = 0; i < rays; ++i)
-                    sum += seen.colour(view.centre_mm + offset(column, i) * seen.right() -
-                                       offset(row, j) * view.up);
+                    sum += seen.colour(
+                        view.centre_mm + offset(column, i) * seen.right() - offset(row, j) * view.up,
+                        background);
             sum /= rays * rays;
             for (int channel = 0; channel < 3; ++channel)
                 picture.rgb.push_back(
                     static_cast<std::uint8_t>(std::lround(std::clamp(sum[channel], 0.0, 255.0))));
         }
+    }
     if (view.is_section && marks.is_outlined) draw_outline(picture, view, seen.right(), marks);
     return picture;
 }

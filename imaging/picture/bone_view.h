@@ -1,8 +1,9 @@
 // A picture of a bone by the CPU: parallel rays through its bricks to where half a voxel is left.
 //
 // Surface and normals are those of the window (bone_sampling.glsl). Lit from the viewer's upper left,
-// coloured by tissue; where the near side is cut away, the cut face is flat and bears the tissues' colours. A
-// server has no OpenGL, and a page of a report needs some pictures, not thirty a second.
+// coloured by tissue; where the near side is cut away, the cut face is flat and bears the tissues' colours.
+// An import and a server have no OpenGL, and a case or a page of a report needs some pictures, not thirty a
+// second.
 #pragma once
 
 #include <array>
@@ -25,6 +26,8 @@ struct BoneView {
     glm::dvec3 up{0, -1.0, 0};         ///< unit, square to the direction
     double half_width_mm = 10.0;
     bool is_section = false;  ///< what lies before the centre is cut away
+    /// Where no bone is, sRGB from 0 to 255: at the picture's upper edge, and at its lower one.
+    std::array<glm::dvec3, 2> background{glm::dvec3(255.0), glm::dvec3(255.0)};
 };
 
 struct RgbPicture {

@@ -1,0 +1,18 @@
+#include "common/program/available_memory.h"
+
+#include <sstream>
+#include <string>
+
+namespace osteomill {
+
+std::optional<std::uint64_t> available_memory_bytes(std::istream& meminfo) {
+    for (std::string line; std::getline(meminfo, line);) {
+        std::istringstream words(line);
+        std::string name;
+        std::uint64_t kibibytes = 0;
+        if (words >> name && name == "MemAvailable:" && words >> kibibytes) return kibibytes * 1024;
+    }
+    return std::nullopt;
+}
+
+}  // namespace osteomill
