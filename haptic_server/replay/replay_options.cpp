@@ -47,6 +47,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     std::string hdf5;
     std::string layout = hdf5_layout_names.front();
     std::string report;
+    std::string film;
     CLI::App app(
         "Shows a recording of haptic_server --record to render clients, from the moment that the first one "
         "joins; or says what is in it.",
@@ -101,6 +102,9 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
            "Write the session's report (report.html, metrics.csv, metrics.json: docs/metrics.md) into "
            "this folder; serve nobody")
         ->type_name("DIR");
+    app.add_option("--film", film,
+                   "Make a film of it with render_client, as it does with --replay FILE --film; serve nobody")
+        ->type_name("FILE.mp4");
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     if (!json.empty()) options.json = json;
     if (!csv.empty()) options.csv = csv;
@@ -113,6 +117,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     options.layout =
         static_cast<Hdf5Layout>(std::ranges::find(hdf5_layout_names, layout) - hdf5_layout_names.begin());
     if (!report.empty()) options.report = report;
+    if (!film.empty()) options.film = film;
     if (options.surface && !is_mesh_name(*options.surface))
         throw std::invalid_argument(fmt::format("--surface: '{}' must end in {}", surface, mesh_endings));
     if (options.difference && options.difference->extension() != ".nrrd")
@@ -135,7 +140,10 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     if (options.report)
         for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
             files.push_back({"--report", *options.report / name});
+    if (options.film) files.push_back({"--film", *options.film});
     require_distinct(files);
+    if (options.film && (options.only_reads() || where->count() > 0))
+        throw std::invalid_argument("--film: goes with --speed and --from-s alone");
     for (const CLI::Option* serving : {where, speed, from})
         if (options.only_reads() && serving->count() > 0)
             throw std::invalid_argument(fmt::format(

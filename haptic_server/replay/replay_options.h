@@ -28,6 +28,7 @@ struct ReplayOptions {
     std::optional<std::filesystem::path> hdf5;        ///< for Python and MATLAB
     Hdf5Layout layout = Hdf5Layout::osteomill;        ///< of that
     std::optional<std::filesystem::path> report;      ///< folder for the session's report
+    std::optional<std::filesystem::path> film;        ///< for render_client, which draws it
 
     /// Whether it is only looked into, and shown to nobody.
     bool only_reads() const {

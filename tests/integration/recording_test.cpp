@@ -211,9 +211,10 @@ TEST_F(Recording, BecomesAFilm) {
     const auto frames = static_cast<int>((duration_s - 1.0) / 2.0 * 30.0) + 1;
     EXPECT_EQ(seen.out, "102\n80\n30/1\n" + std::to_string(frames) + "\n") << "of an even width";
 
+    // As packet_replay has it made.
     const Finished without =
-        run_program({"/usr/bin/env", "PATH=/nowhere", "ASAN_OPTIONS=detect_leaks=0", RENDER_CLIENT,
-                     "--replay", file("a.pcap"), "--film", file("b.mp4")});
+        run_program({"/usr/bin/env", "PATH=/nowhere", "ASAN_OPTIONS=detect_leaks=0", PACKET_REPLAY,
+                     file("a.pcap"), "--film", file("b.mp4")});
     EXPECT_EQ(without.status, 1);
     EXPECT_THAT(without.err, HasSubstr("install Debian's package ffmpeg"));
     EXPECT_EQ(std::count(without.err.begin(), without.err.end(), '\n'), 1) << without.err;
