@@ -102,9 +102,9 @@ class Doors : public ::testing::Test {
     }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-    /// In the clear where there are no files.
+    /// In the clear where there are no files. Without a hand of its own, whose session would end by itself.
     void start_server(const TlsFiles& files, const Command& more = {}) {
-        Command command = with({HAPTIC_SERVER, "--listen", "127.0.0.1:0"}, files);
+        Command command = with({HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--device", "client"}, files);
         command.insert(command.end(), more.begin(), more.end());
         server_.emplace(command);
         const auto address = server_->line_after("listening on ", 60s);
@@ -145,7 +145,7 @@ class Doors : public ::testing::Test {
 
 TEST_F(Doors, LetOperatorsAloneMoveTheToolAndTellTheOthersThatTheyWatch) {
     std::ofstream(file("operators")) << "# who may drill\nCN=surgeon\n";
-    start_server(lab_->server("bench"), {"--device", "client", "--operators", file("operators")});
+    start_server(lab_->server("bench"), {"--operators", file("operators")});
     const auto watcher = link(lab_->client("student"));
     ASSERT_TRUE(is_live(*watcher));
     EXPECT_FALSE(watcher->session()->accepts_operator);
@@ -174,7 +174,7 @@ TEST_F(Doors, LetOperatorsAloneMoveTheToolAndTellTheOthersThatTheyWatch) {
 }
 
 TEST_F(Doors, TakeTheToolFromOneWhoOnlyKeepsItWhenAnotherAsks) {
-    start_server(lab_->server("bench"), {"--device", "client"});
+    start_server(lab_->server("bench"));
     const auto asleep = link(lab_->client("asleep"));
     const auto awake = link(lab_->client("awake"));
     ASSERT_TRUE(is_live(*asleep));
