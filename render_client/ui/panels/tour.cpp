@@ -60,6 +60,20 @@ void draw_card(StartPage& page) {
     ImGui::TextDisabled("%s", tr("RETURN: on   ESC: skip"));
 }
 
+/// Opaque, for the page is not to be read through it. ImGui would put a child's own background below the
+/// children before the last.
+void draw_paper() {
+    const ImVec2 low = ImGui::GetWindowPos();
+    const ImVec2 high{low.x + ImGui::GetWindowWidth(), low.y + ImGui::GetWindowHeight()};
+    ImVec4 paper = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
+    paper.w = 1.0f;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect(low, high);
+    list.AddRectFilled(low, high, ImGui::GetColorU32(paper));
+    list.AddRect(low, high, ImGui::GetColorU32(ImGuiCol_NavHighlight));
+    list.PopClipRect();
+}
+
 }  // namespace
 
 void draw_tour(StartPage& page) {
@@ -69,14 +83,11 @@ void draw_tour(StartPage& page) {
     const ImVec2 size{std::min(36.0f * letter, 0.9f * room.x),
                       7.0f * letter + 3.0f * ImGui::GetFrameHeightWithSpacing()};
     ImGui::SetCursorPos({0.5f * (room.x - size.x), 0.5f * (room.y - size.y)});
-    ImVec4 paper = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
-    paper.w = 1.0f;  // the page is not to be read through it
-    ImGui::PushStyleColor(ImGuiCol_ChildBg, paper);
-    ImGui::PushStyleColor(ImGuiCol_Border, ImGui::GetStyleColorVec4(ImGuiCol_NavHighlight));
-    ImGui::BeginChild("tour", size, true, ImGuiWindowFlags_NavFlattened);
+    ImGui::BeginChild("tour", size, false,
+                      ImGuiWindowFlags_NavFlattened | ImGuiWindowFlags_AlwaysUseWindowPadding);
+    draw_paper();
     draw_card(page);
     ImGui::EndChild();
-    ImGui::PopStyleColor(2);
 }
 
 }  // namespace osteomill
