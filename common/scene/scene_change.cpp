@@ -11,7 +11,7 @@
 #include "common/scene/apply_change.h"
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
-#include "common/scene/shallow_toml.h"
+#include "common/scene/toml_text.h"
 
 namespace osteomill {
 
@@ -59,15 +59,13 @@ void set(toml::table& table, std::string_view key, const std::string& value, boo
         table.insert_or_assign(key, value);
         return;
     }
-    const std::string text = "value = " + value;
-    require_shallow_toml(text, fmt::format("'{}'", key));
     try {
-        toml::table parsed = toml::parse(text);
+        toml::table parsed = parse_toml("value = " + value, fmt::format("'{}'", key));
         if (parsed.size() == 1) {
             table.insert_or_assign(key, std::move(*parsed.get("value")));
             return;
         }
-    } catch (const toml::parse_error&) {
+    } catch (const SceneError&) {
     }
     table.insert_or_assign(key, value);
 }

@@ -11,9 +11,9 @@
 #include "common/scene/apply_change.h"
 #include "common/scene/phantom_names.h"
 #include "common/scene/plan_table.h"
-#include "common/scene/shallow_toml.h"
 #include "common/scene/tissue_tables.h"
 #include "common/scene/toml_reader.h"
+#include "common/scene/toml_text.h"
 #include "common/text/plain_text.h"
 
 namespace osteomill {
@@ -247,15 +247,9 @@ SceneError::SceneError(const std::string& message) : std::runtime_error(printabl
 
 Scene parse_scene(std::string_view text, const std::string& name_for_messages,
                   const std::filesystem::path& folder, const SceneChanges& changes) {
-    try {
-        require_shallow_toml(text, name_for_messages);
-        const toml::table root = toml::parse(text, name_for_messages);
-        Scene scene = read_all(TomlReader(root, name_for_messages, "the scene"), folder);
-        return changes.changes.empty() ? scene : read_changed(root, changes, folder);
-    } catch (const toml::parse_error& error) {
-        throw SceneError(fmt::format("{}:{}: not TOML: {}", name_for_messages, error.source().begin.line,
-                                     error.description()));
-    }
+    const toml::table root = parse_toml(text, name_for_messages);
+    Scene scene = read_all(TomlReader(root, name_for_messages, "the scene"), folder);
+    return changes.changes.empty() ? scene : read_changed(root, changes, folder);
 }
 
 Scene read_scene(const std::filesystem::path& path, const SceneChanges& changes) {

@@ -9,8 +9,8 @@
 
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
-#include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
+#include "common/scene/toml_text.h"
 #include "devices/hid/shipped_profiles.h"
 
 namespace osteomill {
@@ -134,13 +134,7 @@ void read_stylus(TomlReader reader, ArmProfile& profile) {
 }  // namespace
 
 ArmProfile parse_arm_profile(std::string_view toml, const std::string& name) {
-    toml::table root;
-    try {
-        require_shallow_toml(toml, name);
-        root = toml::parse(toml);
-    } catch (const toml::parse_error& error) {
-        throw SceneError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
-    }
+    const toml::table root = parse_toml(toml, name);
     TomlReader reader(root, name, "the profile");
     ArmProfile profile;
     profile.name = required(reader, "name", reader.text("name"));

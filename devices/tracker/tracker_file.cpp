@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "common/scene/scene_file.h"
-#include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
+#include "common/scene/toml_text.h"
 #include "devices/tracker/transform_stream.h"
 
 namespace osteomill {
@@ -44,8 +44,8 @@ std::string read_pedal(TomlReader reader) {
         reader.fail("string",
                     "[pedal] takes one of 'string', the name of a STRING message, and 'always = true'");
     if (string && (string->empty() || string->size() > IgtlStream::longest_name))
-        reader.fail("string", fmt::format("'string' is a device name of 1 to {} characters",
-                                          IgtlStream::longest_name));
+        reader.fail("string",
+                    fmt::format("'string' is a device name of 1 to {} characters", IgtlStream::longest_name));
     return string.value_or("");
 }
 
@@ -59,13 +59,7 @@ double read_limit(TomlReader reader) {
 }  // namespace
 
 TrackerSetup parse_tracker_setup(std::string_view toml, const std::string& name) {
-    toml::table root;
-    try {
-        require_shallow_toml(toml, name);
-        root = toml::parse(toml);
-    } catch (const toml::parse_error& error) {
-        throw SceneError(fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
-    }
+    const toml::table root = parse_toml(toml, name);
     TomlReader reader(root, name, "the tracker's file");
     TrackerSetup setup;
     setup.handpiece = read_tool(required(reader, "tool", reader.table("tool")));

@@ -5,8 +5,8 @@
 #include "common/files/atomic_file.h"
 #include "common/files/inside_folder.h"
 #include "common/scene/scene_file.h"
-#include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
+#include "common/scene/toml_text.h"
 #include "imaging/case/case_trust.h"
 
 namespace osteomill {
@@ -25,15 +25,7 @@ std::optional<ToolPose> placement_of_case(const std::filesystem::path& folder) {
     if (!std::filesystem::exists(path, failed)) return std::nullopt;
     if (!lies_inside(path, folder))
         throw SceneError(path.string() + ": is a link that leads out of the case's folder");
-    const std::string text = read_toml_text(path, "a placement");
-    require_shallow_toml(text, path.string());
-    toml::table table;
-    try {
-        table = toml::parse(text);
-    } catch (const toml::parse_error& error) {
-        throw SceneError(fmt::format("{}:{}: not TOML: {}", path.string(), error.source().begin.line,
-                                     error.description()));
-    }
+    const toml::table table = parse_toml(read_toml_text(path, "a placement"), path.string());
     TomlReader reader(table, path.string(), "the placement");
     const auto position_mm = reader.place("position_mm");
     const auto spindle_axis = reader.direction("spindle_axis");

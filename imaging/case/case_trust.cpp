@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/files/inside_folder.h"
-#include "common/scene/shallow_toml.h"
+#include "common/scene/toml_text.h"
 #include "imaging/bone_file/file_digest.h"
 #include "imaging/bone_file/hu_file.h"
 

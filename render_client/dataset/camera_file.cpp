@@ -15,8 +15,8 @@
 #include "common/files/input_file.h"
 #include "common/files/table_line.h"
 #include "common/scene/scene_file.h"
-#include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
+#include "common/scene/toml_text.h"
 #include "common/text/words.h"
 
 namespace osteomill {
@@ -189,24 +189,18 @@ std::vector<DatasetCamera> read_cameras(const std::filesystem::path& file) {
 
 std::vector<DatasetCamera> parse_cameras(std::string_view text, const std::string& name,
                                          const std::filesystem::path& folder) {
-    require_shallow_toml(text, name);
+    const toml::table root = parse_toml(text, name);
+    TomlReader reader(root, name, "the cameras");
     std::vector<DatasetCamera> cameras;
-    try {
-        const toml::table root = toml::parse(text, name);
-        TomlReader reader(root, name, "the cameras");
-        for (TomlReader& table : reader.tables("cameras")) read_camera(table, folder, cameras);
-        reader.refuse_other_keys();
-        if (cameras.empty()) reader.fail("cameras", "has no camera: write [[cameras]]");
-        if (cameras.size() > most_cameras)
-            reader.fail("cameras", fmt::format("has {} cameras, may have {}", cameras.size(), most_cameras));
-        std::set<std::string> names;
-        for (const DatasetCamera& camera : cameras)
-            if (!names.insert(camera.name).second)
-                reader.fail("cameras", fmt::format("has two cameras called '{}'", camera.name));
-    } catch (const toml::parse_error& error) {
-        throw SceneError(
-            fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
-    }
+    for (TomlReader& table : reader.tables("cameras")) read_camera(table, folder, cameras);
+    reader.refuse_other_keys();
+    if (cameras.empty()) reader.fail("cameras", "has no camera: write [[cameras]]");
+    if (cameras.size() > most_cameras)
+        reader.fail("cameras", fmt::format("has {} cameras, may have {}", cameras.size(), most_cameras));
+    std::set<std::string> names;
+    for (const DatasetCamera& camera : cameras)
+        if (!names.insert(camera.name).second)
+            reader.fail("cameras", fmt::format("has two cameras called '{}'", camera.name));
     return cameras;
 }
 

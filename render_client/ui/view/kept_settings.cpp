@@ -10,8 +10,8 @@
 
 #include "common/files/atomic_file.h"
 #include "common/scene/scene_file.h"
-#include "common/scene/shallow_toml.h"
 #include "common/scene/toml_reader.h"
+#include "common/scene/toml_text.h"
 #include "render_client/words/translation.h"
 
 namespace osteomill {
@@ -23,24 +23,17 @@ const std::vector<std::string> theme_names{"dark", "light"};  // by ThemeName
 /// Throws SceneError where something is wrong.
 KeptSettings read_settings(const std::filesystem::path& file) {
     KeptSettings settings;
-    const std::string text = read_toml_text(file, "settings");
     const std::string name = file.string();
-    require_shallow_toml(text, name);
-    try {
-        const toml::table table = toml::parse(text, name);
-        TomlReader reader(table, name, "the window's settings");
-        const auto truth = [&](const char* key, bool& value) { value = reader.truth(key).value_or(value); };
-        if (const auto theme = reader.choice("theme", theme_names))
-            settings.theme = static_cast<ThemeName>(*theme);
-        truth("sound", settings.sound);
-        truth("warnings", settings.warns);
-        truth("figures", settings.details_shown);
-        truth("tour_seen", settings.tour_seen);
-        reader.refuse_other_keys();
-    } catch (const toml::parse_error& error) {
-        throw SceneError(
-            fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
-    }
+    const toml::table table = parse_toml(read_toml_text(file, "settings"), name);
+    TomlReader reader(table, name, "the window's settings");
+    const auto truth = [&](const char* key, bool& value) { value = reader.truth(key).value_or(value); };
+    if (const auto theme = reader.choice("theme", theme_names))
+        settings.theme = static_cast<ThemeName>(*theme);
+    truth("sound", settings.sound);
+    truth("warnings", settings.warns);
+    truth("figures", settings.details_shown);
+    truth("tour_seen", settings.tour_seen);
+    reader.refuse_other_keys();
     return settings;
 }
 

@@ -9,9 +9,9 @@
 #include "common/files/atomic_file.h"
 #include "common/files/inside_folder.h"
 #include "common/scene/scene_file.h"
-#include "common/scene/shallow_toml.h"
 #include "common/scene/stiffness_relation.h"
 #include "common/scene/toml_reader.h"
+#include "common/scene/toml_text.h"
 #include "render_client/ui/view/hu_axis.h"
 #include "render_client/words/translation.h"
 
@@ -64,14 +64,8 @@ std::optional<TransferFunction> read_all(TomlReader reader) {
 }  // namespace
 
 std::optional<TransferFunction> parse_look(std::string_view text, const std::string& name_for_messages) {
-    require_shallow_toml(text, name_for_messages);
-    try {
-        const toml::table root = toml::parse(text, name_for_messages);
-        return read_all(TomlReader(root, name_for_messages, "the look"));
-    } catch (const toml::parse_error& error) {
-        throw SceneError(fmt::format("{}:{}: not TOML: {}", name_for_messages, error.source().begin.line,
-                                     error.description()));
-    }
+    const toml::table root = parse_toml(text, name_for_messages);
+    return read_all(TomlReader(root, name_for_messages, "the look"));
 }
 
 std::optional<TransferFunction> read_transfer(const std::filesystem::path& file) {

@@ -1,4 +1,4 @@
-#include "common/scene/shallow_toml.h"
+#include "common/scene/toml_text.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,10 @@
 namespace osteomill {
 
 namespace {
+
+bool is_letter_or_digit(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
 
 /// Goes over a text and knows what of it is a string or a comment.
 class Skimmer {
@@ -35,12 +39,18 @@ class Skimmer {
             case '\n':
                 ++line_;
                 parts_ = 1;
+                in_value_ = false;
                 return;
             case '=':
+                in_value_ = true;
+                parts_ = 1;
+                return;
             case ',':
                 parts_ = 1;
                 return;
             case '[':
+                if (brackets_ == 0 && !in_value_) require_name_of_table();
+                [[fallthrough]];
             case '{':
                 parts_ = 1;
                 if (++brackets_ > most_toml_brackets)
@@ -57,6 +67,17 @@ class Skimmer {
             default:
                 return;
         }
+    }
+
+    /// Behind the first bracket of a table's header.
+    void require_name_of_table() const {
+        std::size_t at = text_.find_first_not_of(" \t", at_);
+        if (at == at_ && at < text_.size() && text_[at] == '[') at = text_.find_first_not_of(" \t", at + 1);
+        if (at == std::string_view::npos) return;
+        const char first = text_[at];
+        const bool begins_name =
+            is_letter_or_digit(first) || std::string_view("_-\"'").find(first) != std::string_view::npos;
+        if (!begins_name) fail("not TOML: a table's name is missing behind its bracket");
     }
 
     void skip_string(char quote) {
@@ -94,15 +115,22 @@ class Skimmer {
     int line_ = 1;
     int parts_ = 1;
     int brackets_ = 0;
+    bool in_value_ = false;  ///< behind the '=' of this line
 };
 
 }  // namespace
 
-void require_shallow_toml(std::string_view text, const std::string& name) {
+toml::table parse_toml(std::string_view text, const std::string& name) {
     if (text.size() > most_toml_bytes)
         throw SceneError(fmt::format("{}: {} bytes are more than the {} that are read", name, text.size(),
                                      most_toml_bytes));
     Skimmer(text, name).run();
+    try {
+        return toml::parse(text, name);
+    } catch (const toml::parse_error& error) {
+        throw SceneError(
+            fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
+    }
 }
 
 std::string read_toml_text(const std::filesystem::path& path, const char* what) {
