@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <istream>
+#include <filesystem>
 #include <optional>
 
 namespace osteomill {
 
-/// MemAvailable of /proc/meminfo, in bytes; std::nullopt where the text has none.
-std::optional<std::uint64_t> available_memory_bytes(std::istream& meminfo);
+/// MemAvailable in bytes; std::nullopt where the file is none or has none.
+std::optional<std::uint64_t> available_memory_bytes(const std::filesystem::path& meminfo = "/proc/meminfo");
 
 }  // namespace osteomill

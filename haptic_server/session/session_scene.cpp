@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <fstream>
 #include <utility>
 #include <variant>
 
@@ -61,8 +60,7 @@ SessionScene load_session_scene(const SceneChoice& choice) {
     if (choice.case_folder)
         if (const std::string line = unsigned_files(scene, *choice.case_folder); !line.empty())
             spdlog::warn("{}", line);
-    std::ifstream meminfo("/proc/meminfo");
-    LoadedBone loaded = load_bone(scene, available_memory_bytes(meminfo));
+    LoadedBone loaded = load_bone(scene, available_memory_bytes());
     if (!loaded.doubt.empty())
         spdlog::warn("{}: {}", std::get<FileSource>(scene.bone).path.string(), loaded.doubt);
     if (choice.bone && !choice.name) place_on_bone(scene, loaded.bone);

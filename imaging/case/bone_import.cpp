@@ -9,7 +9,6 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -302,11 +301,10 @@ int main(int argc, char** argv) {
         std::ostream messages(&buffer);
         messages << std::unitbuf;
         try {
-            std::ifstream meminfo("/proc/meminfo");
             const osteomill::ImportSurroundings surroundings{
                 .messages = messages,
                 .is_terminal = output.err->is_terminal(),
-                .available_memory_bytes = osteomill::available_memory_bytes(meminfo),
+                .available_memory_bytes = osteomill::available_memory_bytes(),
                 .go_on = [&] {
                     if (is_stopped) throw Stopped();
                 }};

@@ -1,6 +1,5 @@
 #include "studies/render/trial_bone.h"
 
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -47,8 +46,7 @@ TrialBone scan_trial(const std::string& name, ImportOptions options, const std::
     options.spacing_mm = 0.1;
     options.threshold_hu = 300.0;
     std::ostringstream unheard;
-    std::ifstream meminfo("/proc/meminfo");
-    import_bone(options, {.messages = unheard, .available_memory_bytes = available_memory_bytes(meminfo)});
+    import_bone(options, {.messages = unheard, .available_memory_bytes = available_memory_bytes()});
     Scene scene;
     scene.bone = FileSource{.path = options.output};
     Bone bone = load_bone(scene).bone;

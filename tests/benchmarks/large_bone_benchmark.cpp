@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <functional>
 #include <ranges>
 #include <string>
@@ -157,8 +156,7 @@ void measure(const glm::ivec2& size_px) {
 }  // namespace osteomill
 
 int main(int argument_count, char** arguments) {
-    std::ifstream meminfo("/proc/meminfo");
-    const auto available_bytes = osteomill::available_memory_bytes(meminfo).value_or(0);
+    const auto available_bytes = osteomill::available_memory_bytes().value_or(0);
     if (available_bytes < osteomill::needed_bytes) {
         fmt::print("skipped: the head, twice, takes {} MiB of memory; {} are free\n",
                    osteomill::needed_bytes >> 20U, available_bytes >> 20U);

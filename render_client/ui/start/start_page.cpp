@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -277,8 +276,7 @@ void StartPage::take_in_look(const std::string& said) {
     } catch (const std::exception& error) {
         message_ = error.what();
     }
-    std::ifstream meminfo("/proc/meminfo");
-    form.available_bytes = available_memory_bytes(meminfo).value_or(0);
+    form.available_bytes = available_memory_bytes().value_or(0);
     if (is_another_scan_) slices_at_mm = 0.5 * (look_->covers.low_mm + look_->covers.high_mm);
     take_look(form, *look_, is_another_scan_);
 }

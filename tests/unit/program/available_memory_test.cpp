@@ -2,16 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
+#include <fstream>
+
+#include "tests/support/temporary_folder.h"
 
 namespace osteomill {
 namespace {
 
 TEST(AvailableMemory, IsReadFromWhatTheKernelSays) {
-    std::istringstream meminfo("MemTotal:  100 kB\nMemAvailable:   24 kB\n");
-    EXPECT_EQ(available_memory_bytes(meminfo), 24u * 1024u);
-    std::istringstream none("MemTotal: 100 kB\n");
-    EXPECT_EQ(available_memory_bytes(none), std::nullopt);
+    const testing::TemporaryFolder folder;
+    std::ofstream(folder / "meminfo") << "MemTotal:  100 kB\nMemAvailable:   24 kB\n";
+    EXPECT_EQ(available_memory_bytes(folder / "meminfo"), 24u * 1024u);
+    std::ofstream(folder / "none") << "MemTotal: 100 kB\n";
+    EXPECT_EQ(available_memory_bytes(folder / "none"), std::nullopt);
+    EXPECT_EQ(available_memory_bytes(folder / "no file"), std::nullopt);
 }
 
 }  // namespace
