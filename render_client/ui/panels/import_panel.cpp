@@ -182,11 +182,12 @@ void draw_import(StartPage& page, StartPicture& picture) {
     ImportForm& form = page.form;
     ImGui::TextUnformatted(form.scan.filename().c_str());
     if (const auto& look = page.look()) {
+        if (!form.are_labels) {
+            ImGui::SameLine();
+            ImGui::TextDisabled("%s", trf("HU {:.0f} to {:.0f};", look->least_hu, look->most_hu).c_str());
+        }
         ImGui::SameLine();
-        ImGui::TextDisabled(
-            "%s", trf("HU {:.0f} to {:.0f}; drag a box in two slices: what becomes bone; wheel: other slices",
-                      look->least_hu, look->most_hu)
-                      .c_str());
+        ImGui::TextDisabled("%s", tr("drag a box in two slices: what becomes bone; wheel: other slices"));
     }
     if (page.look() && page.voxels()) {
         const float line = ImGui::GetFrameHeightWithSpacing();
