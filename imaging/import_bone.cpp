@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/bone/usual_spacing.h"
 #include "common/program/progress.h"
 #include "common/text/plain_text.h"
 #include "imaging/bone_file/hu_file.h"
@@ -65,10 +66,9 @@ std::optional<int> followed_axis(const ImportOptions& options, const glm::dvec3&
 
 /// Refining draws on the voxels around; smoothing for a coarser grid reaches as far as its voxels, a contour
 /// that is followed from slice to slice as far as it is looked for.
-glm::ivec3 margin_voxels(const ImportOptions& options, const SourceImage& image) {
+glm::ivec3 margin_voxels(const ImportOptions& options, const SourceImage& image, double spacing_mm) {
     const double finest_mm = std::min({image.spacing_mm.x, image.spacing_mm.y, image.spacing_mm.z});
-    glm::ivec3 margin(refine_margin_voxels +
-                      static_cast<int>(std::min(2.0 * options.spacing_mm / finest_mm, 1e6)));
+    glm::ivec3 margin(refine_margin_voxels + static_cast<int>(std::min(2.0 * spacing_mm / finest_mm, 1e6)));
     const std::optional<int> axis = followed_axis(options, image.spacing_mm);
     for (int other = 0; axis && other < 3; ++other)
         if (other != *axis)
@@ -80,19 +80,33 @@ glm::ivec3 margin_voxels(const ImportOptions& options, const SourceImage& image)
     return margin;
 }
 
-ImportPlan plan(const ImportOptions& options, const SourceImage& image, std::ostream& messages) {
+double spacing_for(const Region& region, const ImportOptions& options,
+                   const ImportSurroundings& surroundings) {
+    if (!options.may_be_coarser) return options.spacing_mm;
+    const double spacing_mm = usual_spacing_mm(region.high_mm - region.low_mm, options.spacing_mm,
+                                               surroundings.available_memory_bytes.value_or(0));
+    if (spacing_mm > options.spacing_mm)
+        surroundings.messages << fmt::format(
+            "{}: the region is large to drill: voxels of {:.2f} mm instead of {:.2f}; take a smaller "
+            "--region, or choose --spacing-mm\n",
+            options.input.string(), spacing_mm, options.spacing_mm);
+    return spacing_mm;
+}
+
+ImportPlan plan(const ImportOptions& options, const SourceImage& image,
+                const ImportSurroundings& surroundings) {
     const Region extent = extent_of(image);
     Region region = extent;
     try {
         if (options.region) {
             region = clip(*options.region, extent);
             if (region != *options.region)
-                messages << fmt::format("--region clipped to {} (mm, patient LPS): the image ends there\n",
-                                        to_text(region));
+                surroundings.messages << fmt::format(
+                    "--region clipped to {} (mm, patient LPS): the image ends there\n", to_text(region));
         }
-        const Grid grid = grid_over(region, options.spacing_mm);
+        const Grid grid = grid_over(region, spacing_for(region, options, surroundings));
         require_plausible_size(grid);
-        const ImageBox needed = voxels_for(image, region, margin_voxels(options, image));
+        const ImageBox needed = voxels_for(image, region, margin_voxels(options, image, grid.spacing_mm));
         return {.grid = grid,
                 .needed = needed,
                 .axis_of_shapes = followed_axis(options, part_of(image, needed).spacing_mm)};
@@ -280,7 +294,7 @@ void import_bone(const ImportOptions& options, const OpenedImage& opened,
                  const ImportSurroundings& surroundings) {
     try {
         for (const std::string& note : opened.image.notes) surroundings.messages << printable(note) << '\n';
-        const ImportPlan work = plan(options, opened.image, surroundings.messages);
+        const ImportPlan work = plan(options, opened.image, surroundings);
         require_memory(options, opened, work, surroundings);
         std::map<std::string, std::string> key_values;
         if (options.threshold_hu) key_values[threshold_key] = threshold_text(*options.threshold_hu);
@@ -301,7 +315,7 @@ void import_bone(const ImportOptions& options, const OpenedImage& opened,
                                                  options.input.string(), field->voxels_outside());
         std::optional<SliceShapes> shapes;
         if (work.axis_of_shapes)
-            shapes.emplace(part, values, *work.axis_of_shapes, *options.threshold_hu, options.spacing_mm,
+            shapes.emplace(part, values, *work.axis_of_shapes, *options.threshold_hu, work.grid.spacing_mm,
                            room.subspan(floats_of_field(work)), pause);
         ProgressLine progress(surroundings.messages, surroundings.is_terminal, "refining");
         const Refiner refiner(part, values, work.grid, shapes ? &*shapes : nullptr, pause);

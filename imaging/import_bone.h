@@ -19,6 +19,9 @@ struct ImportOptions {
     std::filesystem::path input;
     std::filesystem::path output;
     double spacing_mm = 0.1;
+    /// Where nobody has chosen spacing_mm: a region that is large to drill is made coarser
+    /// (usual_spacing_mm).
+    bool may_be_coarser = false;
     std::optional<double> threshold_hu{};
     /// Far from bone, too, HU stay as they are. Else a file with a threshold has air there (near_bone.h),
     /// which makes it some times smaller.

@@ -168,7 +168,8 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
         ->capture_default_str();
     app.add_option("--target", texts.target, "with --segmentation: the segment that is to be removed")
         ->type_name("NAME");
-    app.add_option("--spacing-mm", options.spacing_mm, "edge of a voxel of the result")
+    app.add_option("--spacing-mm", options.spacing_mm,
+                   "edge of a voxel of the result; a case of a large region that says nothing is coarser")
         ->capture_default_str()
         ->check(osteomill::within(0.01, 10.0));
     app.add_option("--threshold-hu", texts.threshold_hu,
@@ -269,7 +270,10 @@ void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& op
     }
     if (texts.case_folder.empty() && options.output.empty())
         throw std::invalid_argument("give OUTPUT.nrrd, --case DIR or --preview PICTURE.png (see --help)");
-    if (!texts.case_folder.empty()) options.output = osteomill::bone_of_case(texts.case_folder);
+    if (!texts.case_folder.empty()) {
+        options.output = osteomill::bone_of_case(texts.case_folder);
+        options.may_be_coarser = app.count("--spacing-mm") == 0;
+    }
     if (options.output.extension() != ".nrrd")
         throw std::invalid_argument("OUTPUT '" + options.output.string() + "': its name must end in .nrrd");
 }

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/bone/usual_spacing.h"
+
 namespace osteomill {
 
 namespace {
-
-constexpr double bytes_per_voxel = 3.0;  // what is left, stiffness, tissue
 
 /// With '=': a region may begin with a minus.
 std::string region_option(const ScanBox& region) {
@@ -36,7 +36,7 @@ double voxels_of(const ImportForm& form) {
 }
 
 double most_memory_bytes(const ImportForm& form) {
-    return bytes_per_voxel * voxels_of(form);
+    return session_bytes_per_voxel * voxels_of(form);
 }
 
 double estimated_s(const ImportForm& form, const ScanPreview& look) {
@@ -73,14 +73,7 @@ double default_spacing_mm(const ImportForm& form, const ScanPreview& look) {
     constexpr double coarsest_mm = 0.1, finest_mm = 0.02;
     const double fine_mm =
         look.finest_voxel_mm > 0.0 ? std::clamp(look.finest_voxel_mm, finest_mm, coarsest_mm) : coarsest_mm;
-    double voxels = usual_voxels;
-    if (form.available_bytes > 0)
-        voxels = std::min(
-            voxels, usual_share_of_memory * static_cast<double>(form.available_bytes) / bytes_per_voxel);
-    const glm::dvec3 size_mm = form.region.high_mm - form.region.low_mm;
-    const double spacing_mm = std::max(fine_mm, std::cbrt(size_mm.x * size_mm.y * size_mm.z / voxels));
-    const double steps_per_mm = spacing_mm > coarsest_mm ? 20.0 : 100.0;
-    return std::ceil(steps_per_mm * spacing_mm - 1e-6) / steps_per_mm;
+    return usual_spacing_mm(form.region.high_mm - form.region.low_mm, fine_mm, form.available_bytes);
 }
 
 void take_look(ImportForm& form, const ScanPreview& look, bool is_another_scan) {

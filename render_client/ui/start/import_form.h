@@ -41,12 +41,6 @@ inline constexpr double most_imported_voxels = 1.5e9;
 /// Of the preview's voxels and pixels.
 inline constexpr double preview_mm_per_px = 0.5;
 
-/// Of a default, at most.
-inline constexpr double usual_voxels = 2e8;
-/// Likewise of the available memory, for the bone as the server has it: its mirror, the window and the
-/// window's textures hold it again, and half is for others.
-inline constexpr double usual_share_of_memory = 1.0 / 8.0;
-
 double voxels_of(const ImportForm& form);
 /// Of the bone, if all of the region were bone.
 double most_memory_bytes(const ImportForm& form);
@@ -66,9 +60,8 @@ std::vector<std::string> look_command(const std::string& bone_import, const Impo
 std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
                                         const std::filesystem::path& folder);
 
-/// Edge of a voxel where nobody has chosen one: 0.1 mm, of a finer scan its own, 0.02 mm at least; for a
-/// region of more than the usual voxels, or of more memory than usual, as much longer, in steps of 0.05 mm,
-/// or of 0.01 below 0.1.
+/// Edge of a voxel where nobody has chosen one: 0.1 mm, of a finer scan its own, 0.02 mm at least, or longer
+/// (usual_spacing.h).
 double default_spacing_mm(const ImportForm& form, const ScanPreview& look);
 
 /// Takes the result of a preview: its segments, of which known ones keep their settings; and, for another

@@ -18,6 +18,7 @@
 #include "imaging/segmentation/bone_of_labels.h"
 #include "imaging/segmentation/segmentation_file.h"
 #include "tests/support/block_file.h"
+#include "tests/support/dense_bone_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -219,6 +220,28 @@ TEST_F(CaseFolder, IsMadeOfLabelsAlone) {
     ASSERT_EQ(loaded.structures.size(), 1U);
     EXPECT_NEAR(loaded.structures[0].mask.volume_mm3(), std::numbers::pi * 19.7,
                 0.06 * std::numbers::pi * 19.7);
+}
+
+TEST_F(CaseFolder, OfALargeRegionIsCoarserWhereNobodyChose) {
+    const std::filesystem::path labels = where / "jaw.seg.nrrd";
+    write_jaw_labels(labels);
+    std::ostringstream messages;
+    const BegunCase begun = read_case_parts({.labels = {labels}});
+    begin_case(folder);
+    ImportOptions options{.input = labels,
+                          .output = bone_of_case(folder),
+                          .may_be_coarser = true,
+                          .threshold_hu = threshold_of_labels_hu,
+                          .follows_contours = false};
+    // 7400 mm^3 are 7.4 million voxels of 0.1 mm; an eighth of this holds 7.0 million.
+    const ImportSurroundings surroundings{.messages = messages,
+                                          .available_memory_bytes = std::uint64_t{160} << 20};
+    import_bone(options, scan_of_labels(begun, messages), surroundings);
+    EXPECT_THAT(messages.str(), HasSubstr("large to drill: voxels of 0.15 mm instead of 0.10"));
+    EXPECT_EQ(testing::read_bone_file(bone_of_case(folder)).volume.grid.spacing_mm, 0.15);
+    options.may_be_coarser = false;
+    import_bone(options, scan_of_labels(begun, messages), surroundings);
+    EXPECT_EQ(testing::read_bone_file(bone_of_case(folder)).volume.grid.spacing_mm, 0.1);
 }
 
 TEST_F(CaseFolder, OfLabelsSaysWhatIsWrongWithThem) {

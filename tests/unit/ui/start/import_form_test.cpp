@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "common/bone/usual_spacing.h"
+
 namespace osteomill {
 namespace {
 
