@@ -83,8 +83,8 @@ glm::ivec3 margin_voxels(const ImportOptions& options, const SourceImage& image,
 double spacing_for(const Region& region, const ImportOptions& options,
                    const ImportSurroundings& surroundings) {
     if (!options.may_be_coarser) return options.spacing_mm;
-    const double spacing_mm = usual_spacing_mm(region.high_mm - region.low_mm, options.spacing_mm,
-                                               surroundings.available_memory_bytes.value_or(0));
+    // Not by the memory that is free: the same command makes the same bone on each machine.
+    const double spacing_mm = usual_spacing_mm(region.high_mm - region.low_mm, options.spacing_mm, 0);
     if (spacing_mm > options.spacing_mm)
         surroundings.messages << fmt::format(
             "{}: the region is large to drill: voxels of {:.2f} mm instead of {:.2f}; take a smaller "

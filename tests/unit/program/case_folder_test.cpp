@@ -18,12 +18,12 @@
 #include "imaging/segmentation/bone_of_labels.h"
 #include "imaging/segmentation/segmentation_file.h"
 #include "tests/support/block_file.h"
-#include "tests/support/dense_bone_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// Of testing::write_block, and a margin of 2 mm around it where no bone is.
@@ -223,25 +223,27 @@ TEST_F(CaseFolder, IsMadeOfLabelsAlone) {
 }
 
 TEST_F(CaseFolder, OfALargeRegionIsCoarserWhereNobodyChose) {
-    const std::filesystem::path labels = where / "jaw.seg.nrrd";
-    write_jaw_labels(labels);
-    std::ostringstream messages;
-    const BegunCase begun = read_case_parts({.labels = {labels}});
-    begin_case(folder);
-    ImportOptions options{.input = labels,
-                          .output = bone_of_case(folder),
-                          .may_be_coarser = true,
-                          .threshold_hu = threshold_of_labels_hu,
-                          .follows_contours = false};
-    // 7400 mm^3 are 7.4 million voxels of 0.1 mm; an eighth of this holds 7.0 million.
-    const ImportSurroundings surroundings{.messages = messages,
-                                          .available_memory_bytes = std::uint64_t{160} << 20};
-    import_bone(options, scan_of_labels(begun, messages), surroundings);
-    EXPECT_THAT(messages.str(), HasSubstr("large to drill: voxels of 0.15 mm instead of 0.10"));
-    EXPECT_EQ(testing::read_bone_file(bone_of_case(folder)).volume.grid.spacing_mm, 0.15);
-    options.may_be_coarser = false;
-    import_bone(options, scan_of_labels(begun, messages), surroundings);
-    EXPECT_EQ(testing::read_bone_file(bone_of_case(folder)).volume.grid.spacing_mm, 0.1);
+    const std::filesystem::path scan = where / "head.nrrd";
+    {
+        std::ofstream out(scan, std::ios::binary);
+        out << "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 8 8 8\n"
+               "space directions: (20,0,0) (0,20,0) (0,0,20)\nspace origin: (0,0,0)\nencoding: raw\n\n"
+            << std::string(512, '\xfa');
+    }
+    // Said before the scan is read, which is where this ends: the rest takes a while.
+    struct Ends {};
+    const auto voxels_of = [&](bool may_be_coarser) {
+        std::ostringstream messages;
+        const ImportOptions options{.input = scan,
+                                    .output = where / "bone.nrrd",
+                                    .may_be_coarser = may_be_coarser,
+                                    .threshold_hu = 200.0};
+        EXPECT_THROW(import_bone(options, {.messages = messages, .go_on = [] { throw Ends(); }}), Ends);
+        return messages.str();
+    };
+    EXPECT_THAT(voxels_of(true), AllOf(HasSubstr("large to drill: voxels of 0.25 mm instead of 0.10"),
+                                       HasSubstr("become 561 x 561 x 561 of 0.25 mm")));
+    EXPECT_THAT(voxels_of(false), HasSubstr("become 1401 x 1401 x 1401 of 0.1 mm"));
 }
 
 TEST_F(CaseFolder, OfLabelsSaysWhatIsWrongWithThem) {
