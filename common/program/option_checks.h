@@ -1,5 +1,5 @@
-// Checks of options for CLI11, which correct three of the library's own: error messages name no unreachable
-// limit, NaN is refused, and a choice is shown without C++ containers.
+// Checks of options for CLI11, which correct four ways of the library: error messages name no unreachable
+// limit, NaN is refused, a choice is shown without C++ containers, and help is the same text each time.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,15 +19,30 @@ namespace osteomill {
 /// option may be given several. No argument holds this letter.
 inline constexpr char whole_mark = '\1';
 
-/// Lets every option, of subcommands, too, take the mark off what it is given.
-inline void take_marks_off(CLI::App& app) {
+/// Names the options that an option excludes in the order of the alphabet. CLI11 keeps them by address, in
+/// another order in each run, and manual pages are made of this.
+class HelpFormatter : public CLI::Formatter {
+  public:
+    std::string make_option_opts(const CLI::Option* option) const override {
+        const std::string text = CLI::Formatter::make_option_opts(option);
+        std::vector<std::string> names;
+        for (const CLI::Option* other : option->get_excludes()) names.push_back(other->get_name());
+        if (names.empty()) return text;
+        std::ranges::sort(names);
+        const std::string label = " Excludes:";  // the last of what there is to say
+        return fmt::format("{}{} {}", text.substr(0, text.find(label)), label, fmt::join(names, " "));
+    }
+};
+
+/// Lets every option, of subcommands, too, take the mark off what it is given; and gives them their help.
+inline void prepare(CLI::App& app) {
+    app.formatter(std::make_shared<HelpFormatter>());
     for (CLI::Option* option : app.get_options())
         option->transform([](std::string text) {
             if (text.ends_with(whole_mark)) text.pop_back();
             return text;
         });
-    for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; }))
-        take_marks_off(*subcommand);
+    for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) prepare(*subcommand);
 }
 
 /// As CLI11's own, but for arguments that are no plain text (plain_text.h), which are refused: they name
@@ -44,7 +60,7 @@ inline void parse_arguments(CLI::App& app, int argc, const char* const* argv) {
         if (text.ends_with(']') && (text.starts_with('[') || text.find("=[") != std::string::npos))
             arguments.back() += whole_mark;
     }
-    take_marks_off(app);
+    prepare(app);
     if (app.get_name().empty() && argc > 0) app.name(argv[0]);
     app.parse(std::move(arguments));
 }

@@ -8,6 +8,7 @@ namespace osteomill {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 TEST(ParseArguments, TakesNamesAsTheyStandWhereverTheyMayBe) {
     CLI::App app;
@@ -23,6 +24,18 @@ TEST(ParseArguments, TakesNamesAsTheyStandWhereverTheyMayBe) {
     EXPECT_THAT(folders, ElementsAre("[a,b]", "c,d"));
     EXPECT_THAT(parts, ElementsAre("[e,f]", "[g]", "plain"));
     EXPECT_EQ(out, "[x]");
+}
+
+// CLI11 has them by address: in another order each time.
+TEST(ParseArguments, LeavesHelpThatNamesExclusionsInOrder) {
+    CLI::App app;
+    CLI::App* sub = app.add_subcommand("join");
+    CLI::Option* dataset = sub->add_option("--dataset")->type_name("DIR");
+    for (const char* other : {"--speed", "--renderer", "--look", "--cut", "--inset"})
+        dataset->excludes(sub->add_option(other));
+    const char* arguments[] = {"program", "join"};
+    parse_arguments(app, 2, arguments);
+    EXPECT_THAT(sub->help(), HasSubstr("--dataset DIR Excludes: --cut --inset --look --renderer --speed\n"));
 }
 
 TEST(ParseArguments, RefusesWhatIsNoPlainText) {
