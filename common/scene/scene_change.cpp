@@ -65,7 +65,7 @@ void set(toml::table& table, std::string_view key, const std::string& value, boo
             table.insert_or_assign(key, std::move(*parsed.get("value")));
             return;
         }
-    } catch (const SceneError&) {
+    } catch (const NotToml&) {
     }
     table.insert_or_assign(key, value);
 }

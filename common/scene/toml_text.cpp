@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "common/files/input_file.h"
-#include "common/scene/scene_file.h"
 
 namespace osteomill {
 
@@ -77,7 +76,9 @@ class Skimmer {
         const char first = text_[at];
         const bool begins_name =
             is_letter_or_digit(first) || std::string_view("_-\"'").find(first) != std::string_view::npos;
-        if (!begins_name) fail("not TOML: a table's name is missing behind its bracket");
+        if (!begins_name)
+            throw NotToml(
+                fmt::format("{}:{}: not TOML: a table's name is missing behind its bracket", name_, line_));
     }
 
     void skip_string(char quote) {
@@ -128,7 +129,7 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
     try {
         return toml::parse(text, name);
     } catch (const toml::parse_error& error) {
-        throw SceneError(
+        throw NotToml(
             fmt::format("{}:{}: not TOML: {}", name, error.source().begin.line, error.description()));
     }
 }

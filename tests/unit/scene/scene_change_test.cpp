@@ -72,6 +72,8 @@ TEST(SceneChange, ThatIsNoneIsRefusedWithTheNearestKey) {
     EXPECT_THAT(refusal_of({"wall_friction=2"}),
                 HasSubstr("'wall_friction' is 2; it must lie within 0 to 1"));
     EXPECT_THAT(refusal_of({"device..scale=2"}), HasSubstr("is no key"));
+    EXPECT_THAT(refusal_of({"wall_friction=" + std::string(33, '[')}), HasSubstr("more than 32 brackets"))
+        << "too much of TOML, no text";
     EXPECT_THAT(refusal_of({"name=\"a\" # and more"}), HasSubstr("no refusal"));
     EXPECT_THROW(parse_scene_change("wall_friction"), std::invalid_argument);
     EXPECT_THROW(parse_scene_change("=3"), std::invalid_argument);
