@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <optional>
 #include <stdexcept>
-#include <vector>
 
 #include "common/program/progress.h"
-#include "render_client/dataset/camera_file.h"
 #include "render_client/ui/offscreen_run.h"
 #include "render_client/ui/view/film_file.h"
 #include "render_client/ui/view/picture_options.h"
+#include "render_client/ui/view/recording_camera.h"
 #include "render_client/ui/view/session_picture.h"
 #include "render_client/volume/gl/offscreen_context.h"
 
@@ -23,27 +21,6 @@ namespace osteomill {
 namespace {
 
 constexpr int frames_per_s = 30;
-
-/// From where the film is seen: one camera of --camera; without it the trainee's eyes, where they are
-/// recorded, else the first view.
-std::optional<DatasetCamera> camera_of_film(const RenderOptions& options, const RecordingPlayer& player) {
-    const std::string& which = options.film_camera;
-    if (which.empty() && !player.has_view()) return std::nullopt;
-    const std::vector<DatasetCamera> cameras = cameras_named(which.empty() ? "trainee" : which);
-    if (cameras.size() != 1)
-        throw std::runtime_error(fmt::format("{}: a film has one camera, not {}", which, cameras.size()));
-    require_view(
-        cameras, [&] { return player.has_view(); }, *options.replay);
-    return cameras.front();
-}
-
-void aim(SessionPicture& session, const DatasetCamera& camera, double time_s) {
-    session.reset_camera();
-    const std::optional<Viewpoint>& trainee = session.link().view;
-    if (camera.follows_trainee && !trainee) return;  // not yet
-    look_through(session.camera(), camera.pinhole_at(trainee),
-                 camera.pose_at(time_s, pose_of(session.camera()), trainee));
-}
 
 /// Takes in what there is up to where the recording is to be.
 void arrive(SessionPicture& session, const RecordingPlayer& player) {
@@ -62,11 +39,11 @@ RenderReport run_film(const RenderOptions& options, SessionSource& source,
     const gl::OffscreenContext context(options.gpu);
     gl::require_opengl_3_3();
     Panels panels;
-    const std::optional<DatasetCamera> camera = camera_of_film(options, player);
-    const bool has_size = camera && !camera->follows_trainee;
-    const glm::ivec2 size_px = has_size ? camera->pinhole.size_px : default_offscreen_size_px;
-    SessionPicture session(source, panels, options.window_size_px.value_or(size_px), FrameQuality::full,
-                           options.renderer, options.look, options.stereo);
+    RecordingCamera camera(options, &player, player.has_view() ? "trainee" : "");
+    const glm::ivec2 size_px =
+        options.window_size_px.value_or(camera.size_px().value_or(default_offscreen_size_px));
+    SessionPicture session(source, panels, size_px, FrameQuality::full, options.renderer, options.look,
+                           options.stereo);
     take_over(session, options);
     session.view().scale = static_cast<float>(options.ui_scale.value_or(1.0));
 
@@ -81,7 +58,7 @@ RenderReport run_film(const RenderOptions& options, SessionSource& source,
         const auto start = std::chrono::steady_clock::now();
         player.seek(begins_s + frame * frame_s);
         arrive(session, player);
-        if (camera) aim(session, *camera, player.time_s());
+        camera.aim(session);
         film.add(session.draw(1.0 / frames_per_s).read_back());
         frame_times.add(1e3 *
                         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

@@ -10,6 +10,7 @@
 
 #include "render_client/sound/session_sound.h"
 #include "render_client/ui/view/picture_options.h"
+#include "render_client/ui/view/recording_camera.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
@@ -66,6 +67,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
                            FrameQuality::full, options.renderer, options.look, options.stereo);
     take_over(session, options);
     session.view().scale = static_cast<float>(options.ui_scale.value_or(1.0));
+    RecordingCamera camera(options, source.player());
     SessionSound sound;
     if (options.sound) sound.switch_to(true);
     FrameTimes frame_times;
@@ -90,6 +92,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
         // What is written shows the newest figures, too.
         const bool is_written = !going_on || screenshots.is_next_due();
         if (framebuffer == nullptr || redraw.is_due(start) || (is_written && news != SessionNews::none)) {
+            camera.aim(session);
             framebuffer = &session.draw(seconds(start - drawn));
             drawn = start;
             // Reading a pixel waits until the frame is finished, as showing it would.

@@ -17,8 +17,8 @@
 #include "common/program/option_checks.h"
 #include "common/text/words.h"
 #include "render_client/link/recording_player.h"
-#include "render_client/words/translation.h"
 #include "render_client/volume/magnification.h"
+#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -153,7 +153,9 @@ void add_microscope(CLI::App& app, RenderOptions& options) {
 std::string contradiction(const RenderOptions& options) {
     if (options.dataset && !options.replay) return "--dataset needs --replay FILE";
     if (options.film && !options.replay) return "--film needs --replay FILE";
-    if (!options.film_camera.empty() && !options.film) return "--camera needs --film FILE";
+    if (!options.camera.empty() && !options.replay) return "--camera needs --replay FILE";
+    if (!options.camera.empty() && options.dataset)
+        return "--camera: the cameras of a --dataset are --cameras";
     if (options.film && (options.offscreen || !options.screenshots.empty() || options.dataset))
         return "--film goes without --offscreen, --screenshots and --dataset: it has its own pictures";
     if (options.gpu && !options.offscreen && !options.film && !options.dataset)
@@ -240,9 +242,9 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
                    "does it, by the ending of the name (.mp4)")
         ->type_name("FILE");
     app.add_option(
-           "--camera", options.film_camera,
-           "The film is seen by this camera: a TOML file as for --cameras, or trainee: from where the "
-           "one looked who moved the tool (that, where it is recorded)")
+           "--camera", options.camera,
+           "With --replay: seen by this camera, while the recording goes on: a TOML file as for --cameras, "
+           "or trainee: from where the one looked who moved the tool (in a film that, where it is recorded)")
         ->type_name("FILE|trainee");
     app.add_option_function<std::string>(
            "--window-size",

@@ -29,7 +29,8 @@ struct RenderOptions {
     double speed = 1.0;                           ///< of the recording: recorded seconds a second
     double from_s = 0.0;                          ///< where in the recording it begins
     std::optional<std::filesystem::path> film;    ///< made of the recording, offscreen
-    std::string film_camera{};                    ///< as of cameras_named; empty: the trainee's, if recorded
+    std::string camera{};                         ///< of the recording, as of cameras_named; empty: the
+                                                  ///< person's view, in a film the trainee's, if recorded
     RendererChoice renderer = RendererChoice::raycast;
     ShadingSettings look;
     std::filesystem::path

@@ -23,6 +23,7 @@
 #include "render_client/ui/view/drawing_thread.h"
 #include "render_client/ui/view/kept_settings.h"
 #include "render_client/ui/view/picture_options.h"
+#include "render_client/ui/view/recording_camera.h"
 #include "render_client/ui/view/redraw.h"
 #include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
@@ -252,6 +253,7 @@ class Drawing {
         session_.view().scale = static_cast<float>(options_.ui_scale.value_or(input_.content_scale));
         panels_.feed(input_);
         commands_.work_clutch();
+        camera_.aim(session_);
         const gl::Framebuffer& framebuffer = session_.draw(elapsed_s);
         // Dear ImGui took the input in while the panels were drawn; it takes effect in the next frame.
         move_camera(session_, commands_, panels_.wheel_notches(), !drills_);
@@ -317,6 +319,7 @@ class Drawing {
     TransferFile look_{options_.look_file, options_.look.transfer};
     SessionPicture session_;
     Commands commands_;
+    RecordingCamera camera_{options_, source_.player()};
     SessionSound sound_;
     Screenshots screenshots_;
     FrameTimes frame_times_;

@@ -362,6 +362,17 @@ TEST_F(WindowTest, IsRecordedFromWhereTheTraineeLooksAndSeenFromThereAgain) {
                                           folder("film.mkv"), "-update", "1", folder("last.png")});
     ASSERT_EQ(picture.status, 0) << picture.err;
     EXPECT_LT(difference(read_png(folder("last.png")), seen), 0.1);
+
+    // In a window, and it is the person's to turn where the recording stands.
+    window_.emplace(
+        display_->shown_here({RENDER_CLIENT, "--replay", folder("session.pcap"), "--camera", "trainee",
+                              "--speed", "100", "--window-size", "480x360", "--no-panels"}));
+    ASSERT_TRUE(
+        display_->xdotool({"search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus"}));
+    EXPECT_TRUE(comes_true([&] { return difference(display_->screen(), seen) < 0.1; }));
+    ASSERT_TRUE(display_->xdotool({"mousedown", "3", "mousemove_relative", "60", "20"}));
+    EXPECT_TRUE(comes_true([&] { return difference(display_->screen(), seen) > 0.2; }));
+    ASSERT_TRUE(display_->xdotool({"mouseup", "3"}));
 }
 
 TEST_F(WindowTest, ImportsAScanAndStartsASessionOfItByMouse) {

@@ -310,7 +310,9 @@ class DatasetTest(unittest.TestCase):
                                  (("--replay", "s.pcap", "--dataset", "x", "--cameras", "trainee"), "s.pcap: does not say from where the trainee looked"),
                                  (("--replay", "s.pcap", "--film", "x.mp4", "--camera", "trainee"), "s.pcap: does not say from where"),
                                  (("--replay", "s.pcap", "--film", "x.mp4", "--camera", "cameras.toml"), "one camera, not 3"),
-                                 (("--replay", "s.pcap", "--camera", "trainee"), "--camera needs --film"),
+                                 (("--camera", "trainee"), "--camera needs --replay"),
+                                 (("--replay", "s.pcap", "--offscreen", "--camera", "trainee"), "s.pcap: does not say from where"),
+                                 (("--replay", "s.pcap", "--dataset", "x", "--camera", "trainee"), "are --cameras"),
                                  (("--replay", "s.pcap", "--dataset", "x", "--cameras", "none.toml"), "none.toml"),
                                  (("--replay", "s.pcap", "--dataset", "x", "--from-s", "9"), "no state from 9 s on"),
                                  (("--replay", "hand.csv", "--dataset", "x"), "hand.csv")):
