@@ -5,10 +5,12 @@
 //     r = x - p,  o = r - clamp(r, -q/2, q/2)      how far p lies outside the encoder's cell around x
 //     s = clamp(o, -q, q),  h = o - s              up to a step of it, and what is beyond
 //     x^ = p + c s + h,  v^ += (a s + b h) / dt    (an alpha-beta filter with a dead zone)
+//     |v^| <= q / t                                t: for which the reading has stayed within half a step
 //
 // Within a cell nothing is proven, and the estimate is drawn to its middle, from which it strays by no more
 // than v^ tau. Left at the edge where the last motion brought it, it would have to jump a whole step when the
-// hand leaves by the other one.
+// hand leaves by the other one. A hand that moved on would have reached the next cell: so v^ falls the longer
+// the reading stays, or the burr would stand v^ tau ahead of a hand that stands still, for good.
 //
 // A steadily moving hand reads as a staircase; rendered by a spring of 1.5 N/mm each step of 0.055 mm would
 // be felt as 0.08 N. The estimate glides instead. Where bone is cut, a step that was not expected is made up
@@ -19,6 +21,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
@@ -49,6 +52,8 @@ class PositionObserver {
         if (!placed_) {
             estimate_mm_ = reading_mm;
             velocity_mm_per_s_ = glm::dvec3(0.0);
+            stayed_at_mm_ = reading_mm;
+            stayed_s_ = glm::dvec3(0.0);
             placed_ = true;
             return estimate_mm_;
         }
@@ -63,14 +68,30 @@ class PositionObserver {
         velocity_mm_per_s_ +=
             ((on_wall ? velocity_share : gentle_velocity_share) * first_step + velocity_share * beyond) /
             tick_s;
+        slow_down(reading_mm, tick_s);
         return estimate_mm_;
     }
 
   private:
+    void slow_down(const glm::dvec3& reading_mm, double tick_s) noexcept {
+        for (int i = 0; i < 3; ++i) {
+            stayed_s_[i] += tick_s;
+            if (std::abs(reading_mm[i] - stayed_at_mm_[i]) >= half_step_mm_) {
+                stayed_at_mm_[i] = reading_mm[i];
+                stayed_s_[i] = 0.0;
+                continue;
+            }
+            const double most_mm_per_s = 2.0 * half_step_mm_ / stayed_s_[i];
+            velocity_mm_per_s_[i] = std::clamp(velocity_mm_per_s_[i], -most_mm_per_s, most_mm_per_s);
+        }
+    }
+
     double half_step_mm_;
     bool placed_ = false;
     glm::dvec3 estimate_mm_{0.0};
     glm::dvec3 velocity_mm_per_s_{0.0};
+    glm::dvec3 stayed_at_mm_{0.0};
+    glm::dvec3 stayed_s_{0.0};
 };
 
 }  // namespace osteomill

@@ -60,6 +60,23 @@ TEST(PositionObserver, ComesToRestWithTheHand) {
     EXPECT_NEAR(before, quantised(2.0), 0.5 * step_mm + 1e-12);
 }
 
+TEST(PositionObserver, ComesToAHandThatStandsStillHoweverItCame) {
+    for (const double mm_per_s : {0.5, 1.0, 3.0, 20.0, -20.0}) {
+        for (const bool is_exact : {false, true}) {  // as a hand on rails is read
+            for (const bool on_wall : {false, true}) {
+                PositionObserver observer(step_mm);
+                const auto read = [&](double x) { return is_exact ? x : quantised(x); };
+                double estimate = 0.0;
+                for (int tick = 0; tick < 3000; ++tick) {
+                    const double true_mm = mm_per_s * tick_s * std::min(tick, 2000);
+                    estimate = observer.update({read(true_mm), 0.0, 0.0}, tick_s, on_wall).x;
+                }
+                EXPECT_NEAR(estimate, read(mm_per_s * 2.0), 0.05 * step_mm) << mm_per_s;
+            }
+        }
+    }
+}
+
 TEST(PositionObserver, IsDrawnIntoTheCell) {
     PositionObserver observer(step_mm);
     observer.update({0.0, 0.0, 0.0}, tick_s);
