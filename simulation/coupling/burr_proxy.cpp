@@ -47,7 +47,7 @@ glm::dvec3 no_longer_than(const glm::dvec3& step_mm, double longest_mm) {
 }  // namespace
 
 void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
-    position_mm_ = carving_mm_ = target_mm_ = position_mm;
+    position_mm_ = carving_mm_ = target_mm_ = hand_mm_ = position_mm;
     apart_mj_ = 0.0;
     map_step_ = 0;
     walls_ = {};
@@ -194,8 +194,8 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
     return solved;
 }
 
-void BurrProxy::move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, double tick_s) noexcept {
-    const glm::dvec3 hand_step_mm = target_mm - target_mm_;
+void BurrProxy::move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, const glm::dvec3& hand_step_mm,
+                     double tick_s) noexcept {
     const glm::dvec3 slowed_mm =
         hand_step_mm + no_longer_than(step_mm - hand_step_mm, most_slip_mm_per_s_ * tick_s);
     if (glm::length(slowed_mm) < glm::length(step_mm))
@@ -204,10 +204,10 @@ void BurrProxy::move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, dou
         position_mm_ = step_mm == target_mm - position_mm_ ? target_mm : position_mm_ + step_mm;
 }
 
-void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
-                           const Engagement& engagement) noexcept {
+void BurrProxy::cut_toward(const glm::dvec3& target_mm, const glm::dvec3& hand_mm, const LinearPull& pull,
+                           double tick_s, const Engagement& engagement) noexcept {
     const glm::dvec3 pull_mm = target_mm - position_mm_;
-    const glm::dvec3 hand_step_mm = target_mm - target_mm_;
+    const glm::dvec3 hand_step_mm = hand_mm - hand_mm_;
     apart_mj_ *= std::max(0.0, 1.0 - tick_s / apart_memory_s);
     // The force may turn the step sideways, but hardly makes it longer than the pull (K_r, K_a >= 0).
     const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
@@ -224,7 +224,7 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, 
     apart_mj_ = std::clamp(apart_mj_ + drive_mj(cutting_n, solved.step_mm, hand_step_mm), 0.0,
                            scale_.energy_mj(most_apart_mj));
 
-    move(solved.step_mm, target_mm, tick_s);
+    move(solved.step_mm, target_mm, hand_step_mm, tick_s);
     correction_.add_prediction(cutting_n, tick_s);
     remember_cuts(engagement);
     trail(solved.bone_force_n != glm::dvec3(0.0), engagement);
@@ -239,7 +239,7 @@ void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull
     apart_mj_ = 0.0;
     if (contacts.empty()) {
         walls_ = {};
-        move(pull_mm, target_mm, tick_s);
+        move(pull_mm, target_mm, target_mm - target_mm_, tick_s);
         return;
     }
     const ContactStep solved = relaxed_step(pull, contacts);
@@ -255,28 +255,29 @@ void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull
     if (glm::length(pull_mm - step_mm) > glm::length(target_mm_ - position_mm_))
         position_mm_ += step_mm;
     else
-        move(step_mm, target_mm, tick_s);
+        move(step_mm, target_mm, target_mm - target_mm_, tick_s);
 }
 
-void BurrProxy::advance(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, bool spindle_on,
-                        const MillingResult& latest) noexcept {
+void BurrProxy::advance(const glm::dvec3& target_mm, const glm::dvec3& hand_mm, const LinearPull& pull,
+                        double tick_s, bool spindle_on, const MillingResult& latest) noexcept {
     take_over(latest);
     iterations_ = 0;
     if (spindle_on)
-        cut_toward(target_mm, pull, tick_s, latest.engagement);
+        cut_toward(target_mm, hand_mm, pull, tick_s, latest.engagement);
     else
         press_toward(target_mm, pull, tick_s, Meets::all_as_walls, latest.engagement);
     if (!spindle_on) carving_mm_ = position_mm_;
     target_mm_ = target_mm;
+    hand_mm_ = hand_mm;
 }
 
-void BurrProxy::advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
+void BurrProxy::advance_on_walls(const glm::dvec3& hand_mm, const LinearPull& pull, double tick_s,
                                  const MillingResult& latest) noexcept {
     take_over(latest);
     iterations_ = 0;
-    press_toward(target_mm, pull, tick_s, Meets::walls_only, latest.engagement);
+    press_toward(hand_mm, pull, tick_s, Meets::walls_only, latest.engagement);
     carving_mm_ = position_mm_;
-    target_mm_ = target_mm;
+    target_mm_ = hand_mm_ = hand_mm;
 }
 
 }  // namespace osteomill

@@ -78,14 +78,15 @@ class BurrProxy {
     /// Puts the proxy somewhere, without any known contact.
     void place(const glm::dvec3& position_mm) noexcept;
 
-    /// One tick of `tick_s` toward `target_mm` (patient LPS), where the hand is; `pull` is the coupling's on
-    /// the burr. In free air the proxy follows to the target. Real-time safe.
-    void advance(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, bool spindle_on,
-                 const MillingResult& latest) noexcept;
+    /// One tick of `tick_s` toward `target_mm` (patient LPS), where the proxy follows to in free air; `pull`
+    /// is the coupling's on the burr. `hand_mm` is where the hand is: by its step bone is held to give it no
+    /// energy, and the spring to let go gently. Real-time safe.
+    void advance(const glm::dvec3& target_mm, const glm::dvec3& hand_mm, const LinearPull& pull,
+                 double tick_s, bool spindle_on, const MillingResult& latest) noexcept;
 
-    /// The same with only the bone that no burr cuts, spindle on or off: for couplings whose burr is
-    /// otherwise free.
-    void advance_on_walls(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
+    /// The same with only the bone that no burr cuts, spindle on or off, toward the hand: for couplings whose
+    /// burr is otherwise free.
+    void advance_on_walls(const glm::dvec3& hand_mm, const LinearPull& pull, double tick_s,
                           const MillingResult& latest) noexcept;
 
     const glm::dvec3& position_mm() const { return position_mm_; }
@@ -148,13 +149,15 @@ class BurrProxy {
     ContactStep balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm, double tick_s,
                                   std::span<const Contact> contacts, const Engagement& engagement) noexcept;
     /// With the spindle on.
-    void cut_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s,
-                    const Engagement& engagement) noexcept;
+    void cut_toward(const glm::dvec3& target_mm, const glm::dvec3& hand_mm, const LinearPull& pull,
+                    double tick_s, const Engagement& engagement) noexcept;
     /// Without cutting.
     void press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, Meets meets,
                       const Engagement& engagement) noexcept;
-    /// By a step toward the target, or as much of it as the spring may let go of in a tick.
-    void move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, double tick_s) noexcept;
+    /// By a step toward the target, or as much of it as the spring may let go of in a tick beside a hand that
+    /// steps itself.
+    void move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, const glm::dvec3& hand_step_mm,
+              double tick_s) noexcept;
 
     double wall_friction_;
     ArmScale scale_;
@@ -163,7 +166,8 @@ class BurrProxy {
     glm::dvec3 position_mm_{0.0};
     glm::dvec3 carving_mm_{0.0};
     glm::dvec3 target_mm_{0.0};  // of the last tick
-    double apart_mj_ = 0.0;      // that bone lately spent on setting burr and hand apart
+    glm::dvec3 hand_mm_{0.0};    // of the last tick
+    double apart_mj_ = 0.0;    // that bone lately spent on setting burr and hand apart
     std::uint64_t map_step_ = 0;
     ForceCorrection correction_;
     SolveCounts counts_;

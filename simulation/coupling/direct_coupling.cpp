@@ -22,7 +22,7 @@ const glm::dvec3& DirectCoupling::follow_wall(const HandState& hand, const Milli
     if (hand.spindle_on)
         wall_.advance_on_walls(hand_mm, pull, hand.tick_s, latest);
     else
-        wall_.advance(hand_mm, pull, hand.tick_s, false, latest);
+        wall_.advance(hand_mm, hand_mm, pull, hand.tick_s, false, latest);
     return wall_.position_mm();
 }
 

@@ -17,7 +17,7 @@ CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult
     const bool on_wall = !hand.spindle_on || proxy_.touches_wall();
     const glm::dvec3 position_mm = hand_.update(hand.pose.position_mm, hand.tick_s, on_wall);
     const LinearPull pull = spring_.follow_hand(position_mm, hand.tick_s);
-    proxy_.advance(position_mm, pull, hand.tick_s, hand.spindle_on, latest);
+    proxy_.advance(position_mm, position_mm, pull, hand.tick_s, hand.spindle_on, latest);
     return {.force_n = spring_.follow_burr(proxy_.position_mm(), hand.tick_s),
             .burr_pose = {proxy_.carving_mm(), hand.pose.spindle_axis},
             .shank_torque_n_mm = proxy_.shank_torque_n_mm()};

@@ -23,7 +23,8 @@ CouplingOutput VirtualCoupling::tick(const HandState& hand, const MillingResult&
         velocity_mm_per_s_ = glm::dvec3(0.0);
         placed_ = true;
     }
-    LinearPull pull = tie_.follow_hand(hand_.update(hand.pose.position_mm, hand.tick_s), hand.tick_s);
+    const glm::dvec3 hand_mm = hand_.update(hand.pose.position_mm, hand.tick_s);
+    LinearPull pull = tie_.follow_hand(hand_mm, hand.tick_s);
     const double inertia_n_s_per_mm = mass_n_s2_per_mm_ / hand.tick_s;
     pull.offset_n += inertia_n_s_per_mm * velocity_mm_per_s_;
     pull.stiffness_n_per_mm += inertia_n_s_per_mm / hand.tick_s;
@@ -33,7 +34,7 @@ CouplingOutput VirtualCoupling::tick(const HandState& hand, const MillingResult&
         pull.offset_n += latest.force_n;
         tool_.place(from_mm + pull.free_step_mm());
     } else {
-        tool_.advance(from_mm + pull.free_step_mm(), pull, hand.tick_s, hand.spindle_on, latest);
+        tool_.advance(from_mm + pull.free_step_mm(), hand_mm, pull, hand.tick_s, hand.spindle_on, latest);
     }
     velocity_mm_per_s_ = (tool_.position_mm() - from_mm) / hand.tick_s;
     return {.force_n = tie_.follow_burr(tool_.position_mm(), hand.tick_s),

@@ -48,8 +48,8 @@ PressedResult press(const PressedStroke& stroke) {
         // Below the burr by what makes the spring pull with the load, wherever the burr is.
         const glm::dvec3 hand_mm(tick * tick_s * stroke.feed_mm_per_s, 0.0,
                                  proxy.position_mm().z - stroke.load_n / guide_n_per_mm);
-        proxy.advance(hand_mm, {guide_n_per_mm * (hand_mm - proxy.position_mm()), guide_n_per_mm}, tick_s,
-                      true, *latest);
+        proxy.advance(hand_mm, hand_mm, {guide_n_per_mm * (hand_mm - proxy.position_mm()), guide_n_per_mm},
+                      tick_s, true, *latest);
         mill(proxy.carving_mm());
         if (radius_mm - proxy.position_mm().z > 0.9 * radius_mm) return {.sinks = true};
         if (tick <= measured_from) continue;

@@ -28,7 +28,7 @@ constexpr double most_slip_mm = 0.001 * BurrProxy::most_release_n_per_s / 1.5;
 /// A tick toward a hand on a spring of 1.5 N/mm.
 void advance(BurrProxy& proxy, const glm::dvec3& hand_mm, double tick_s, bool spindle_on,
              const MillingResult& bone) {
-    proxy.advance(hand_mm, {1.5 * (hand_mm - proxy.position_mm()), 1.5}, tick_s, spindle_on, bone);
+    proxy.advance(hand_mm, hand_mm, {1.5 * (hand_mm - proxy.position_mm()), 1.5}, tick_s, spindle_on, bone);
 }
 
 TEST(BurrProxy, FollowsTheHandThroughAir) {

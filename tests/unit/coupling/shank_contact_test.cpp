@@ -31,8 +31,8 @@ std::unique_ptr<MillingResult> wall_along_x(double gap_mm) {
 }
 
 void advance(BurrProxy& proxy, const glm::dvec3& hand_mm, bool spindle_on, const MillingResult& bone) {
-    proxy.advance(hand_mm, {spring_n_per_mm * (hand_mm - proxy.position_mm()), spring_n_per_mm}, 0.001,
-                  spindle_on, bone);
+    proxy.advance(hand_mm, hand_mm, {spring_n_per_mm * (hand_mm - proxy.position_mm()), spring_n_per_mm},
+                  0.001, spindle_on, bone);
 }
 
 TEST(ShankContact, IsAWallWithTheSpindleOnAndOff) {
