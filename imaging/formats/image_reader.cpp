@@ -68,6 +68,11 @@ bool is_meta_image(const ImageStart& start) {
            text.substr(0, text.find('\0')).find("\nNDims") != std::string_view::npos;
 }
 
+bool has_dicom_mark(const ImageStart& start) {
+    const std::string_view text(reinterpret_cast<const char*>(start.bytes.data()), start.bytes.size());
+    return text.size() >= 132 && text.substr(128, 4) == "DICM";
+}
+
 bool is_stack(const ImageStart& start) {
     using namespace std::string_view_literals;
     if (start.is_folder) return is_picture_folder(start.path, start.choice.stack_spacing_mm.has_value());
@@ -114,7 +119,10 @@ constexpr std::array image_formats{
         "NIfTI",
         {".nii", ".nii.gz"},
         [](const ImageStart& start) {
-            return begins_as_nifti(start.bytes) || (!start.is_folder && is_nifti_voxel_file(start.path));
+            // Others call their files .img, too.
+            const bool is_another = is_meta_image(start) || has_dicom_mark(start);
+            return begins_as_nifti(start.bytes) ||
+                   (!start.is_folder && !is_another && is_nifti_voxel_file(start.path));
         },
         [](const ImageStart& start, ImagePurpose) { return opened(start.path, open_nifti(start.path)); }},
     ImageFormat{"folder of PNG or TIFF pictures",
@@ -160,6 +168,7 @@ OpenedImage open_any(const std::filesystem::path& path, const ImageChoice& choic
 
 bool is_image_name(const std::filesystem::path& path) {
     const std::string name = lower_case(path.filename().string());
+    if (is_of_the_desktop(path)) return false;
     return std::ranges::any_of(image_formats, [&](const ImageFormat& one) {
         return std::ranges::any_of(
             one.endings, [&](std::string_view ending) { return !ending.empty() && name.ends_with(ending); });

@@ -23,15 +23,18 @@ namespace osteomill {
 
 namespace {
 
+/// LONG has 32 bits wherever it is written, as MetaIO has it.
 struct MetaElement {
     const char* name;
     VoxelType type;
 };
 constexpr std::array elements{
-    MetaElement{"MET_CHAR", VoxelType::int8},     MetaElement{"MET_UCHAR", VoxelType::uint8},
-    MetaElement{"MET_SHORT", VoxelType::int16},   MetaElement{"MET_USHORT", VoxelType::uint16},
-    MetaElement{"MET_INT", VoxelType::int32},     MetaElement{"MET_UINT", VoxelType::uint32},
-    MetaElement{"MET_FLOAT", VoxelType::float32}, MetaElement{"MET_DOUBLE", VoxelType::float64}};
+    MetaElement{"MET_CHAR", VoxelType::int8},       MetaElement{"MET_UCHAR", VoxelType::uint8},
+    MetaElement{"MET_SHORT", VoxelType::int16},     MetaElement{"MET_USHORT", VoxelType::uint16},
+    MetaElement{"MET_INT", VoxelType::int32},       MetaElement{"MET_UINT", VoxelType::uint32},
+    MetaElement{"MET_LONG", VoxelType::int32},      MetaElement{"MET_ULONG", VoxelType::uint32},
+    MetaElement{"MET_LONG_LONG", VoxelType::int64}, MetaElement{"MET_ULONG_LONG", VoxelType::uint64},
+    MetaElement{"MET_FLOAT", VoxelType::float32},   MetaElement{"MET_DOUBLE", VoxelType::float64}};
 
 /// The fields, in whose terms every complaint is made.
 class MetaFields {
@@ -163,15 +166,15 @@ void read_element(const MetaFields& fields, ImageHeader& header) {
                                     [&](const MetaElement& element) { return type == element.name; });
     if (known == elements.end())
         fields.refuse("ElementType",
-                      "is not read; it must be MET_CHAR, UCHAR, SHORT, USHORT, INT, UINT, "
-                      "FLOAT or DOUBLE");
+                      "is not read; it must be MET_CHAR, UCHAR, SHORT, USHORT, INT, UINT, LONG, ULONG, "
+                      "LONG_LONG, ULONG_LONG, FLOAT or DOUBLE");
     header.voxels.type = known->type;
     if (fields.whole("ElementNumberOfChannels", 1) != 1)
         fields.refuse("ElementNumberOfChannels", "means colour or vectors; CT has one value a voxel");
     const std::string order = fields.name_of({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"});
     header.voxels.big_endian = !order.empty() && fields.truth(order, false);
     header.encoding = fields.truth("CompressedData", false) ? Encoding::zlib_or_gzip : Encoding::raw;
-    if (!fields.truth("BinaryData", false)) header.encoding = Encoding::text;
+    if (!fields.truth("BinaryData", true)) header.encoding = Encoding::text;
     header.byte_skip = fields.whole("HeaderSize", 0);
     constexpr std::int64_t most_skipped = std::int64_t{1} << 40;
     if (header.byte_skip > most_skipped || header.byte_skip < (header.encoding == Encoding::raw ? -1 : 0))

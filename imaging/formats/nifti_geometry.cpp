@@ -144,7 +144,8 @@ void read_nifti_geometry(const NiftiStatements& stated, const std::filesystem::p
             image.notes.push_back(fmt::format("{}: warning: {}; the sform is followed", path.string(), both));
         }
     } else if (stated.qform <= 0) {
-        note_guessed_orientation(image, path, "it has neither a qform nor a sform");
+        note_guessed_orientation(image, path, "it has neither a qform nor a sform",
+                                 "right-anterior-superior (RAS)");
     }
     settle_geometry(image, path);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -92,9 +93,14 @@ std::filesystem::path other_of_pair(const std::filesystem::path& path, const cha
     if (stem.extension() == ".gz") stem.replace_extension();
     stem.replace_extension();
     std::filesystem::path found;
-    for (const std::string& ending : {std::string(suffix), std::string(suffix) + ".gz"}) {
+    std::string upper = suffix;
+    std::ranges::transform(upper, upper.begin(), [](unsigned char letter) { return std::toupper(letter); });
+    for (const std::string& ending :
+         {std::string(suffix), std::string(suffix) + ".gz", upper, upper + ".GZ"}) {
         const std::filesystem::path candidate = stem.string() + ending;
         if (!std::filesystem::exists(candidate)) continue;
+        // A disk may take capitals for small letters.
+        if (!found.empty() && std::filesystem::equivalent(found, candidate)) continue;
         if (!found.empty())
             throw ImagingError(path, fmt::format("has both {} and {} beside it; which is meant?",
                                                  found.filename().string(), candidate.filename().string()));

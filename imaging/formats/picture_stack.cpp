@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -64,7 +65,8 @@ std::vector<std::filesystem::path> picture_files(const std::filesystem::path& fo
     std::vector<std::filesystem::path> files;
     std::error_code failed;
     for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
-        if (is_tiff_name(entry.path()) || lower_extension(entry.path()) == ".png")
+        if (!is_of_the_desktop(entry.path()) &&
+            (is_tiff_name(entry.path()) || lower_extension(entry.path()) == ".png"))
             files.push_back(entry.path());
     std::ranges::sort(files, [](const auto& a, const auto& b) {
         return comes_before(a.filename().string(), b.filename().string());
@@ -92,6 +94,11 @@ SlicePicture read(const Page& page) {
 
 }  // namespace
 
+bool is_of_the_desktop(const std::filesystem::path& path) {
+    const std::string name = lower_case(path.filename().string());
+    return name.starts_with('.') || name == "thumbs.db" || name == "desktop.ini";
+}
+
 glm::dvec3 parse_stack_spacing(const std::string& text) {
     const auto mm = listed_numbers<3>(text);
     if (!mm || !std::ranges::all_of(*mm, [](double length) { return length > 0.0; }))
@@ -102,8 +109,10 @@ glm::dvec3 parse_stack_spacing(const std::string& text) {
 
 bool is_picture_folder(const std::filesystem::path& folder, bool has_spacing) {
     const auto pictures = static_cast<std::ptrdiff_t>(picture_files(folder).size());
-    return pictures > 0 &&
-           (has_spacing || std::distance(std::filesystem::directory_iterator(folder), {}) == pictures);
+    return pictures > 0 && (has_spacing || std::count_if(std::filesystem::directory_iterator(folder), {},
+                                                         [](const auto& entry) {
+                                                             return !is_of_the_desktop(entry.path());
+                                                         }) == pictures);
 }
 
 OpenedImage open_picture_stack(const std::filesystem::path& path,

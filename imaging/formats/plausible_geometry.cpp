@@ -17,7 +17,7 @@ namespace {
 /// Cosine between two axes above which an image counts as sheared; 1e-3 is 0.06 degrees.
 constexpr double perpendicular_tolerance = 1e-3;
 /// Directions are printed with six digits: what is off by more is worth a word.
-constexpr double printed_cosine = 1e-5;
+constexpr double printed_cosine = 2e-4;
 
 struct AxisPair {
     int a = 0;
@@ -102,7 +102,7 @@ double shear_of(const SourceImage& image) {
 
 std::string sheared_axes(const SourceImage& image) {
     const AxisPair pair = most_sheared(image);
-    return fmt::format("its axes {} and {} are {:.3g} degrees apart", "ijk"[pair.a], "ijk"[pair.b],
+    return fmt::format("its axes {} and {} are {:.2f} degrees apart", "ijk"[pair.a], "ijk"[pair.b],
                        glm::degrees(std::acos(std::clamp(pair.cosine, -1.0, 1.0))));
 }
 
@@ -124,10 +124,10 @@ void settle_geometry(SourceImage& image, const std::filesystem::path& path) {
     }
 }
 
-void note_guessed_orientation(SourceImage& image, const std::filesystem::path& path, const std::string& why) {
-    image.notes.push_back(
-        fmt::format("{}: warning: {}; left and right are a guess (taken as left-posterior-superior, LPS)",
-                    path.string(), why));
+void note_guessed_orientation(SourceImage& image, const std::filesystem::path& path, const std::string& why,
+                              const char* taken_as) {
+    image.notes.push_back(fmt::format("{}: warning: {}; left and right are a guess (taken as {})",
+                                      path.string(), why, taken_as));
 }
 
 }  // namespace osteomill

@@ -49,8 +49,9 @@ void require_plausible_geometry(const SourceImage& image);
 /// Then as require_plausible_geometry, but throws ImagingError, naming `path`.
 void settle_geometry(SourceImage& image, const std::filesystem::path& path);
 
-/// Notes that nothing says how the image lies in the patient, so that left and right are a guess.
+/// Notes that nothing says how the image lies in the patient, so that left and right are a guess: `taken_as`.
 void note_guessed_orientation(SourceImage& image, const std::filesystem::path& path,
-                              const std::string& why = "its header says nothing of orientation");
+                              const std::string& why = "its header says nothing of orientation",
+                              const char* taken_as = "left-posterior-superior (LPS)");
 
 }  // namespace osteomill

@@ -29,6 +29,7 @@ constexpr float lowest_air_hu = -1100.0F;
 /// A constant near -1000 in more of a scan is its air, not what lies outside of a round field of view.
 constexpr double most_padding_like_air = 0.25;
 constexpr int highest_of_cut_off_air = 5;
+constexpr double least_share_cut_off = 0.02;
 constexpr double least_share_of_air = 0.05;
 /// Bone, on a scale that is off by as much as air is.
 constexpr int highest_of_soft_tissue_with_offset = 1300;
@@ -120,10 +121,13 @@ std::string HuHistogram::doubt() const {
         below += count;
         return 2 * below >= near_zero;
     });
-    // Where air was not cut off, its middle is 0; where it was, nothing of it is missing at 0.
-    if ((lowest_of_field < lowest_of_air_cut_off || lowest_of_field > highest_of_cut_off_air) &&
-        hu_of(median - count_of_hu_.begin()) > most_of_median_of_air)
-        return {};
+    // Where air was not cut off, its middle is 0; where it was, much of it is at the lowest value.
+    const auto cut_off =
+        std::accumulate(begin, begin + (highest_of_cut_off_air + 1 - lowest_of_stored_air), std::uint64_t{0});
+    const bool is_cut_off =
+        lowest_of_field >= lowest_of_air_cut_off &&
+        static_cast<double>(cut_off) > least_share_cut_off * static_cast<double>(near_zero);
+    if (!is_cut_off && hu_of(median - count_of_hu_.begin()) > most_of_median_of_air) return {};
     return fmt::format(
         "nothing is below {}{} and {:.0f} % are near 0, as where air is stored as 0; in HU air is -1000: "
         "bone_import --rescale 1,-1024 (or 1,-1000) makes HU of them",

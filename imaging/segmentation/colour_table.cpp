@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/files/input_file.h"
@@ -113,7 +115,10 @@ struct CsvColumns {
 }  // namespace
 
 ColourTable read_colour_table(const std::filesystem::path& path) {
-    std::istringstream in(read_text(path, {"a colour table", most_table_bytes}));
+    std::string text = read_text(path, {"a colour table", most_table_bytes});
+    // As old programs of the Macintosh end lines.
+    if (text.find('\n') == std::string::npos) std::ranges::replace(text, '\r', '\n');
+    std::istringstream in(std::move(text));
     ColourTable table;
     std::optional<CsvColumns> columns;
     int number = 0;

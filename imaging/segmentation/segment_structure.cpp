@@ -69,6 +69,14 @@ std::optional<glm::ivec3> place_on_lattice(const SourceImage& image, const Grid&
     return glm::ivec3(place);
 }
 
+/// The same with so many voxels more on every side, in which nothing is labelled: a file may be cut as close
+/// as its segments go, and its last voxels must not go on beyond it.
+SourceImage padded_by(int margin, SourceImage image) {
+    image.origin_mm = position_mm(image, glm::dvec3(-margin));
+    image.size_voxels += 2 * margin;
+    return image;
+}
+
 StructureMask on_lattice(const Segmentation& segmentation, const Segment& segment, const glm::ivec3& place,
                          const Grid& grid) {
     const glm::ivec3 size = size_in_bricks(grid);
@@ -149,11 +157,11 @@ std::int16_t level_of(const Refiner& refiner, const Grid& grid, double wanted_vo
 StructureMask structure_of(const Segmentation& segmentation, const Segment& segment, const Grid& grid) {
     require_valid(grid);
     const std::optional<ImageBox> bounds = bounds_of(segmentation, segment);
-    const SourceImage& image = segmentation.image;
-    if (const auto place = place_on_lattice(image, grid); place && bounds)
+    const SourceImage& stored = segmentation.image;
+    if (const auto place = place_on_lattice(stored, grid); place && bounds)
         return on_lattice(segmentation, segment, *place, grid);
     const std::optional<VoxelBounds> bricks =
-        bounds ? bricks_over(image, *bounds, grid) : std::optional<VoxelBounds>();
+        bounds ? bricks_over(stored, *bounds, grid) : std::optional<VoxelBounds>();
     if (!bricks) return {grid, {}};
 
     Grid part_grid{.size_voxels = glm::min((bricks->last + 1) * brick_edge_voxels, grid.size_voxels) -
@@ -161,11 +169,11 @@ StructureMask structure_of(const Segmentation& segmentation, const Segment& segm
                    .spacing_mm = grid.spacing_mm,
                    .origin_mm = centre_of_voxel_mm(grid, bricks->first * brick_edge_voxels)};
     const glm::dvec3 end_mm = centre_of_voxel_mm(part_grid, part_grid.size_voxels - 1);
-    const double finest_mm = std::min({image.spacing_mm.x, image.spacing_mm.y, image.spacing_mm.z});
+    const double finest_mm = std::min({stored.spacing_mm.x, stored.spacing_mm.y, stored.spacing_mm.z});
     const int margin = refine_margin_voxels + static_cast<int>(2.0 * grid.spacing_mm / finest_mm);
+    const SourceImage image = padded_by(margin, stored);
     const ImageBox reach = voxels_for(image, {part_grid.origin_mm, end_mm}, glm::ivec3(margin));
-    const ImageBox box{glm::max(reach.first, bounds->first - margin),
-                       glm::min(reach.last, bounds->last + margin)};
+    const ImageBox box{glm::max(reach.first, bounds->first), glm::min(reach.last, bounds->last + 2 * margin)};
     if (glm::any(glm::greaterThan(box.first, box.last))) return {grid, {}};
 
     std::vector<float> values(voxel_count(box));
@@ -173,10 +181,13 @@ StructureMask structure_of(const Segmentation& segmentation, const Segment& segm
                              static_cast<std::size_t>(image.size_voxels.y));
     for (int k = box.first.z; k <= box.last.z; ++k) {
         std::ranges::fill(slice, 0.0F);
-        for (int j = box.first.y; j <= box.last.y; ++j) {
-            const auto row = slice.begin() + static_cast<std::ptrdiff_t>(image.size_voxels.x) * j;
+        const int first_row = std::max(box.first.y - margin, 0);
+        const int past_row = std::min(box.last.y - margin + 1, stored.size_voxels.y);
+        for (int j = first_row; k >= margin && k - margin < stored.size_voxels.z && j < past_row; ++j) {
+            const auto row =
+                slice.begin() + static_cast<std::ptrdiff_t>(image.size_voxels.x) * (j + margin) + margin;
             std::int32_t first = 0;
-            for (const LabelRows::Run& run : segmentation.labels.row(segment.layer, j, k)) {
+            for (const LabelRows::Run& run : segmentation.labels.row(segment.layer, j, k - margin)) {
                 if (run.label == segment.label) std::fill(row + first, row + run.end, inside);
                 first = run.end;
             }

@@ -60,13 +60,16 @@ std::vector<Segment> named_segments(const std::filesystem::path& path, const Ope
     std::vector<Segment> segments;
     std::map<int, int> segments_of_layer;
     for (int i = 0; i < most_segments; ++i) {
-        std::optional<std::string> name = value(i, "Name");
-        if (!name) name = value(i, "ID");
-        if (!name) break;
-        const int layer = number(i, "Layer", labels.layers > 1 ? i : 0, 0, labels.layers - 1);
+        // Numbers may have gaps, where a program took one out.
+        const bool is_there = value(i, "Name") || value(i, "ID");
+        if (!is_there) continue;
+        std::string name = value(i, "Name").value_or("");
+        if (trimmed(name).empty()) name = value(i, "ID").value_or("");
+        const int next = static_cast<int>(segments.size());
+        const int layer = number(i, "Layer", labels.layers > 1 ? next : 0, 0, labels.layers - 1);
         const int label = number(i, "LabelValue", ++segments_of_layer[layer], 1, 65535);
         const std::optional<std::string> colour = value(i, "Color");
-        segments.push_back({.name = *name,
+        segments.push_back({.name = trimmed(name).empty() ? std::to_string(label) : name,
                             .layer = layer,
                             .label = static_cast<std::uint16_t>(label),
                             .colour_rgb = colour ? colour_of(*colour) : std::nullopt});

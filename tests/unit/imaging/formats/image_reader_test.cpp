@@ -196,6 +196,13 @@ TEST_F(ImageReader, ReadsMetaImageAndRefusesItsFaults) {
     EXPECT_THAT(refusal_of_text("nan.mha", raw_mha("1 nan 1")), HasSubstr("above 0"));
 }
 
+TEST_F(ImageReader, ReadsWhatIsCalledImgByItsContent) {
+    write_text(folder_ / "volume.img", raw_mha("1 1 2"));
+    EXPECT_EQ(open_image(folder_ / "volume.img").image.spacing_mm, glm::dvec3(1.0, 1.0, 2.0));
+    EXPECT_THAT(refusal_of_text("other.img", std::string(200, '\0')),
+                HasSubstr("its other half, other.hdr, is missing"));
+}
+
 TEST_F(ImageReader, ReadsNiftiInLpsAndRefusesItsFaults) {
     write_text(folder_ / "good.nii", raw_nifti(2.0F));
     const OpenedImage good = open_image(folder_ / "good.nii");
@@ -218,7 +225,7 @@ TEST_F(ImageReader, RefusesColourFourDimensionsAndSingleSlices) {
 TEST(ImageNames, AreKnownByTheirEndingInAnyCase) {
     for (const char* name : {"mandible.nii.gz", "MANDIBLE.NII.GZ", "Mandible.seg.nrrd", "a.MHA"})
         EXPECT_TRUE(is_image_name(name)) << name;
-    for (const char* name : {"mandible.txt", "nii", "mandible.nii.gz.part"})
+    for (const char* name : {"mandible.txt", "nii", "mandible.nii.gz.part", "._mandible.nii.gz"})
         EXPECT_FALSE(is_image_name(name)) << name;
     EXPECT_EQ(name_without_ending("MANDIBLE.NII.GZ"), "MANDIBLE");
 }

@@ -84,6 +84,21 @@ TEST(MetaImageHeader, RefusesWhatCannotBe) {
     EXPECT_THAT(refusal(meta_header("LOCAL", "DistanceUnits = furlong\n")), HasSubstr("mm, cm, m, um"));
 }
 
+TEST(MetaImageHeader, SaysWhatElementsAreAsMetaIoDoes) {
+    const std::string plain = with(meta_header(), "BinaryData = True\n", "");
+    EXPECT_EQ(parse(plain).encoding, Encoding::raw) << "binary where it says nothing";
+    EXPECT_EQ(parse(with(meta_header(), "BinaryData = True", "BinaryData = False")).encoding, Encoding::text);
+    EXPECT_EQ(parse(with(meta_header(), "MET_SHORT", "MET_LONG_LONG")).voxels.type, VoxelType::int64);
+    EXPECT_EQ(parse(with(meta_header(), "MET_SHORT", "MET_ULONG")).voxels.type, VoxelType::uint32);
+}
+
+// As a matrix of four digits is rounded.
+TEST(MetaImageHeader, SaysNothingOfAxesThatRoundingTilts) {
+    const std::string text = meta_header(
+        "LOCAL", "TransformMatrix = 0.8450 -0.1978 0.4969 0.3647 0.8927 -0.2647 -0.3912 0.4049 0.8265\n");
+    EXPECT_THAT(parse(text).image.notes, ElementsAre());
+}
+
 TEST(MetaImageHeader, RefusesAGeometryThatNoScanHas) {
     EXPECT_THAT(refusal(with(meta_header(), "1 2 3", "1e308 0 0")), HasSubstr("Offset"));
     EXPECT_THAT(refusal(with(meta_header(), "1 1 2", "1e-9 1 1")), HasSubstr("ElementSpacing 1e-09 mm"));

@@ -85,13 +85,13 @@ TEST(NiftiHeader, SaysWhereSformAndTheRestDisagree) {
     testing::put(moved, 256, std::array{0.0F, 0.0F, 0.0F, 10.0F, 25.0F, 30.0F});
     EXPECT_THAT(parse(moved).image.notes.at(0), HasSubstr("place it 5 apart"));
     const std::string sheared = spoiled(spoiled(nifti(), 284, 0.01F), 88, 1.0F);  // 0.3 degrees
-    EXPECT_THAT(refusal(sheared), HasSubstr("its axes i and j are 89.7 degrees apart"));
+    EXPECT_THAT(refusal(sheared), HasSubstr("its axes i and j are 89.71 degrees apart"));
     EXPECT_THAT(parse(spoiled(nifti(), 284, 0.01F)).image.notes.at(0), HasSubstr("made perpendicular"));
 }
 
 TEST(NiftiHeader, SaysWhereItHasNoOrientation) {
     EXPECT_THAT(parse(spoiled(nifti(), 254, std::int16_t{0})).image.notes.at(0),
-                HasSubstr("left and right are a guess"));
+                HasSubstr("left and right are a guess (taken as right-anterior-superior (RAS))"));
 }
 
 TEST(NiftiHeader, ConvertsItsUnits) {
@@ -160,6 +160,10 @@ TEST(NiftiHeader, FindsItsVoxelsInAFileBeside) {
     EXPECT_EQ(refused("x.img"), "accepted");
     write_bytes(folder / "x.img.gz", testing::deflated(std::string(120, '\0')));
     EXPECT_THAT(refused("x.hdr"), HasSubstr("which is meant?"));
+    write_bytes(folder / "Z.HDR", header);
+    write_bytes(folder / "Z.IMG", std::string(120, '\0'));
+    EXPECT_EQ(refused("Z.HDR"), "accepted");
+    EXPECT_EQ(refused("Z.IMG"), "accepted");
     write_bytes(folder / "y.nii", header);
     EXPECT_THAT(refused("y.nii"), HasSubstr("not called .hdr"));
 }

@@ -129,14 +129,14 @@ TEST(NrrdHeader, MakesAxesPerpendicularUpToHalfADegree) {
     const ImageHeader image = layout_of(with_line("(0,1,0)", "(0.0052,1,0)"));  // 0.3 degrees
     EXPECT_NEAR(glm::dot(image.image.direction[0], image.image.direction[1]), 0.0, 1e-12);
     EXPECT_THAT(image.image.notes.at(0),
-                HasSubstr("its axes i and j are 89.7 degrees apart; made perpendicular"));
+                HasSubstr("its axes i and j are 89.70 degrees apart; made perpendicular"));
     const glm::dvec3 middle(1.0, 1.5, 2.0);
     EXPECT_LT(glm::distance(position_mm(image.image, middle),
                             glm::dvec3(1.0, 2.0, 3.0) + glm::dvec3(1.0 + 1.5 * 0.0052, 1.5, 4.0)),
               1e-4)
         << "the middle stays";
     EXPECT_THAT(refusal(with_line("(0,1,0)", "(0.012,1,0)")),
-                HasSubstr("axes i and j are 89.3 degrees apart"));
+                HasSubstr("axes i and j are 89.31 degrees apart"));
     EXPECT_TRUE(layout_of(with_line("(0,1,0)", "(0.000001,1,0)")).image.notes.empty()) << "as printed";
 }
 

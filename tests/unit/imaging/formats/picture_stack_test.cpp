@@ -99,6 +99,9 @@ TEST_F(PictureStackFolder, IsNoneWhereAPictureLiesBesideAScan) {
     EXPECT_FALSE(is_picture_folder(folder_.path(), true));
     testing::write_png_picture(folder_ / "1.png", 1, 1, PNG_FORMAT_GRAY, {0});
     EXPECT_TRUE(is_picture_folder(folder_.path(), false));
+    for (const char* name : {"Thumbs.db", ".DS_Store", "._1.png"})
+        std::ofstream(folder_ / name) << "of the desktop";
+    EXPECT_TRUE(is_picture_folder(folder_.path(), false));
     std::ofstream(folder_ / "IM0001") << "DICM";
     EXPECT_FALSE(is_picture_folder(folder_.path(), false));
     EXPECT_TRUE(is_picture_folder(folder_.path(), true));

@@ -47,6 +47,11 @@ TEST_F(ColourTableFile, IsReadAsItkSnapWritesIt) {
     EXPECT_EQ(table.at(2), (ColourOfLabel{"nerve, left", {70, 130, 180}}));
 }
 
+TEST_F(ColourTableFile, MayEndItsLinesAsOldMacintoshesDid) {
+    write("1 ossicle 1 2 3 255\r2 nerve 4 5 6 255\r");
+    EXPECT_EQ(read_colour_table(path_).at(2), (ColourOfLabel{"nerve", {4, 5, 6}}));
+}
+
 TEST_F(ColourTableFile, IsReadAsTodaysSlicerWritesIt) {
     for (const char* separator : {",", ";"}) {
         std::string text =

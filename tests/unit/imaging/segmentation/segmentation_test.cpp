@@ -88,6 +88,19 @@ TEST_F(SegmentationFile, GivesEachSegmentALayerWhereNoneIsNamed) {
     EXPECT_EQ(read.segments[1], (Segment{.name = "nerve", .layer = 1, .label = 1}));
 }
 
+TEST_F(SegmentationFile, MayLackANumberOrAName) {
+    write(layered_header(
+              "Segment0_Name:=bone\nSegment0_LabelValue:=1\nSegment2_Name:=\nSegment2_ID:=Segment_3\n"
+              "Segment2_Layer:=0\nSegment2_LabelValue:=2\nSegment5_Name:= "
+              "\nSegment5_Layer:=1\nSegment5_LabelValue:=7\n"),
+          std::string(24, '\1'));
+    const Segmentation read = read_segmentation(path_);
+    ASSERT_EQ(read.segments.size(), 3U);
+    EXPECT_EQ(read.segments[1].name, "Segment_3");
+    EXPECT_EQ(read.segments[1].label, 2);
+    EXPECT_EQ(read.segments[2].name, "7");
+}
+
 TEST_F(SegmentationFile, KeepsNamesAsTheyAre) {
     write(layered_header("Segment0_Name:=a b\\\\c d \"e\" \xc3\xb6: f\nSegment1_Name:=under_score\n"),
           std::string(24, '\1'));
@@ -255,6 +268,22 @@ TEST_F(SegmentationFile, IsAsLargeOnTheBonesGridAsItsVoxelsAre) {
                     }),
                     1.0, 0.01);
     EXPECT_NEAR(as_large([](const glm::dvec3& at_mm) { return glm::length(at_mm) < 3.0; }), 1.0, 0.01);
+}
+
+// 3D Slicer cuts a file to its segments: as far as it goes everything may be labelled, and nothing beyond it.
+TEST_F(SegmentationFile, EndsWhereItsFileEnds) {
+    write(
+        "type: uint8\ndimension: 3\nspace: LPS\nsizes: 4 4 20\nspace directions: (1,0,0) (0,1,0) "
+        "(0,0,1)\nencoding: raw\nspace origin: (0,0,0)\n",
+        std::string(4 * 4 * 20, '\1'));
+    const Segmentation read = read_segmentation(path_);
+    for (const double spacing_mm : {0.5, 0.3, 0.2}) {
+        const Grid grid{.size_voxels = glm::ivec3(glm::dvec3(20.0, 20.0, 40.0) / spacing_mm),
+                        .spacing_mm = spacing_mm,
+                        .origin_mm = glm::dvec3(-8.1)};
+        const StructureMask mask = structure_of(read, read.segments[0], grid);
+        EXPECT_NEAR(mask.volume_mm3(), 320.0, 0.04 * 320.0) << spacing_mm;
+    }
 }
 
 }  // namespace
