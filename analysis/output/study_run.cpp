@@ -11,9 +11,12 @@
 namespace osteomill::study {
 
 StudyRun::~StudyRun() {
+    if (std::uncaught_exceptions() == failures_before_) forget_outcomes();
+}
+
+void StudyRun::forget_outcomes() {
     std::error_code ignored;
-    if (!whole_file_.empty() && std::uncaught_exceptions() == failures_before_)
-        std::filesystem::remove(whole_file_, ignored);
+    if (!whole_file_.empty()) std::filesystem::remove(whole_file_, ignored);
 }
 
 bool StudyRun::perform() {

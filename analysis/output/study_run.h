@@ -69,7 +69,8 @@ class StudyRun {
     auto plan(const std::vector<Case>& cases, Name&& name_of, const Run& run) {
         using Outcome = std::decay_t<std::invoke_result_t<const Run&, const Case&>>;
         const std::size_t first = cases_.size();
-        for (const Case& c : cases) cases_.push_back({name_of(c), [c, run] { return nlohmann::json(run(c)); }});
+        for (const Case& c : cases)
+            cases_.push_back({name_of(c), [c, run] { return nlohmann::json(run(c)); }});
         return PlannedCases<Outcome>(outcomes_, first, cases.size());
     }
 
@@ -77,6 +78,9 @@ class StudyRun {
     /// several, whose outcomes are not all there. Throws std::runtime_error naming the case that fails, and
     /// as PartFileWriter and JoinedParts do.
     bool perform();
+
+    /// Nothing is to be made of the outcomes: the next run in this folder may be of something else.
+    void forget_outcomes();
 
     /// A line.
     template <typename... Arguments>

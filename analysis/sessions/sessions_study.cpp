@@ -16,6 +16,7 @@
 #include "analysis/sessions/department_database.h"
 #include "analysis/sessions/overview.h"
 #include "analysis/sessions/session_store.h"
+#include "common/recording/packet_reader.h"
 #include "common/text/plain_text.h"
 
 namespace osteomill::study {
@@ -117,6 +118,7 @@ void run_sessions_study(const SessionsStudyOptions& options, const StudySurround
     std::set<std::string> digests;
     for (const std::filesystem::path& file : files) {
         try {
+            PacketReader{file};  // what is no recording is not read to its end
             const std::string digest = digest_of_file(file);
             if (!digests.insert(digest).second) continue;  // a copy
             recordings.push_back({file, digest, store.find(digest)});
@@ -143,7 +145,10 @@ void run_sessions_study(const SessionsStudyOptions& options, const StudySurround
         }
         ++recording;
     }
-    if (sessions.empty()) throw std::runtime_error("no recording can be read to its end");
+    if (sessions.empty()) {
+        run.forget_outcomes();
+        throw std::runtime_error("no recording can be read to its end");
+    }
     std::ranges::stable_sort(sessions, {}, &SessionRecord::began_unix_ns);
     if (!options.database.empty()) add_to_database(options.database, sessions);
     write_text(sessions_csv(sessions), options.out / "sessions.csv");

@@ -7,11 +7,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace osteomill {
@@ -22,9 +24,27 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view before_random = ".part-";
 constexpr std::size_t random_digits = 8;
+/// A script may start the one that reads a pipe a moment later.
+constexpr std::chrono::seconds longest_wait_for_reader{2};
 
 [[noreturn]] void fail(const fs::path& path, int reason) {
     throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(reason));
+}
+
+/// What is no regular file is held open to the end: then no other opening of it waits. A pipe that nobody
+/// reads would hold it up for ever, and with it the signals that end a program.
+int open_direct(const fs::path& path, const fs::path& named) {
+    const auto until = std::chrono::steady_clock::now() + longest_wait_for_reader;
+    int descriptor = -1;
+    while ((descriptor = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)) < 0 && errno == ENXIO &&
+           fs::is_fifo(path)) {
+        if (std::chrono::steady_clock::now() > until)
+            throw std::runtime_error(named.string() + ": is a pipe that no program reads");
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    if (descriptor < 0) fail(named, errno);
+    ::fcntl(descriptor, F_SETFL, 0);  // writing may wait
+    return descriptor;
 }
 
 /// Closes its descriptor.
@@ -79,11 +99,16 @@ int open_new(const fs::path& path) {
 }
 
 AtomicFile::AtomicFile(const fs::path& path, WriteTarget target, const fs::path& part)
-    : path_(path), target_(std::move(target)), part_(part), owns_part_(!target_.is_direct) {}
+    : path_(path), target_(std::move(target)), part_(part), owns_part_(!target_.is_direct) {
+    if (target_.is_direct) descriptor_ = open_direct(target_.path, path_);
+}
 
 AtomicFile::AtomicFile(const fs::path& path, Link link)
     : path_(path), target_(write_target(path, link)), part_(target_.path), owns_part_(!target_.is_direct) {
-    if (target_.is_direct) return;
+    if (target_.is_direct) {
+        descriptor_ = open_direct(target_.path, path_);
+        return;
+    }
     std::random_device random;
     for (bool is_made = false; !is_made;) {
         part_.replace_filename(fmt::format("{}{}{:08x}{}", target_.path.stem().string(), before_random,

@@ -30,7 +30,8 @@ WriteTarget write_target(const std::filesystem::path& path, Link link);
 
 class AtomicFile {
   public:
-    /// Makes an empty part. Throws std::runtime_error with one line where that cannot be.
+    /// Makes an empty part. Throws std::runtime_error with one line where that cannot be, and for a pipe that
+    /// no program reads.
     explicit AtomicFile(const std::filesystem::path& path, Link link = Link::follow);
     /// Takes over a part that is there.
     AtomicFile(const std::filesystem::path& path, WriteTarget target, const std::filesystem::path& part);
@@ -63,7 +64,7 @@ class AtomicFile {
     WriteTarget target_;
     std::filesystem::path part_;
     bool owns_part_;
-    int descriptor_ = -1;  // of the part, locked, where this has made it
+    int descriptor_ = -1;  // of the part, locked, where this has made it; of what is written itself
 };
 
 /// Removes parts of this file that killed programs left behind: parts of the name above that are not locked.

@@ -1,5 +1,6 @@
 // Checks of options for CLI11, which correct four ways of the library: error messages name no unreachable
 // limit, NaN is refused, a choice is shown without C++ containers, and help is the same text each time.
+// And an empty value is refused: a variable of a script that was not set must not be the default.
 #pragma once
 
 #include <fmt/format.h>
@@ -34,12 +35,14 @@ class HelpFormatter : public CLI::Formatter {
     }
 };
 
-/// Lets every option, of subcommands, too, take the mark off what it is given; and gives them their help.
+/// Lets every option, of subcommands, too, take the mark off what it is given and refuse what is empty; and
+/// gives them their help.
 inline void prepare(CLI::App& app) {
     app.formatter(std::make_shared<HelpFormatter>());
     for (CLI::Option* option : app.get_options())
         option->transform([](std::string text) {
             if (text.ends_with(whole_mark)) text.pop_back();
+            if (text.empty()) throw CLI::ValidationError("is given without a value");
             return text;
         });
     for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) prepare(*subcommand);

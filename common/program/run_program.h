@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <stdexcept>
 
@@ -17,6 +20,13 @@ namespace osteomill {
 inline constexpr int exit_success = 0;
 inline constexpr int exit_failure = 1;
 inline constexpr int exit_wrong_usage = 2;
+
+/// What was printed has arrived; else says why not. A reader that has enough may leave.
+inline int exit_code_of_prints(const char* name) {
+    if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || errno == EPIPE) return exit_success;
+    std::fprintf(stderr, "%s: standard output: %s\n", name, std::strerror(errno));
+    return exit_failure;
+}
 
 /// Returns the exit code. `parse()` gives a ParseResult (command_line.h) and throws std::invalid_argument for
 /// wrong usage; `run(options, output)` throws for a failure. Ends also where a terminal holds up what is
@@ -33,7 +43,7 @@ int run_program(const char* name, const Parse& parse, const Run& run) {
     }
     if (!parsed.options) {
         std::fputs(parsed.text.c_str(), stdout);
-        return exit_success;
+        return exit_code_of_prints(name);
     }
     const ProgramOutput output;
     int exit_code = exit_success;
@@ -46,7 +56,7 @@ int run_program(const char* name, const Parse& parse, const Run& run) {
         exit_code = exit_failure;
     }
     output.finish();
-    return exit_code;
+    return std::max(exit_code, exit_code_of_prints(name));
 }
 
 }  // namespace osteomill

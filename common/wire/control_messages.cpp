@@ -62,6 +62,7 @@ std::variant<SessionControl, WireError> session_control_from(const v2::SessionCo
                          " bytes; " + std::to_string(SessionControl::longest_text) + " are the most"};
     SessionControl control{action, one_line(message.text())};
     if (action == SessionAction::place) {
+        if (!message.has_burr_position_mm()) return WireError{"a place for the tool has no position"};
         control.pose = {read(message.burr_position_mm()), read(message.spindle_axis())};
         const auto axis = unit_direction(control.pose.spindle_axis);
         if (!is_finite(control.pose.position_mm) || !axis)

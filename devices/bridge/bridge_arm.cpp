@@ -18,6 +18,8 @@ constexpr auto nap = std::chrono::milliseconds(5);
 constexpr std::uint64_t ns_per_ms = 1'000'000;
 /// A pose that no force of the loop has answered by then is answered with the one before.
 constexpr std::uint64_t longest_answer_ns = 3 * ns_per_ms;
+/// So long one that was refused is the reason: it says hello some times a second.
+constexpr std::uint64_t stranger_lasts_ns = 3000 * ns_per_ms;
 
 glm::dvec3 vector_of(const double (&values)[3]) {
     return {values[0], values[1], values[2]};
@@ -137,6 +139,7 @@ void BridgeArm::run() {
     PeerAddress from;
     BridgeCounts before;
     std::uint64_t request_ns = 0;
+    std::optional<std::uint64_t> refused_ns;
     while (!stops_.load(std::memory_order_relaxed)) {
         const std::optional<std::size_t> bytes = socket_.receive(buffer, from, longest_wait_ms);
         const std::uint64_t now_ns = omb_now_ns();
@@ -157,9 +160,10 @@ void BridgeArm::run() {
             socket_.send(host_.answer(now_ns, wanted(now_ns)), host_.peer());
         if (bytes && host_.has_fresh_pose()) continue;
         const BridgeCounts& now = host_.counts();
+        if (now.refused != before.refused) refused_ns = now_ns;
         if (host_.is_gone(now_ns))
             notice_.store(*host_.refusal() != 0 ? host_.refusal()
-                          : now.refused != before.refused
+                          : refused_ns && now_ns - *refused_ns < stranger_lasts_ns
                               ? "no arm is heard; what comes has another key, version or session"
                               : "no arm is heard: is its bridge running?",
                           std::memory_order_relaxed);

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <chrono>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -25,6 +26,7 @@ using boost::system::error_code;
 namespace {
 
 constexpr std::chrono::seconds longest_visit{2};
+constexpr std::size_t most_visits = 16;
 constexpr std::chrono::milliseconds pause_after_error{100};
 constexpr std::size_t longest_request_bytes = 8192;
 constexpr const char* path = "/metrics";
@@ -37,12 +39,55 @@ tcp::acceptor listening(asio::io_context& io, const ListenAddress& where) {
     }
 }
 
+/// One that asks, from the connection to the answer. Lives as long as something of it is under way.
+class Visit : public std::enable_shared_from_this<Visit> {
+  public:
+    Visit(tcp::socket socket, const std::function<std::string()>& text)
+        : stream_(std::move(socket)), text_(text) {}
+
+    void begin() {
+        stream_.expires_after(longest_visit);
+        http::async_read(stream_, buffer_, request_,
+                         [self = shared_from_this()](error_code error, std::size_t) {
+                             if (!error) self->answer();
+                         });
+    }
+    void break_off() { stream_.cancel(); }
+
+  private:
+    void answer() {
+        answer_.version(request_.version());
+        answer_.keep_alive(false);
+        answer_.set(http::field::content_type, "text/plain; version=0.0.4; charset=utf-8");
+        if (request_.target() != path) {
+            answer_.result(http::status::not_found);
+            answer_.body() = fmt::format("there is {} alone\n", path);
+        } else if (request_.method() != http::verb::get) {
+            answer_.result(http::status::method_not_allowed);
+            answer_.set(http::field::allow, "GET");
+        } else {
+            answer_.body() = text_();
+        }
+        answer_.prepare_payload();
+        http::async_write(stream_, answer_, [self = shared_from_this()](error_code, std::size_t) {
+            error_code ignored;
+            self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+        });
+    }
+
+    beast::tcp_stream stream_;
+    const std::function<std::string()>& text_;
+    beast::flat_buffer buffer_{longest_request_bytes};
+    http::request<http::empty_body> request_;
+    http::response<http::string_body> answer_;
+};
+
 }  // namespace
 
 class MetricsPage::Impl {
   public:
     Impl(const ListenAddress& where, std::function<std::string()> text)
-        : acceptor_(listening(io_, where)), text_(std::move(text)) {
+        : text_(std::move(text)), acceptor_(listening(io_, where)) {
         accept();
         thread_ = std::thread([this] { run(); });
     }
@@ -63,11 +108,14 @@ class MetricsPage::Impl {
     }
 
     void accept() {
-        visitor_.reset();
         acceptor_.async_accept([this](error_code error, tcp::socket socket) {
             if (error) return pause();
-            visitor_.emplace(std::move(socket));
-            read();
+            const auto visit = std::make_shared<Visit>(std::move(socket), text_);
+            visit->begin();
+            // Who asks for half of it and waits keeps nobody out.
+            if (const auto oldest = std::exchange(visits_[next_], visit).lock()) oldest->break_off();
+            next_ = (next_ + 1) % visits_.size();
+            accept();
         });
     }
 
@@ -77,46 +125,12 @@ class MetricsPage::Impl {
         timer_.async_wait([this](error_code) { accept(); });
     }
 
-    void read() {
-        buffer_.clear();
-        request_ = {};
-        visitor_->expires_after(longest_visit);
-        http::async_read(*visitor_, buffer_, request_, [this](error_code error, std::size_t) {
-            if (error) return accept();
-            answer();
-        });
-    }
-
-    void answer() {
-        answer_ = {};
-        answer_.version(request_.version());
-        answer_.keep_alive(false);
-        answer_.set(http::field::content_type, "text/plain; version=0.0.4; charset=utf-8");
-        if (request_.target() != path) {
-            answer_.result(http::status::not_found);
-            answer_.body() = fmt::format("there is {} alone\n", path);
-        } else if (request_.method() != http::verb::get) {
-            answer_.result(http::status::method_not_allowed);
-            answer_.set(http::field::allow, "GET");
-        } else {
-            answer_.body() = text_();
-        }
-        answer_.prepare_payload();
-        http::async_write(*visitor_, answer_, [this](error_code, std::size_t) {
-            error_code ignored;
-            visitor_->socket().shutdown(tcp::socket::shutdown_send, ignored);
-            accept();
-        });
-    }
-
-    asio::io_context io_{1};
+    std::function<std::string()> text_;
+    asio::io_context io_{1};  // what is under way in it goes before what it asks
     tcp::acceptor acceptor_;
     asio::steady_timer timer_{io_};
-    std::function<std::string()> text_;
-    std::optional<beast::tcp_stream> visitor_;
-    beast::flat_buffer buffer_{longest_request_bytes};
-    http::request<http::empty_body> request_;
-    http::response<http::string_body> answer_;
+    std::array<std::weak_ptr<Visit>, most_visits> visits_{};
+    std::size_t next_ = 0;
     std::thread thread_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
@@ -134,6 +136,19 @@ TEST(AtomicFile, LosesThePartsOfProgramsThatWereKilledAndNoOthers) {
 TEST(AtomicFile, WritesToADeviceWithoutReplacingIt) {
     write_atomic_file("/dev/null", "text");
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, WritesToAPipeThatIsReadAndRefusesAnother) {
+    const TemporaryFolder folder;
+    const fs::path pipe = folder / "forces.csv";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THAT([&] { AtomicFile file(pipe); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("forces.csv: is a pipe that no program reads")));
+    std::string read;
+    std::thread reader([&] { read = content(pipe); });
+    write_atomic_file(pipe, "text");
+    reader.join();
+    EXPECT_EQ(read, "text");
 }
 
 TEST(WriteAtomicFile, LeavesTheOldFileOnAFullDisk) {

@@ -7,7 +7,9 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 namespace osteomill {
 namespace {
@@ -70,6 +72,18 @@ TEST(MetricsPage, OutlivesVisitorsThatSayNonsenseTooMuchOrNothing) {
     const Visitor silent(page.port());
     { const Visitor gone(page.port()); }
     EXPECT_THAT(answer_to(page, "GET /metrics"), HasSubstr("text\n"));
+}
+
+TEST(MetricsPage, IsKeptFromNobodyByVisitorsThatAskForHalfOfIt) {
+    const MetricsPage page({.port = 0}, [] { return "text\n"; });
+    // More than it bears at a time: were each waited for, a minute and a half.
+    std::vector<std::unique_ptr<Visitor>> visitors;
+    for (int i = 0; i < 40; ++i) {
+        visitors.push_back(std::make_unique<Visitor>(page.port()));
+        visitors.back()->say("G");
+    }
+    EXPECT_THAT(answer_to(page, "GET /metrics"), HasSubstr("text\n"));
+    EXPECT_EQ(visitors.front()->hear(), "");
 }
 
 TEST(MetricsPage, SaysWhereItCannotBe) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace osteomill {
 namespace {
@@ -36,6 +38,22 @@ TEST(ParseArguments, LeavesHelpThatNamesExclusionsInOrder) {
     const char* arguments[] = {"program", "join"};
     parse_arguments(app, 2, arguments);
     EXPECT_THAT(sub->help(), HasSubstr("--dataset DIR Excludes: --cut --inset --look --renderer --speed\n"));
+}
+
+// As a script writes it whose variable is not set.
+TEST(ParseArguments, RefusesAnEmptyValueWhereverItMayBe) {
+    CLI::App app;
+    std::string name, file;
+    std::vector<std::string> texts;
+    app.add_option("NAME", name);
+    app.add_option("--file", file);
+    add_texts(app, "--group", texts, "help");
+    for (const std::vector<const char*>& arguments : {std::vector{"program", ""},
+                                                      {"program", "--file", ""},
+                                                      {"program", "--file=", "x"},
+                                                      {"program", "--group", ""}})
+        EXPECT_THROW(parse_arguments(app, static_cast<int>(arguments.size()), arguments.data()),
+                     CLI::ParseError);
 }
 
 TEST(ParseArguments, RefusesWhatIsNoPlainText) {

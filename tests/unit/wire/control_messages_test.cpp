@@ -45,6 +45,10 @@ TEST(ControlMessages, RefuseWhatMakesNoSense) {
               "the text of a session control has 201 bytes; 200 are the most");
     control.set_text("two\nlines");
     EXPECT_EQ(std::get<SessionControl>(session_control_from(control)).text.find('\n'), std::string::npos);
+    control.set_action(v2::SESSION_ACTION_PLACE);
+    control.mutable_spindle_axis()->set_z(1.0);
+    EXPECT_EQ(std::get<WireError>(session_control_from(control)).line, "a place for the tool has no position")
+        << "not the origin's";
 
     google::protobuf::RepeatedPtrField<v2::SessionEvent> events;
     events.Add()->set_time_s(std::numeric_limits<double>::quiet_NaN());
