@@ -1,6 +1,7 @@
 // Values of a GDCM data set, as text and numbers. Only the sources of this folder see it.
 #pragma once
 
+#include <fmt/format.h>
 #include <gdcmDataSet.h>
 #include <gdcmSequenceOfItems.h>
 
@@ -10,8 +11,11 @@
 #include <cstdlib>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
@@ -35,7 +39,7 @@ inline int number_of(const gdcm::DataSet& data, const gdcm::Tag& tag, int otherw
     return number;
 }
 
-/// "a\b\c" as exactly `count` numbers.
+/// "a\b\c" as exactly `count` numbers. Throws std::invalid_argument for "1,5", which is no number of DICOM.
 template <std::size_t count>
 std::optional<std::array<double, count>> numbers_of(const gdcm::DataSet& data, const gdcm::Tag& tag) {
     std::istringstream text(text_of(data, tag));
@@ -46,6 +50,11 @@ std::optional<std::array<double, count>> numbers_of(const gdcm::DataSet& data, c
         char* end = nullptr;
         number = std::strtod(part.c_str(), &end);
         if (end == part.c_str()) return std::nullopt;
+        if (std::string(end).find_first_not_of(' ') != std::string::npos)
+            throw std::invalid_argument(
+                fmt::format("({:04x},{:04x}) is '{}', no numbers as DICOM writes them, "
+                            "with a point",
+                            tag.GetGroup(), tag.GetElement(), printable(text.str().substr(0, 40))));
     }
     return numbers;
 }

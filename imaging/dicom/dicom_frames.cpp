@@ -1,10 +1,12 @@
 #include "imaging/dicom/dicom_frames.h"
 
 #include <fmt/format.h>
+#include <gdcmAttribute.h>
 #include <gdcmBoxRegion.h>
 #include <gdcmImage.h>
 #include <gdcmImageReader.h>
 #include <gdcmImageRegionReader.h>
+#include <gdcmMediaStorage.h>
 
 #include <cstring>
 #include <stdexcept>
@@ -34,9 +36,50 @@ std::size_t pixels_of_frame(const DicomFile& file) {
     return static_cast<std::size_t>(file.header.columns) * static_cast<std::size_t>(file.header.rows);
 }
 
+/// Of private kinds, and of those that are younger than it, GDCM takes no pixels.
+bool is_known_kind(const DicomFile& file) {
+    const std::string& kind = file.header.scan.sop_class;
+    return kind.empty() || gdcm::MediaStorage::IsImage(gdcm::MediaStorage::GetMSType(kind.c_str()));
+}
+
+/// Takes pixels of any kind for those of a CT.
+class AnyKindReader : public gdcm::ImageReader {
+  public:
+    bool read(bool is_known) {
+        if (is_known) return Read();
+        return gdcm::Reader::Read() && ReadImage(gdcm::MediaStorage::CTImageStorage);
+    }
+};
+
+/// Whether a pixel's bits are others than the lowest of those that are there.
+bool lies_elsewhere(const DicomFile& file) {
+    const DicomScan& scan = file.header.scan;
+    return !scan.is_encapsulated && scan.high_bit && scan.bits_stored && scan.bits_allocated &&
+           *scan.high_bit + 1 > *scan.bits_stored && *scan.high_bit < *scan.bits_allocated;
+}
+
+/// GDCM takes them for the lowest, and would clear the others.
+void keep_all_bits(gdcm::ImageReader& reader) {
+    gdcm::PixelFormat format = reader.GetImage().GetPixelFormat();
+    const auto bits = format.GetBitsAllocated();
+    format.SetBitsStored(bits);
+    format.SetHighBit(static_cast<unsigned short>(bits - 1));
+    reader.GetImage().SetPixelFormat(format);
+    // Of a part of the pixels it asks the file.
+    const auto replace = [&](std::uint16_t element, unsigned short value) {
+        gdcm::Attribute<0x0028, 0x0101> number;
+        number.SetValue(value);
+        gdcm::DataElement replaced = number.GetAsDataElement();
+        replaced.SetTag({0x0028, element});
+        reader.GetFile().GetDataSet().Replace(replaced);
+    };
+    replace(0x0101, bits);
+    replace(0x0102, static_cast<unsigned short>(bits - 1));
+}
+
 /// Only uncompressed pixels are found without reading those before them.
 bool is_read_frame_by_frame(const DicomFile& file) {
-    return file.header.is_uncompressed;
+    return file.header.is_uncompressed && is_known_kind(file);
 }
 
 /// GDCM says that it failed, or throws.
@@ -58,16 +101,17 @@ class DicomFrames::Source {
 class DicomFrames::AtomicFile : public Source {
   public:
     explicit AtomicFile(const DicomFile& file) {
-        gdcm::ImageReader reader;
+        AnyKindReader reader;
         reader.SetFileName(file.path.c_str());
         require(file, [&] {
-            if (!reader.Read()) return false;
+            if (!reader.read(is_known_kind(file))) return false;
             gdcm::Image& image = reader.GetImage();
             if (file.header.sign_of_codestream) {
                 gdcm::PixelFormat format = image.GetPixelFormat();
                 format.SetPixelRepresentation(*file.header.sign_of_codestream ? 1 : 0);
                 image.SetPixelFormat(format);
             }
+            if (lies_elsewhere(file)) keep_all_bits(reader);
             stored_.resize(image.GetBufferLength());
             return image.GetBuffer(stored_.data());
         });
@@ -95,6 +139,7 @@ class DicomFrames::FrameByFrame : public Source {
     explicit FrameByFrame(const DicomFile& file) : file_(file) {
         reader_.SetFileName(file_.path.c_str());
         require(file_, [&] { return reader_.ReadInformation(); });
+        if (lies_elsewhere(file_)) keep_all_bits(reader_);
         const unsigned* size = reader_.GetImage().GetDimensions();
         if (size[0] != static_cast<unsigned>(file_.header.columns) ||
             size[1] != static_cast<unsigned>(file_.header.rows))
@@ -130,15 +175,19 @@ Stored pixel_of(Stored raw, unsigned shift, unsigned bits) {
     return static_cast<Stored>(static_cast<Stored>(moved) >> to_top);  // with its sign
 }
 
+struct PixelBits {
+    unsigned stored = 0;
+    unsigned high = 0;  ///< the highest of them
+};
+
 template <typename Stored>
-void to_hu(std::span<const char> bytes, const gdcm::PixelFormat& format, const DicomValues& values,
+void to_hu(std::span<const char> bytes, const PixelBits& bits, const DicomValues& values,
            const DicomRescale& rescale, std::span<float> hu) {
-    const unsigned bits = format.GetBitsStored();
-    const unsigned shift = format.GetHighBit() + 1U >= bits ? format.GetHighBit() + 1U - bits : 0U;
+    const unsigned shift = bits.high + 1U >= bits.stored ? bits.high + 1U - bits.stored : 0U;
     for (std::size_t i = 0; i < hu.size(); ++i) {
         Stored raw{};
         std::memcpy(&raw, bytes.data() + i * sizeof(Stored), sizeof(Stored));
-        const auto stored = static_cast<std::int64_t>(pixel_of(raw, shift, bits));
+        const auto stored = static_cast<std::int64_t>(pixel_of(raw, shift, bits.stored));
         hu[i] = values.hu(stored, rescale);
     }
 }
@@ -162,8 +211,11 @@ std::span<float> DicomFrames::frame(unsigned index) {
     const DicomHeader& header = file_.header;
     if (stored.size() != values_.size() * format.GetPixelSize() || index >= header.rescales.size())
         throw of_other_size(file_);
+    const PixelBits bits = lies_elsewhere(file_) ? PixelBits{static_cast<unsigned>(*header.scan.bits_stored),
+                                                             static_cast<unsigned>(*header.scan.high_bit)}
+                                                 : PixelBits{format.GetBitsStored(), format.GetHighBit()};
     const auto convert = [&]<typename Stored>(Stored) {
-        to_hu<Stored>(stored, format, header.values, header.rescales[index], values_);
+        to_hu<Stored>(stored, bits, header.values, header.rescales[index], values_);
     };
     switch (format.GetScalarType()) {
         case gdcm::PixelFormat::UINT8:

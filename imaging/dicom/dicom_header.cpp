@@ -55,6 +55,8 @@ const Tag lut_descriptor_tag(0x0028, 0x3002);
 const Tag lut_data_tag(0x0028, 0x3006);
 const Tag lut_type_tag(0x0028, 0x3004);
 
+constexpr const char* deflated_syntax = "1.2.840.10008.1.2.1.99";
+
 /// Everything before the pixels is in here, but in odd files.
 constexpr std::uint64_t first_scanned_bytes = std::uint64_t{64} << 20U;
 /// What is held of a file whose pixels are compressed, or stand before other things.
@@ -71,13 +73,15 @@ std::optional<SlicePlacement> placement_of(const Places& places, bool is_alone, 
     auto spacing = places.find<2>(pixel_measures_tag, spacing_tag);
     if (!spacing && (spacing = places.find<2>(pixel_measures_tag, detector_spacing_tag)))
         note(header, "has no Pixel Spacing (0028,0030); that of the detector (0018,1164) is taken");
-    if (!spacing) missing = "Pixel Spacing (0028,0030)";
     auto orientation = places.find<6>(plane_orientation_tag, orientation_tag);
     auto position = places.find<3>(plane_position_tag, position_tag);
     if (!position && is_alone) position = {0.0, 0.0, 0.0};
-    if (!position && missing.empty())
-        missing = orientation ? "Image Position (0020,0032)"
-                              : "Image Position and Orientation (0020,0032 and 0037)";
+    if (!position && !orientation)
+        missing = "Image Position and Orientation (0020,0032 and 0037)";
+    else if (!spacing)
+        missing = "Pixel Spacing (0028,0030)";
+    else if (!position)
+        missing = "Image Position (0020,0032)";
     if (!missing.empty()) return std::nullopt;
     if (!orientation) {
         note(header,
@@ -240,8 +244,7 @@ std::string why_left_out(const DataSet& data, const DicomScan& scan, const Dicom
     const std::string type = text_of(data, image_type_tag);
     if (type.find("LOCALIZER") != std::string::npos) return "is a localizer (Image Type)";
     if (scan.sop_class.starts_with("1.2.840.10008.5.1.4.1.1.7")) return "is a secondary capture";
-    if (header.samples_per_pixel != 1 && type.find("SECONDARY") != std::string::npos)
-        return "is a picture in colour";
+    if (header.samples_per_pixel != 1) return "is a picture in colour";
     return header.not_of_the_scan;
 }
 
@@ -275,12 +278,17 @@ std::optional<DicomScan> scan_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
+std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) try {
     const std::optional<DicomScan> scan = scan_file(path);
     if (!scan) return std::nullopt;
     gdcm::Reader reader;
     reader.SetFileName(path.c_str());
-    if (!quietly([&] { return reader.CanRead() && reader.ReadUpToTag(pixel_data_tag, {pixel_data_tag}); }))
+    // Of what is deflated GDCM finds no tag to read up to where it is short.
+    const bool is_deflated = scan->transfer_syntax == deflated_syntax;
+    if (!quietly([&] {
+            return reader.CanRead() &&
+                   (is_deflated ? reader.Read() : reader.ReadUpToTag(pixel_data_tag, {pixel_data_tag}));
+        }))
         throw ImagingError(path, "is DICOM but cannot be parsed: cut off or damaged");
     const DataSet& data = reader.GetFile().GetDataSet();
     DicomHeader header;
@@ -313,6 +321,8 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     place_frames(data, static_cast<std::size_t>(count), header);
     header.not_of_the_scan = why_left_out(data, *scan, header);
     return header;
+} catch (const std::invalid_argument& error) {
+    throw ImagingError(path, error.what());
 }
 
 }  // namespace osteomill

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gdcmReader.h>
+#include <iconv.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +36,27 @@ constexpr double slice_tolerance = 0.02;
 
 /// One layer of labels, x fastest; a segment of frames that overlap others lies in another.
 using Layer = std::vector<std::uint16_t>;
+
+/// A text of a file whose Specific Character Set (0008,0005) is `set`; as it is where that is another than
+/// these.
+std::string in_utf8(const std::string& text, const std::string& set) {
+    static const std::map<std::string, const char*> known{
+        {"ISO_IR 100", "ISO-8859-1"}, {"ISO_IR 101", "ISO-8859-2"}, {"ISO_IR 109", "ISO-8859-3"},
+        {"ISO_IR 110", "ISO-8859-4"}, {"ISO_IR 144", "ISO-8859-5"}, {"ISO_IR 127", "ISO-8859-6"},
+        {"ISO_IR 126", "ISO-8859-7"}, {"ISO_IR 138", "ISO-8859-8"}, {"ISO_IR 148", "ISO-8859-9"},
+        {"ISO_IR 166", "TIS-620"},    {"ISO_IR 13", "SHIFT_JIS"},   {"GB18030", "GB18030"}};
+    const auto from = known.find(set);
+    if (from == known.end()) return text;
+    const iconv_t converter = ::iconv_open("UTF-8", from->second);
+    if (converter == reinterpret_cast<iconv_t>(-1)) return text;
+    std::string in = text, out(4 * text.size(), '\0');
+    char* read = in.data();
+    char* written = out.data();
+    std::size_t left = in.size(), room = out.size();
+    const bool is_whole = ::iconv(converter, &read, &left, &written, &room) != static_cast<std::size_t>(-1);
+    ::iconv_close(converter);
+    return is_whole ? out.substr(0, out.size() - room) : text;
+}
 
 /// The segments' frames, and what they hold.
 class SegmentationSource {
@@ -237,6 +259,7 @@ class SegmentationSource {
             if (number == 0) continue;
             std::string name = text_of(segment, Tag(0x0062, 0x0005));
             if (name.empty()) name = std::to_string(number);
+            name = in_utf8(name, text_of(data(), Tag(0x0008, 0x0005)));
             const auto layer =
                 layer_of_segment_.contains(0) ? layer_of_segment_.find(0) : layer_of_segment_.find(number);
             const std::string key = fmt::format("Segment{}_", named++);

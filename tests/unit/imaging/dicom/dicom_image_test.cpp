@@ -159,6 +159,7 @@ TEST_F(DicomImage, SaysWhereItsValuesMayBeNoHu) {
 TEST_F(DicomImage, SaysThatItIsOfAKindWithoutCalibration) {
     write_series([](RawSlice& slice) { slice.sop_class = "1.3.12.2.1107.5.9.1"; });
     EXPECT_THAT(open().image.notes, ElementsAre(HasSubstr("is of a private kind")));
+    EXPECT_EQ(values()[13], 101.0F) << "and is read, though GDCM does not know the kind";
     write_series([](RawSlice& slice) { slice.sop_class = "1.2.840.10008.5.1.4.1.1.13.1.2"; });
     EXPECT_THAT(open().image.notes, ElementsAre(HasSubstr("cone beam")));
 }
@@ -201,6 +202,30 @@ TEST_F(DicomImage, LeavesOutBitsThatHoldNoPixel) {
         write_bytes(entry.path(), bytes);
     }
     EXPECT_EQ(values()[13], 101.0F);
+}
+
+TEST_F(DicomImage, HasItsBitsWhereItSays) {
+    write_series([](RawSlice& slice) {
+        slice.pixel_representation = 0;
+        for (std::size_t i = 0; i < slice.pixels.size(); i += 2) {
+            const int pixel = static_cast<std::uint8_t>(slice.pixels[i]) |
+                              256 * static_cast<std::uint8_t>(slice.pixels[i + 1]);
+            slice.pixels.replace(i, 2, little(static_cast<std::uint32_t>(16 * pixel + 7), 2));
+        }
+    });
+    for (const auto& entry : std::filesystem::directory_iterator(series_)) {
+        std::ifstream in(entry.path(), std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+        write_bytes(entry.path(),
+                    with(bytes, dicom_number(0x0028, 0x0101, 16), dicom_number(0x0028, 0x0101, 12)));
+    }
+    EXPECT_EQ(values()[13], 101.0F) << "the twelve highest, not the lowest";
+}
+
+TEST_F(DicomImage, RefusesNumbersWithACommaByName) {
+    write_series([](RawSlice& slice) { slice.position = "0\\0\\1,5"; });
+    EXPECT_THAT(refusal(series_),
+                HasSubstr("(0020,0032) is '0\\0\\1,5', no numbers as DICOM writes them, with a point"));
 }
 
 TEST_F(DicomImage, OfLabelsMayBeASegmentation) {

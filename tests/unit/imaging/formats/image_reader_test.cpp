@@ -125,8 +125,11 @@ TEST_F(ImageReader, RefusesWhatIsNoVolumeInDicom) {
     slices[1].with_pixel_spacing = false;
     EXPECT_THAT(refusal_of_series(slices), HasSubstr("no Pixel Spacing"));
     slices = testing::synthetic_series(4);
-    slices[1].samples_per_pixel = 3;
+    for (auto& slice : slices) slice.samples_per_pixel = 3;
     EXPECT_THAT(refusal_of_series(slices), HasSubstr("3 samples a pixel"));
+    slices = testing::synthetic_series(4);
+    slices[3].samples_per_pixel = 3;  // a picture beside the scan
+    EXPECT_EQ(refusal_of_series(slices), "accepted");
     slices = testing::synthetic_series(4);
     slices[1].frames = "7";
     EXPECT_THAT(refusal_of_series(slices), HasSubstr("multi-frame"));
