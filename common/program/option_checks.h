@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/text/plain_text.h"
@@ -19,6 +20,7 @@ namespace osteomill {
 /// Behind an argument "[a,b]", which is a name, while CLI11 takes it apart: it would make two of it where an
 /// option may be given several. No argument holds this letter.
 inline constexpr char whole_mark = '\1';
+inline constexpr const char* without_value = "is given without a value";
 
 /// Names the options that an option excludes in the order of the alphabet. CLI11 keeps them by address, in
 /// another order in each run, and manual pages are made of this.
@@ -42,7 +44,7 @@ inline void prepare(CLI::App& app) {
     for (CLI::Option* option : app.get_options())
         option->transform([](std::string text) {
             if (text.ends_with(whole_mark)) text.pop_back();
-            if (text.empty()) throw CLI::ValidationError("is given without a value");
+            if (text.empty()) throw CLI::ValidationError(without_value);
             return text;
         });
     for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) prepare(*subcommand);
@@ -59,6 +61,10 @@ inline void parse_arguments(CLI::App& app, int argc, const char* const* argv) {
                 fmt::format("argument {}, '{}', {}; names are UTF-8 without control characters", i,
                             one_line(argv[i]), *why));
         arguments.emplace_back(argv[i]);
+        // CLI11 would take the next argument for it.
+        if (const std::string_view option = argv[i];
+            option.starts_with("--") && option.find('=') == option.size() - 1)
+            throw CLI::ValidationError(std::string(option.substr(0, option.size() - 1)), without_value);
         const std::string& text = arguments.back();
         if (text.ends_with(']') && (text.starts_with('[') || text.find("=[") != std::string::npos))
             arguments.back() += whole_mark;
