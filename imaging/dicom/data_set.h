@@ -50,7 +50,7 @@ std::optional<std::array<double, count>> numbers_of(const gdcm::DataSet& data, c
         char* end = nullptr;
         number = std::strtod(part.c_str(), &end);
         if (end == part.c_str()) return std::nullopt;
-        if (std::string(end).find_first_not_of(' ') != std::string::npos)
+        if (*end == ',')
             throw std::invalid_argument(
                 fmt::format("({:04x},{:04x}) is '{}', no numbers as DICOM writes them, "
                             "with a point",

@@ -10,10 +10,13 @@
 
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "common/files/input_file.h"
+#include "imaging/dicom/data_set.h"
+#include "imaging/dicom/dicom_pixels.h"
 #include "imaging/dicom/quiet_libraries.h"
 #include "imaging/imaging_error.h"
 
@@ -36,10 +39,13 @@ std::size_t pixels_of_frame(const DicomFile& file) {
     return static_cast<std::size_t>(file.header.columns) * static_cast<std::size_t>(file.header.rows);
 }
 
-/// Of private kinds, and of those that are younger than it, GDCM takes no pixels.
+/// Of private kinds, and of those that are younger than it, GDCM takes no pixels. Of labels it asks for
+/// colours.
 bool is_known_kind(const DicomFile& file) {
-    const std::string& kind = file.header.scan.sop_class;
-    return kind.empty() || gdcm::MediaStorage::IsImage(gdcm::MediaStorage::GetMSType(kind.c_str()));
+    const DicomScan& scan = file.header.scan;
+    if (is_segmentation(scan)) return false;
+    return scan.sop_class.empty() ||
+           gdcm::MediaStorage::IsImage(gdcm::MediaStorage::GetMSType(scan.sop_class.c_str()));
 }
 
 /// Takes pixels of any kind for those of a CT.
@@ -47,14 +53,30 @@ class AnyKindReader : public gdcm::ImageReader {
   public:
     bool read(bool is_known) {
         if (is_known) return Read();
-        return gdcm::Reader::Read() && ReadImage(gdcm::MediaStorage::CTImageStorage);
+        if (!gdcm::Reader::Read()) return false;
+        forget_palette();
+        GetImage().SetTransferSyntax(GetFile().GetHeader().GetDataSetTransferSyntax());
+        return ReadImage(gdcm::MediaStorage::CTImageStorage);
+    }
+
+  private:
+    /// Where its tables are missing or torn, GDCM 3.0.21 ends the program.
+    void forget_palette() {
+        using Photometric = gdcm::Attribute<0x0028, 0x0004>;
+        if (text_of(GetFile().GetDataSet(), Photometric::GetTag()) != "PALETTE COLOR") return;
+        Photometric grey;
+        grey.SetValue("MONOCHROME2 ");
+        GetFile().GetDataSet().Replace(grey.GetAsDataElement());
     }
 };
+
+constexpr std::string_view rle = "1.2.840.10008.1.2.5";  ///< the one compression that codes bytes, not pixels
 
 /// Whether a pixel's bits are others than the lowest of those that are there.
 bool lies_elsewhere(const DicomFile& file) {
     const DicomScan& scan = file.header.scan;
-    return !scan.is_encapsulated && scan.high_bit && scan.bits_stored && scan.bits_allocated &&
+    const bool keeps_bits = !scan.is_encapsulated || scan.transfer_syntax == rle;
+    return keeps_bits && scan.high_bit && scan.bits_stored && scan.bits_allocated &&
            *scan.high_bit + 1 > *scan.bits_stored && *scan.high_bit < *scan.bits_allocated;
 }
 

@@ -164,6 +164,21 @@ TEST_F(DicomImage, SaysThatItIsOfAKindWithoutCalibration) {
     EXPECT_THAT(open().image.notes, ElementsAre(HasSubstr("cone beam")));
 }
 
+TEST_F(DicomImage, OfAPrivateKindMayBeCompressed) {
+    write_series();
+    const std::string a_private_kind = "1.3.12.2.1107.5.9.1.12345";  // as long as that of a CT
+    for (const auto& entry : std::filesystem::directory_iterator(series_)) {
+        compress_as_rle(entry.path(), folder_ / "rle.dcm");
+        std::ifstream in(folder_ / "rle.dcm", std::ios::binary);
+        std::string bytes{std::istreambuf_iterator<char>(in), {}};
+        std::size_t at = 0;
+        while ((at = bytes.find(ct_image_storage + '\0', at)) != std::string::npos)
+            bytes.replace(at, a_private_kind.size(), a_private_kind);
+        write_bytes(entry.path(), bytes);
+    }
+    EXPECT_EQ(values()[13], 101.0F);
+}
+
 TEST_F(DicomImage, StacksFramesWithoutGroups) {
     RawSlice file;
     file.frames = "3";
@@ -260,6 +275,16 @@ TEST_F(DicomImage, OfLabelsMayBeCompressed) {
         EXPECT_EQ(read.labels.at(0, {2, 0, 0}), 0) << name;
         EXPECT_EQ(read.labels.at(0, {0, 0, 1}), 1) << name;
         EXPECT_EQ(read.labels.at(0, {1, 0, 1}), 2) << name;
+    }
+}
+
+TEST_F(DicomImage, OfLabelsMayClaimAPaletteThatIsMissing) {
+    std::string bytes = raw_seg({{1, 0, 0b11}, {1, 2, 0b1}}, {"bone"}, 8);
+    bytes = with(bytes, dicom_element(0x0028, 0x0004, "CS", "MONOCHROME2"),
+                 dicom_element(0x0028, 0x0004, "CS", "PALETTE COLOR"));
+    for (const char* kind : {"1.2.840.10008.5.1.4.1.1.66.4", "1.2.840.10008.5.1.4.1.1.66.7"}) {
+        write_bytes(folder_ / "labels.dcm", with(bytes, "1.2.840.10008.5.1.4.1.1.66.4", kind));
+        EXPECT_TRUE(read_segmentation(folder_ / "labels.dcm").labels.layers() == 1) << kind;
     }
 }
 
