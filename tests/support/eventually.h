@@ -10,6 +10,13 @@ namespace osteomill::testing {
 /// A time that only a defect can take.
 inline constexpr std::chrono::seconds far_too_long{120};
 
+/// Is true from then on: whether to give up waiting.
+inline auto far_too_late() {
+    return [end = std::chrono::steady_clock::now() + far_too_long] {
+        return std::chrono::steady_clock::now() > end;
+    };
+}
+
 /// True as soon as `condition` holds; false after so long.
 template <typename Condition>
 bool eventually(Condition&& condition, std::chrono::seconds deadline = far_too_long) {

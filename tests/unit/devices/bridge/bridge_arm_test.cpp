@@ -42,7 +42,7 @@ class BridgedArm : public ::testing::Test {
             }
             omb_close(&link);
         });
-        ASSERT_TRUE(device.await([] { return false; }));
+        ASSERT_TRUE(device.await(testing::far_too_late()));
     }
     void end() {
         stops = true;

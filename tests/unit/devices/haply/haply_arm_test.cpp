@@ -31,7 +31,7 @@ class HaplyArmOnService : public ::testing::Test {
                                    .burr_count = 3,
                                    .start_burr = 1,
                                    .start_axis = {0.0, 1.0, 0.0}});
-        ASSERT_TRUE(arm->await([] { return false; }));
+        ASSERT_TRUE(arm->await(testing::far_too_late()));
     }
     void begin(bool is_new = true) {
         find(is_new);
