@@ -62,7 +62,8 @@ std::vector<std::filesystem::path> label_maps(const std::vector<std::filesystem:
         std::vector<std::filesystem::path> found;
         if (std::filesystem::is_directory(path, failed))
             for (const auto& entry : std::filesystem::directory_iterator(path))
-                if (is_image_name(entry.path())) found.push_back(entry.path());
+                if (entry.is_regular_file(failed) && is_image_name(entry.path()))
+                    found.push_back(entry.path());
         std::ranges::sort(found);
         if (found.empty()) found = {path};
         maps.insert(maps.end(), found.begin(), found.end());
@@ -133,6 +134,9 @@ std::vector<CaseStructure> structures_of(const BegunCase& begun, const Grid& gri
     std::vector<CaseStructure> structures;
     for (std::size_t i = 0; i < begun.segmentations.size(); ++i) {
         const Segmentation& segmentation = *begun.segmentations[i];
+        // Of labels in place of a scan the first file's have been told.
+        if (i > 0 || begun.labels == 0)
+            for (const std::string& note : segmentation.image.notes) messages << printable(note) << '\n';
         if (segmentation.segments.empty())
             messages << fmt::format("{}: no voxel has a label; left out\n", segmentation.path.string());
         for (const Segment& segment : segmentation.segments) {

@@ -10,8 +10,6 @@
 namespace osteomill {
 
 /// What is looked for in it: a scan, or labels, which may also be a segmentation (SEG).
-enum class ImagePurpose { scan, labels };
-
 /// Places the slices of the series requested, or else of the largest; their pixels are read later. What else
 /// the folder holds is named in the notes. Throws ImagingError.
 OpenedImage open_dicom_folder(const std::filesystem::path& folder,

@@ -116,7 +116,11 @@ std::vector<DicomSeries> find_series(const std::filesystem::path& folder,
         }  // else it is a DICOMDIR or the like
     }
     if (images.empty() && no_image) require_usable(*no_image);
-    if (images.empty()) throw ImagingError(folder, "holds no DICOM images (folders in it are not searched)");
+    if (images.empty())
+        throw ImagingError(
+            folder,
+            "holds no DICOM images, nor slices as PNG or TIFF (folders in it are not searched); "
+            "a scan in one file is given by that file's name");
     leave_out(images, left);
     left_out = left.lines();
     std::map<std::string, DicomSeries> by_uid;

@@ -65,15 +65,21 @@ class ByteSource::Inflater {
         if (result == Z_STREAM_END) has_ended_ = !another_member();
         return made;
     }
-    /// Another member may follow, as `cat a.gz b.gz` leaves them; anything else there is refused.
+    /// Another member may follow, as `cat a.gz b.gz` leaves them, or zeros; anything else there is refused.
     bool another_member() {
-        refill();
+        skip_zeros();
         if (stream_.avail_in == 0) return false;
         if (*stream_.next_in != 0x1f)
             throw ImagingError(file_.path(), fmt::format("has {} bytes of something else behind its voxels",
                                                          stream_.avail_in + file_.size() - offset_));
         inflateReset(&stream_);
         return true;
+    }
+    void skip_zeros() {
+        for (refill(); stream_.avail_in > 0 && *stream_.next_in == 0; refill()) {
+            ++stream_.next_in;
+            --stream_.avail_in;
+        }
     }
     void refill() {
         if (stream_.avail_in > 0) return;

@@ -76,17 +76,19 @@ bool has_dicom_mark(const ImageStart& start) {
 bool is_stack(const ImageStart& start) {
     using namespace std::string_view_literals;
     if (start.is_folder) return is_picture_folder(start.path, start.choice.stack_spacing_mm.has_value());
-    return start.starts_with("\x89PNG") || start.starts_with("II*\0"sv) || start.starts_with("MM\0*"sv);
+    constexpr std::array marks{"\x89PNG"sv, "II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};  // + of large TIFF
+    return std::ranges::any_of(marks, [&](std::string_view mark) { return start.starts_with(mark); });
 }
 
 /// Headers and files are held against each other before anything is read.
-OpenedImage opened(const std::filesystem::path& path, ImageHeader header) {
+/// Labels may be of a single slice: programs crop them.
+OpenedImage opened(const std::filesystem::path& path, ImageHeader header, ImagePurpose purpose) {
     VoxelData data = find_voxels(header, path);
     if (const std::uint64_t more = require_room(data); more > 0)
         header.image.notes.push_back(
             fmt::format("{}: {} bytes follow its voxels; they are not read", path.string(), more));
     const glm::ivec3 size = header.image.size_voxels;
-    if (std::min({size.x, size.y, size.z}) < 2)
+    if (purpose == ImagePurpose::scan && std::min({size.x, size.y, size.z}) < 2)
         throw ImagingError(path, fmt::format("is a single slice ({} x {} x {} voxels), which is no volume",
                                              size.x, size.y, size.z));
     const glm::ivec3 size_of_values = size * glm::ivec3(header.layers, 1, 1);
@@ -110,26 +112,28 @@ struct ImageFormat {
 };
 /// To read another format is a file and a row. The first that fits is taken.
 constexpr std::array image_formats{
-    ImageFormat{
-        "NRRD",
-        {".nrrd", ".nhdr"},
-        [](const ImageStart& start) { return start.starts_with("NRRD") && !start.is_gzip; },
-        [](const ImageStart& start, ImagePurpose) { return opened(start.path, open_nrrd(start.path)); }},
-    ImageFormat{
-        "NIfTI",
-        {".nii", ".nii.gz"},
-        [](const ImageStart& start) {
-            // Others call their files .img, too.
-            const bool is_another = is_meta_image(start) || has_dicom_mark(start);
-            return begins_as_nifti(start.bytes) ||
-                   (!start.is_folder && !is_another && is_nifti_voxel_file(start.path));
-        },
-        [](const ImageStart& start, ImagePurpose) { return opened(start.path, open_nifti(start.path)); }},
+    ImageFormat{"NRRD",
+                {".nrrd", ".nhdr"},
+                [](const ImageStart& start) { return start.starts_with("NRRD") && !start.is_gzip; },
+                [](const ImageStart& start, ImagePurpose purpose) {
+                    return opened(start.path, open_nrrd(start.path), purpose);
+                }},
+    ImageFormat{"NIfTI",
+                {".nii", ".nii.gz"},
+                [](const ImageStart& start) {
+                    // Others call their files .img, too.
+                    const bool is_another = is_meta_image(start) || has_dicom_mark(start);
+                    return begins_as_nifti(start.bytes) ||
+                           (!start.is_folder && !is_another && is_nifti_voxel_file(start.path));
+                },
+                [](const ImageStart& start, ImagePurpose purpose) {
+                    return opened(start.path, open_nifti(start.path), purpose);
+                }},
     ImageFormat{"folder of PNG or TIFF pictures",
                 {},
                 is_stack,
-                [](const ImageStart& start, ImagePurpose) {
-                    return open_picture_stack(start.path, start.choice.stack_spacing_mm);
+                [](const ImageStart& start, ImagePurpose purpose) {
+                    return open_picture_stack(start.path, start.choice.stack_spacing_mm, purpose);
                 }},
     ImageFormat{"DICOM folder or file",
                 {},
@@ -143,8 +147,8 @@ constexpr std::array image_formats{
     ImageFormat{"MetaImage",
                 {".mha", ".mhd"},
                 [](const ImageStart& start) { return is_meta_image(start) && !start.is_gzip; },
-                [](const ImageStart& start, ImagePurpose) {
-                    return opened(start.path, open_meta_image(start.path));
+                [](const ImageStart& start, ImagePurpose purpose) {
+                    return opened(start.path, open_meta_image(start.path), purpose);
                 }}};
 
 OpenedImage open_any(const std::filesystem::path& path, const ImageChoice& choice, ImagePurpose purpose) {
@@ -180,7 +184,7 @@ std::string name_without_ending(const std::filesystem::path& path) {
     const auto take_off = [&](std::string_view ending) {
         if (!ending.empty() && lower_case(name).ends_with(ending)) name.resize(name.size() - ending.size());
     };
-    for (const std::string_view ending : {".gz", ".dcm", ".hdr", ".img"}) take_off(ending);
+    for (const std::string_view ending : {".gz", ".dcm", ".hdr", ".img", ".tif", ".tiff"}) take_off(ending);
     for (const ImageFormat& one : image_formats) std::ranges::for_each(one.endings, take_off);
     take_off(".seg");
     return name;

@@ -42,7 +42,9 @@ class MetaFields {
     explicit MetaFields(const std::filesystem::path& path) : path_(path) {}
 
     void add(const std::string& name, const std::string& value) {
-        if (!fields_.emplace(name, value).second) refuse(name, "stands there twice");
+        const auto [field, is_new] = fields_.emplace(name, value);
+        if (!is_new && field->second != value && name != "Comment")
+            refuse(name, fmt::format("stands there again as '{}'", shortened(value)));
     }
     std::optional<std::string> text(const std::string& name) const {
         const auto found = fields_.find(name);
@@ -54,7 +56,7 @@ class MetaFields {
         std::string found;
         for (const char* name : names) {
             if (!fields_.contains(name)) continue;
-            if (!found.empty()) refuse(name, "says again what " + found + " says");
+            if (!found.empty() && text(name) != text(found)) refuse(name, "says other than " + found);
             found = name;
         }
         return found;

@@ -149,6 +149,11 @@ NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::f
     // Analyze 7.5 has other things where NIfTI has these.
     if (!header.voxels_follow && !stated.magic.starts_with("ni")) {
         stated.qform = stated.sform = stated.units = 0;
+        if (std::isfinite(stated.slope) && stated.slope != 0.0 && stated.slope != 1.0)
+            header.image.notes.push_back(fmt::format(
+                "{}: is of Analyze, where SPM writes a scale: {} stands there and is not applied; --rescale "
+                "applies one",
+                path.string(), stated.slope));
         stated.slope = stated.intercept = 0.0;
     }
     read_sizes(stated, path, header);

@@ -155,6 +155,10 @@ std::vector<NrrdAxis> axes_by_spacings(const NrrdHeader& header, const NrrdSpace
                                        const std::filesystem::path& path) {
     const std::vector<std::string> kinds = words_of(header.field("kinds").value_or(""));
     const std::optional<std::string> text = header.field("spacings");
+    if (!text && (header.fields.contains("axis mins") || header.fields.contains("axis maxs")))
+        throw ImagingError(path,
+                           "says where its axes begin and end (axis mins, axis maxs) and no spacings; "
+                           "save it with spacings or space directions");
     if (!text) image.notes.push_back(path.string() + ": its header has no spacing; taken as 1 mm");
     const auto words = numbers_of_words(text.value_or(""));
     const std::vector<double> mm = mm_of_units(header, "units", sizes.size(), path, image);

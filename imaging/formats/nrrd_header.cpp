@@ -148,8 +148,11 @@ NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::fil
         if (line[0] == '#' || colon == std::string::npos) continue;
         const std::string name = field_name(line.substr(0, colon));
         const std::string value = trimmed(line.substr(colon + 1));
-        if (!header.fields.emplace(name, value).second)
-            throw ImagingError(path, fmt::format("has the field '{}' twice", shortened(name)));
+        const auto [field, is_new] = header.fields.emplace(name, value);
+        if (!is_new && field->second != value)
+            throw ImagingError(path,
+                               fmt::format("has the field '{}' twice, as '{}' and as '{}'", shortened(name),
+                                           shortened(field->second), shortened(value)));
         listing = name == "data file" && value.substr(0, 4) == "LIST" &&
                   (value.size() == 4 || std::isspace(static_cast<unsigned char>(value[4])) != 0);
     }
@@ -166,11 +169,16 @@ ImageHeader nrrd_image(const NrrdHeader& header, const std::filesystem::path& pa
             path, fmt::format("type '{}' is none of a grey image, such as int16 or float", shortened(type)));
     ImageHeader layout{.bytes = header.bytes, .key_values = header.key_values};
     layout.voxels.type = *voxel_type;
+    layout.encoding = encoding_of(header, path);
+    const bool has_order = bytes_of(*voxel_type) > 1 && layout.encoding != Encoding::text;
+    if (has_order && !header.fields.contains("endian"))
+        throw ImagingError(path, fmt::format("does not say in which order the bytes of its {} stand; add a "
+                                             "line 'endian: little' (or big)",
+                                             shortened(type)));
     const std::string endian = lower_case(header.field("endian").value_or("little"));
     if (endian != "little" && endian != "big")
         throw ImagingError(path, fmt::format("endian '{}' is neither little nor big", shortened(endian)));
     layout.voxels.big_endian = endian == "big";
-    layout.encoding = encoding_of(header, path);
     const std::string lines = header.field("line skip").value_or("0");
     const std::string skip = header.field("byte skip").value_or("0");
     const auto line_skip = parse_number<std::uint64_t>(lines);

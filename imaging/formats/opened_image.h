@@ -16,6 +16,9 @@ namespace osteomill {
 /// Takes slice k of an image; the values are changed at will.
 using TakeSlice = std::function<void(int k, std::span<float> values)>;
 
+/// What an image is opened for.
+enum class ImagePurpose { scan, labels };
+
 /// What is known before the voxels are read.
 struct OpenedImage {
     SourceImage image{};

@@ -4,6 +4,9 @@
 #include <png.h>
 #include <tiffio.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -11,8 +14,10 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <utility>
 
 #include "common/files/input_file.h"
+#include "common/text/words.h"
 #include "imaging/imaging_error.h"
 
 namespace osteomill {
@@ -88,6 +93,45 @@ TiffFile open_tiff(const std::filesystem::path& path) {
     return file;
 }
 
+/// "key=8" in what ImageJ says of a stack, `SizeC="8"` in what OME does; NaN where it says nothing.
+double stated(const std::string& description, const std::string& key) {
+    std::size_t at = description.find(key);
+    while (at != std::string::npos && at > 0 && std::isalnum(static_cast<unsigned char>(description[at - 1])))
+        at = description.find(key, at + 1);
+    if (at == std::string::npos) return std::nan("");
+    at += key.size();
+    return real_number(description.substr(at, description.find_first_of("\r\n\"", at) - at))
+        .value_or(std::nan(""));
+}
+
+/// The description of a TIFF's first page, at which it is open.
+std::string description_of(TIFF* tiff) {
+    const char* text = nullptr;
+    return TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text != nullptr ? text : "";
+}
+
+/// The straight line by which ImageJ makes its levels of the stored ones; it keeps signed numbers so.
+void calibrate(const std::filesystem::path& path, const std::string& description, SlicePicture& picture) {
+    if (!description.starts_with("ImageJ=") || stated(description, "cf=") > 0.0) return;  // another curve
+    const double offset = stated(description, "c0=");
+    const double slope = stated(description, "c1=");
+    if (!std::isfinite(offset) || !std::isfinite(slope) || slope == 0.0) return;
+    for (float& value : picture.values)
+        value = static_cast<float>(offset + slope * static_cast<double>(value));
+    picture.note = fmt::format("{}: ImageJ calibrates its levels: {} x level + {}; applied", path.string(),
+                               slope, offset);
+}
+
+/// Turns a picture the right way up, which is stored from another corner.
+void turn(SlicePicture& picture, std::uint16_t orientation) {
+    const auto width = static_cast<std::ptrdiff_t>(picture.width);
+    if (orientation == ORIENTATION_BOTRIGHT || orientation == ORIENTATION_BOTLEFT)
+        std::ranges::reverse(picture.values);
+    if (orientation == ORIENTATION_TOPRIGHT || orientation == ORIENTATION_BOTLEFT)
+        for (auto row = picture.values.begin(); row != picture.values.end(); row += width)
+            std::reverse(row, row + width);
+}
+
 template <typename Sample>
 void add_samples(const std::vector<std::uint8_t>& line, std::size_t count, bool is_inverted,
                  std::vector<float>& values) {
@@ -140,16 +184,29 @@ SlicePicture read_png_slice(const std::filesystem::path& path) {
 }
 
 int tiff_pages(const std::filesystem::path& path) {
-    return static_cast<int>(TIFFNumberOfDirectories(open_tiff(path).get()));
+    const TiffFile file = open_tiff(path);
+    const std::string description = description_of(file.get());
+    const int pages = TIFFNumberOfDirectories(file.get());
+    for (const auto& [key, name] : {std::pair{"channels=", "channels"}, std::pair{"frames=", "times"},
+                                    std::pair{"SizeC=\"", "channels"}, std::pair{"SizeT=\"", "times"}})
+        if (const double count = stated(description, key); count > 1.0 && count < pages)
+            throw ImagingError(path, fmt::format("its {} pages are of {} {}; save one of them as a stack",
+                                                 pages, count, name));
+    if (const double images = stated(description, "images="); images > 1.0 && pages == 1)
+        throw ImagingError(path, fmt::format("says that it holds {} slices and has one page, as ImageJ saves "
+                                             "large stacks; save it as a sequence of pictures",
+                                             images));
+    return pages;
 }
 
-SlicePicture read_tiff_slice(const std::filesystem::path& path, int page) {
+SlicePicture read_tiff_slice(const std::filesystem::path& path, int page, ImagePurpose purpose) {
     const TiffFile file = open_tiff(path);
     TIFF* tiff = file.get();
     const auto damaged = [&] {
         return ImagingError(path,
                             fmt::format("page {}: cannot be read as TIFF: cut off or damaged", page + 1));
     };
+    const std::string description = description_of(tiff);
     if (TIFFSetDirectory(tiff, static_cast<tdir_t>(page)) == 0) throw damaged();
     std::uint32_t width = 0, height = 0;
     std::uint16_t bits = 1, samples = 1, photometric = PHOTOMETRIC_MINISBLACK, format = SAMPLEFORMAT_UINT;
@@ -159,6 +216,12 @@ SlicePicture read_tiff_slice(const std::filesystem::path& path, int page) {
     TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
     TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
     TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+    std::uint16_t orientation = ORIENTATION_TOPLEFT;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &orientation);
+    if (orientation < ORIENTATION_TOPLEFT || orientation > ORIENTATION_BOTLEFT)
+        throw ImagingError(path, fmt::format("page {}: its rows and columns are exchanged (Orientation {}); "
+                                             "save it upright",
+                                             page + 1, orientation));
     require_size(path, width, height);
     SlicePicture picture{.width = static_cast<int>(width), .height = static_cast<int>(height)};
     picture.values.reserve(std::size_t{width} * height);
@@ -182,7 +245,12 @@ SlicePicture read_tiff_slice(const std::filesystem::path& path, int page) {
                                        "it as 8 or 16 bits in strips",
                                        page + 1, bits, samples, TIFFIsTiled(tiff) != 0 ? ", in tiles," : ""));
     const bool is_signed = format == SAMPLEFORMAT_INT;
-    const bool is_inverted = photometric == PHOTOMETRIC_MINISWHITE && !is_float && !is_signed && bits < 32;
+    const bool is_inverted = photometric == PHOTOMETRIC_MINISWHITE && purpose == ImagePurpose::scan;
+    if (is_inverted && (is_float || is_signed || bits > 16))
+        throw ImagingError(path,
+                           fmt::format("page {}: 0 is white (Photometric Interpretation 0) among numbers "
+                                       "that have no highest one; save it with black as 0",
+                                       page + 1));
     std::vector<std::uint8_t> line(static_cast<std::size_t>(TIFFScanlineSize(tiff)));
     if (line.size() < std::size_t{width} * bits / 8) throw damaged();
     for (std::uint32_t y = 0; y < height; ++y) {
@@ -199,6 +267,8 @@ SlicePicture read_tiff_slice(const std::filesystem::path& path, int page) {
             is_signed ? add_samples<std::int32_t>(line, width, false, picture.values)
                       : add_samples<std::uint32_t>(line, width, false, picture.values);
     }
+    turn(picture, orientation);
+    if (purpose == ImagePurpose::scan) calibrate(path, description, picture);
     return picture;
 }
 

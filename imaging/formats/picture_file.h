@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
+
+#include "imaging/formats/opened_image.h"
 
 namespace osteomill {
 
@@ -11,13 +14,17 @@ struct SlicePicture {
     int height = 0;
     bool is_coloured = false;
     std::vector<float> values{};  ///< left to right, top to bottom; see picture_stack.h
+    std::string note{};           ///< what was made of them; empty where nothing was
 };
 
 /// PNG of any form: grey stays grey, 8 or 16 bits, palettes are colours. Throws ImagingError.
 SlicePicture read_png_slice(const std::filesystem::path& path);
 
-/// A page of a TIFF: grey of 8, 16 or 32 bits or floats; colours of 8 bits. Throws ImagingError.
-SlicePicture read_tiff_slice(const std::filesystem::path& path, int page);
+/// A page of a TIFF: grey of 8, 16 or 32 bits or floats; colours of 8 bits. Of a scan white may be 0, and the
+/// straight line is applied by which ImageJ calibrates levels; labels are as they are stored. Throws
+/// ImagingError.
+SlicePicture read_tiff_slice(const std::filesystem::path& path, int page, ImagePurpose purpose);
+/// Throws ImagingError, too, where ImageJ or OME say that not each of them is a slice.
 int tiff_pages(const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -8,11 +8,11 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "common/text/words.h"
 #include "imaging/formats/picture_file.h"
+#include "imaging/formats/picture_order.h"
 #include "imaging/formats/plausible_geometry.h"
 #include "imaging/imaging_error.h"
 
@@ -33,34 +33,6 @@ bool is_tiff_name(const std::filesystem::path& path) {
     return lower_extension(path) == ".tif" || lower_extension(path) == ".tiff";
 }
 
-bool is_digit(char letter) {
-    return letter >= '0' && letter <= '9';
-}
-
-/// Numbers within names by their value: "2" before "10".
-bool comes_before(std::string_view a, std::string_view b) {
-    while (!a.empty() && !b.empty()) {
-        if (!is_digit(a.front()) || !is_digit(b.front())) {
-            if (a.front() != b.front()) return a.front() < b.front();
-            a.remove_prefix(1);
-            b.remove_prefix(1);
-            continue;
-        }
-        const auto take_number = [](std::string_view& text) {
-            text.remove_prefix(std::min(text.find_first_not_of('0'), text.size()));
-            const std::string_view number =
-                text.substr(0, std::ranges::find_if_not(text, is_digit) - text.begin());
-            text.remove_prefix(number.size());
-            return number;
-        };
-        const std::string_view one = take_number(a);
-        const std::string_view other = take_number(b);
-        if (one.size() != other.size()) return one.size() < other.size();
-        if (one != other) return one < other;
-    }
-    return a.size() < b.size();
-}
-
 std::vector<std::filesystem::path> picture_files(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
     std::error_code failed;
@@ -68,16 +40,13 @@ std::vector<std::filesystem::path> picture_files(const std::filesystem::path& fo
         if (!is_of_the_desktop(entry.path()) &&
             (is_tiff_name(entry.path()) || lower_extension(entry.path()) == ".png"))
             files.push_back(entry.path());
-    std::ranges::sort(files, [](const auto& a, const auto& b) {
-        return comes_before(a.filename().string(), b.filename().string());
-    });
+    std::ranges::sort(files, comes_before);
     return files;
 }
 
-std::vector<Page> pages_of(const std::filesystem::path& path) {
+std::vector<Page> pages_of(const std::vector<std::filesystem::path>& files) {
     std::vector<Page> pages;
-    const bool is_folder = std::filesystem::is_directory(path);
-    for (const auto& file : is_folder ? picture_files(path) : std::vector{path}) {
+    for (const auto& file : files) {
         if (lower_extension(file) == ".png") {
             pages.push_back({file});
             continue;
@@ -88,8 +57,8 @@ std::vector<Page> pages_of(const std::filesystem::path& path) {
     return pages;
 }
 
-SlicePicture read(const Page& page) {
-    return page.number < 0 ? read_png_slice(page.file) : read_tiff_slice(page.file, page.number);
+SlicePicture read(const Page& page, ImagePurpose purpose) {
+    return page.number < 0 ? read_png_slice(page.file) : read_tiff_slice(page.file, page.number, purpose);
 }
 
 }  // namespace
@@ -112,12 +81,14 @@ bool is_picture_folder(const std::filesystem::path& folder, bool has_spacing) {
     return pictures > 0 && (has_spacing || std::count_if(std::filesystem::directory_iterator(folder), {},
                                                          [](const auto& entry) {
                                                              return !is_of_the_desktop(entry.path());
-                                                         }) == pictures);
+                                                         }) < 2 * pictures);
 }
 
-OpenedImage open_picture_stack(const std::filesystem::path& path,
-                               const std::optional<glm::dvec3>& spacing_mm) {
-    std::vector<Page> pages = pages_of(path);
+OpenedImage open_picture_stack(const std::filesystem::path& path, const std::optional<glm::dvec3>& spacing_mm,
+                               ImagePurpose purpose) {
+    const std::vector<std::filesystem::path> files =
+        std::filesystem::is_directory(path) ? picture_files(path) : std::vector{path};
+    std::vector<Page> pages = pages_of(files);
     if (pages.size() < 2)
         throw ImagingError(path,
                            "is no stack of pictures: a folder with a PNG or TIFF for each slice, or a TIFF "
@@ -126,7 +97,7 @@ OpenedImage open_picture_stack(const std::filesystem::path& path,
         throw ImagingError(path,
                            "is a stack of pictures, which do not say how far their pixels are apart; give "
                            "--stack-spacing x,y,z in mm");
-    const SlicePicture first = read(pages.front());
+    const SlicePicture first = read(pages.front(), purpose);
     OpenedImage stack{.is_coloured = first.is_coloured};
     SourceImage& image = stack.image;
     image.size_voxels = {first.width, first.height, static_cast<int>(pages.size())};
@@ -135,17 +106,19 @@ OpenedImage open_picture_stack(const std::filesystem::path& path,
         fmt::format("{}: pictures say nothing of orientation: left and right are a guess (columns to the "
                     "left, rows to the back, slices up)",
                     path.string()));
+    for (const std::string& note : {doubt_of_order(files), first.note})
+        if (!note.empty()) image.notes.push_back(note);
     try {
         require_plausible_geometry(image);
     } catch (const std::invalid_argument& error) {
         throw ImagingError(path, error.what());
     }
     stack.reading_bytes = 2 * sizeof(float) * first.values.size();
-    stack.read_slices = [pages = std::move(pages), size = image.size_voxels, is_coloured = first.is_coloured](
-                            const TakeSlice& take, const ReportProgress& report) {
+    stack.read_slices = [pages = std::move(pages), size = image.size_voxels, is_coloured = first.is_coloured,
+                         purpose](const TakeSlice& take, const ReportProgress& report) {
         for (int k = 0; k < size.z; ++k) {
             const Page& page = pages[static_cast<std::size_t>(k)];
-            SlicePicture picture = read(page);
+            SlicePicture picture = read(page, purpose);
             if (picture.width != size.x || picture.height != size.y || picture.is_coloured != is_coloured)
                 throw ImagingError(
                     page.file,

@@ -19,16 +19,17 @@ namespace osteomill {
 /// 0.
 glm::dvec3 parse_stack_spacing(const std::string& text);
 
-/// Whether a folder is a stack: it holds pictures, and a spacing is given, or there is nothing but pictures.
+/// Whether a folder is a stack: it holds pictures, and a spacing is given, or most of its files are pictures.
 /// A picture beside a scan makes no stack of it.
 bool is_picture_folder(const std::filesystem::path& folder, bool has_spacing);
 
 /// A folder, or a TIFF. Reads what the first picture says of size and form. Values are grey levels (8 or 16
 /// bits, of TIFF floats, too), or colours, 0 where a picture is transparent. Throws ImagingError in one line
 /// where no spacing is given, there are fewer than two pictures, one cannot be read, or is of a form that is
-/// not read; reading the slices, where a picture has another size or form than the first.
-OpenedImage open_picture_stack(const std::filesystem::path& path,
-                               const std::optional<glm::dvec3>& spacing_mm);
+/// not read; reading the slices, where a picture has another size or form than the first. Notes where the
+/// files' numbers have a gap.
+OpenedImage open_picture_stack(const std::filesystem::path& path, const std::optional<glm::dvec3>& spacing_mm,
+                               ImagePurpose purpose = ImagePurpose::scan);
 
 /// Whether the name is of what a desktop leaves beside files: "._scan.nii.gz", ".DS_Store", "Thumbs.db".
 bool is_of_the_desktop(const std::filesystem::path& path);

@@ -31,6 +31,8 @@ constexpr double most_padding_like_air = 0.25;
 constexpr int highest_of_cut_off_air = 5;
 constexpr double least_share_cut_off = 0.02;
 constexpr double least_share_of_air = 0.05;
+/// Metal does so in a few voxels.
+constexpr double least_share_beyond_hu = 0.2;
 /// Bone, on a scale that is off by as much as air is.
 constexpr int highest_of_soft_tissue_with_offset = 1300;
 
@@ -86,7 +88,16 @@ std::optional<float> HuHistogram::fill_hu() const {
 std::string HuHistogram::doubt() const {
     const auto is_met = [](std::uint64_t count) { return count > 0; };
     const auto distinct = std::count_if(count_of_hu_.begin(), count_of_hu_.end(), is_met);
-    if (distinct < 2) return {};
+    const auto all = std::accumulate(count_of_hu_.begin(), count_of_hu_.end(), std::uint64_t{0});
+    constexpr const char* no_hu =
+        "its values {}, not HU; bone_import --intensity-window LOW,HIGH makes HU of them";
+    if (static_cast<double>(count_of_hu_.back()) > least_share_beyond_hu * static_cast<double>(all))
+        return fmt::format(no_hu, fmt::format("lie at {} and above", highest_bin_hu));
+    if (distinct < 2)
+        return not_whole_ == 0 ? ""
+                               : fmt::format(no_hu, fmt::format("are fractions that all round to {}, as "
+                                                                "attenuation is",
+                                                                highest_hu()));
     const auto hu_of = [&](auto bin) { return static_cast<int>(bin) + lowest_bin_hu; };
     const auto first_met = [&](auto from) {
         return hu_of(std::find_if(from, count_of_hu_.end(), is_met) - count_of_hu_.begin());
@@ -103,7 +114,6 @@ std::string HuHistogram::doubt() const {
             "makes HU of them",
             lowest, highest);
     }
-    const auto all = std::accumulate(count_of_hu_.begin(), count_of_hu_.end(), std::uint64_t{0});
     const double share_of_lowest =
         static_cast<double>(count_of_hu_[static_cast<std::size_t>(lowest - lowest_bin_hu)]) /
         static_cast<double>(all);

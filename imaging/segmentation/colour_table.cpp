@@ -57,9 +57,13 @@ std::optional<LabelLine> itk_snap_line(const std::string& line) {
     return line_of(words[0], line.substr(begin + 1, end - begin - 1), {words[1], words[2], words[3]});
 }
 
-/// LABEL NAME R G B A; the name's blanks are underscores, or blanks.
+/// LABEL NAME R G B A; the name's blanks are underscores, or blanks. FreeSurfer 8 has one number more, of few
+/// kinds of tissue, where a name that ends in a number would have its alpha.
 std::optional<LabelLine> ctbl_line(const std::string& line) {
-    const std::vector<std::string> words = words_of(line);
+    constexpr int highest_kind = 15;
+    std::vector<std::string> words = words_of(line);
+    if (words.size() == 7 && number_up_to(words[2], 255) && number_up_to(words[6], highest_kind))
+        words.pop_back();
     if (words.size() < 5) return std::nullopt;
     const std::size_t numbers = words.size() >= 6 ? 4 : 3;  // alpha may be missing
     std::string name = words[1];

@@ -67,7 +67,8 @@ std::vector<Segment> named_segments(const std::filesystem::path& path, const Ope
         if (trimmed(name).empty()) name = value(i, "ID").value_or("");
         const int next = static_cast<int>(segments.size());
         const int layer = number(i, "Layer", labels.layers > 1 ? next : 0, 0, labels.layers - 1);
-        const int label = number(i, "LabelValue", ++segments_of_layer[layer], 1, 65535);
+        const int label = number(i, "LabelValue", ++segments_of_layer[layer], 0, 65535);
+        if (label == 0) continue;  // the background, as some list it
         const std::optional<std::string> colour = value(i, "Color");
         segments.push_back({.name = trimmed(name).empty() ? std::to_string(label) : name,
                             .layer = layer,
@@ -110,6 +111,19 @@ LabelRows read_labels(const std::filesystem::path& path, const OpenedImage& open
         },
         [](double) {});
     return rows;
+}
+
+/// One line on labels that no segment has; empty where each has one.
+std::string labels_left_out(const Segmentation& segmentation) {
+    int left_out = 0;
+    for (int layer = 0; layer < segmentation.labels.layers(); ++layer)
+        for (const std::uint16_t label : segmentation.labels.labels_in(layer))
+            left_out += std::ranges::none_of(segmentation.segments, [&](const Segment& segment) {
+                return segment.layer == layer && segment.label == label;
+            });
+    if (left_out == 0) return {};
+    return fmt::format("{}: {} of its labels are none of its segments'; left out", segmentation.path.string(),
+                       left_out);
 }
 
 /// Of a label map without names.
@@ -195,6 +209,8 @@ Segmentation read_segmentation(const std::filesystem::path& path,
     if (segmentation.is_plain_map && !found.is_coloured && segmentation.segments.size() == 1)
         segmentation.segments.front().name = name_without_ending(path);
     require_plain_names(segmentation);
+    if (const std::string note = labels_left_out(segmentation); !note.empty())
+        segmentation.image.notes.push_back(note);
     return segmentation;
 }
 

@@ -100,6 +100,21 @@ TEST_F(OddImport, ReadsEveryEncodingAndTypeOfANrrd) {
     expect_ramp(import(folder_ / "wide_gzip.nrrd"));
 }
 
+TEST_F(OddImport, SaysOfLabelsWhatItHadToAssume) {
+    write_bytes(folder_ / "scan.nrrd", with(nrrd_header(), "(0,0,2)", "(0,0,1)") + ramp(60));
+    std::string labels(60, '\0');
+    labels[22] = 1;
+    write_bytes(folder_ / "nerve.mha",
+                with(with(meta_header(), "MET_SHORT", "MET_UCHAR"), "1 1 2", "1 1 1") + labels);
+    said_ = run_program({BONE_IMPORT, (folder_ / "scan.nrrd").string(), "--segmentation",
+                         (folder_ / "nerve.mha").string(), "--case", (folder_ / "case").string(),
+                         "--threshold-hu", "20", "--spacing-mm", "1"});
+    EXPECT_EQ(said_.status, 0);
+    EXPECT_THAT(
+        said_.err,
+        HasSubstr("nerve.mha: warning: its header has no TransformMatrix; left and right are a guess"));
+}
+
 TEST_F(OddImport, RefusesTextThatIsNoNumbers) {
     const std::string header = with(nrrd_header(), "raw", "ascii");
     const auto refusal = [&](const std::string& text) {

@@ -23,10 +23,16 @@ inline void write_png_picture(const std::filesystem::path& path, int width, int 
         throw std::runtime_error("cannot write " + path.string());
 }
 
+struct TiffTags {
+    int orientation = ORIENTATION_TOPLEFT;
+    int photometric = PHOTOMETRIC_MINISBLACK;
+    const char* description = "";
+};
+
 /// Grey, a page for each, `bits` of 8 or 16.
 template <typename Sample>
 void write_tiff_pages(const std::filesystem::path& path, int width, int height,
-                      const std::vector<std::vector<Sample>>& pages) {
+                      const std::vector<std::vector<Sample>>& pages, const TiffTags& tags = {}) {
     TIFF* tiff = TIFFOpen(path.c_str(), "w");
     if (tiff == nullptr) throw std::runtime_error("cannot write " + path.string());
     for (const std::vector<Sample>& page : pages) {
@@ -34,7 +40,9 @@ void write_tiff_pages(const std::filesystem::path& path, int width, int height,
         TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
         TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, int{8 * sizeof(Sample)});
         TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
-        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, tags.photometric);
+        TIFFSetField(tiff, TIFFTAG_ORIENTATION, tags.orientation);
+        if (*tags.description != '\0') TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, tags.description);
         TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_LZW);
         TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 3);
         for (int y = 0; y < height; ++y)

@@ -57,6 +57,13 @@ class ByteSourceOfFile : public ::testing::Test {
     std::vector<std::byte> small_ = std::vector<std::byte>(1000, std::byte{7});
 };
 
+TEST_F(ByteSourceOfFile, MayBeFilledUpWithZeros) {
+    EXPECT_EQ(refusal(source(zipped(small_) + std::string(700'000, '\0')), 1000), "accepted");
+    EXPECT_EQ(refusal(source(zipped(small_) + std::string(3, '\0') + zipped(small_)), 2000), "accepted");
+    EXPECT_THAT(refusal(source(zipped(small_) + std::string(3, '\0') + "x"), 1000),
+                HasSubstr("1 bytes of something else"));
+}
+
 TEST_F(ByteSourceOfFile, GivesBackWhatWasCompressedInPieces) {
     const std::vector<std::byte> bytes = many_bytes();
     ByteSource read_again = source(zipped(bytes));

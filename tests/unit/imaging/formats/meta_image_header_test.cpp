@@ -63,6 +63,13 @@ TEST(MetaImageHeader, ConvertsItsUnitsAndSaysWhereLeftAndRightAreAGuess) {
     EXPECT_TRUE(parse(meta_header("LOCAL", "TransformMatrix = 1 0 0 0 1 0 0 0 1\n")).image.notes.empty());
 }
 
+TEST(MetaImageHeader, MaySayTheSameTwice) {
+    const std::string again = "ElementByteOrderMSB = False\nOrigin = 1 2 3\nDimSize = 3 4 5\n";
+    EXPECT_EQ(parse(meta_header("LOCAL", again + "Comment = a\nComment = b\n")).image.origin_mm.z, 3.0);
+    EXPECT_THAT(refusal(meta_header("LOCAL", "ElementByteOrderMSB = True\n")),
+                HasSubstr("says other than BinaryDataByteOrderMSB"));
+}
+
 TEST(MetaImageHeader, MayHaveAFourthAxisOfOneVoxel) {
     std::string text = with(meta_header(), "NDims = 3", "NDims = 4");
     text = with(with(with(text, "3 4 5", "3 4 5 1"), "1 1 2", "1 1 2 1"), "1 2 3", "1 2 3 0");
@@ -77,8 +84,9 @@ TEST(MetaImageHeader, RefusesWhatCannotBe) {
     EXPECT_THAT(refusal(with(meta_header(), "3 4 5", "3 4")), HasSubstr("DimSize '3 4' must be 3 numbers"));
     EXPECT_THAT(refusal(with(meta_header(), "3 4 5", "3 4 nan")), HasSubstr("DimSize"));
     EXPECT_THAT(refusal(with(meta_header(), "MET_SHORT", "MET_STRING")), HasSubstr("ElementType"));
-    EXPECT_THAT(refusal(meta_header("LOCAL", "DimSize = 1 2 3\n")), HasSubstr("stands there twice"));
-    EXPECT_THAT(refusal(meta_header("LOCAL", "Origin = 1 2 3\n")), HasSubstr("says again"));
+    EXPECT_THAT(refusal(meta_header("LOCAL", "DimSize = 1 2 3\n")),
+                HasSubstr("stands there again as '1 2 3'"));
+    EXPECT_THAT(refusal(meta_header("LOCAL", "Origin = 1 2 3\n")), HasSubstr("says other than Offset"));
     EXPECT_THAT(refusal(meta_header("LOCAL", "HeaderSize = -2\n")), HasSubstr("HeaderSize"));
     EXPECT_THAT(refusal(meta_header("LOCAL", "ElementNumberOfChannels = 3\n")), HasSubstr("colour"));
     EXPECT_THAT(refusal(meta_header("LOCAL", "DistanceUnits = furlong\n")), HasSubstr("mm, cm, m, um"));

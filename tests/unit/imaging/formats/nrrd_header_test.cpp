@@ -140,6 +140,11 @@ TEST(NrrdHeader, MakesAxesPerpendicularUpToHalfADegree) {
     EXPECT_TRUE(layout_of(with_line("(0,1,0)", "(0.000001,1,0)")).image.notes.empty()) << "as printed";
 }
 
+TEST(NrrdHeader, MustSaySpacingsWhereItSaysHowFarItsAxesReach) {
+    const std::string text = with_line("space directions: (1,0,0) (0,1,0) (0,0,2)\n", "axis mins: 0 0 0\n");
+    EXPECT_THAT(refusal(text), HasSubstr("save it with spacings"));
+}
+
 TEST(NrrdHeader, UnescapesItsKeys) {
     const std::string text = testing::nrrd_header("name:=a\\nb\\\\c: d\nDICOM:x:=1\nDICOM:y:=2\n");
     const NrrdHeader header = parse_nrrd_header(bytes_of(text), "x.nrrd");
@@ -158,6 +163,9 @@ TEST(NrrdHeader, RefusesWhatCannotBe) {
     EXPECT_THAT(refusal(testing::with(testing::nrrd_header("byte skip: -1\n"), "raw", "gzip")),
                 HasSubstr("lead nowhere"));
     EXPECT_THAT(refusal(testing::nrrd_header("sizes: 1 2 3\n")), HasSubstr("'sizes' twice"));
+    EXPECT_EQ(layout_of(testing::nrrd_header("encoding: raw\n")).voxel_bytes, 120U) << "twice the same";
+    EXPECT_THAT(refusal(testing::with(testing::nrrd_header(), "endian: little\n", "")),
+                HasSubstr("in which order the bytes"));
     EXPECT_THAT(refusal(testing::nrrd_header("data file: s%s%d 1 5 1\n")), HasSubstr("no other %"));
     EXPECT_THAT(refusal(testing::nrrd_header("data file: s%d 1 5 0\n")), HasSubstr("FIRST LAST STEP"));
     EXPECT_THAT(refusal(testing::nrrd_header("data file: s%d 1 7 1\n")), HasSubstr("cannot share"));

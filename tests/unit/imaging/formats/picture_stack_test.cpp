@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "imaging/formats/picture_order.h"
 #include "imaging/imaging_error.h"
 #include "imaging/segmentation/segmentation.h"
 #include "tests/support/picture_files.h"
@@ -41,11 +42,30 @@ TEST_F(PictureStackFolder, IsInTheOrderOfTheNumbersInItsNames) {
     EXPECT_FALSE(stack.is_coloured);
     EXPECT_EQ(stack.image.size_voxels, glm::ivec3(2, 2, 4));
     EXPECT_EQ(stack.image.spacing_mm, spacing_mm);
-    EXPECT_THAT(stack.image.notes, ElementsAre(HasSubstr("left and right are a guess")));
+    EXPECT_THAT(stack.image.notes,
+                ElementsAre(HasSubstr("left and right are a guess"), HasSubstr("'plane1.png'")));
     const std::vector<float> all = values();
     EXPECT_THAT((std::vector<float>{all[0], all[4], all[8], all[12]}),
                 ElementsAre(1.0F, 9.0F, 10.0F, 100.0F));
     EXPECT_EQ(all[3], 255.0F);
+}
+
+TEST(PictureOrder, IsThatOfNumbersAndSaysWhereOneIsMissing) {
+    const auto sorted = [](std::vector<std::filesystem::path> names) {
+        std::ranges::sort(names, comes_before);
+        return names;
+    };
+    EXPECT_THAT(sorted({"s_1.png", "s_-2.png", "s_0.png", "s_-10.png"}),
+                ElementsAre("s_-10.png", "s_-2.png", "s_0.png", "s_1.png"));
+    EXPECT_THAT(sorted({"b-2.png", "B-1.png", "a-3.png"}), ElementsAre("a-3.png", "B-1.png", "b-2.png"));
+    EXPECT_THAT(sorted({"a (10).png", "a.png", "a (2).png"}),
+                ElementsAre("a.png", "a (2).png", "a (10).png"));
+    EXPECT_EQ(doubt_of_order({"s010.png", "s020.png", "s030.png"}), "");
+    EXPECT_EQ(doubt_of_order({"apple.png", "pear.png", "plum.png"}), "") << "not numbered at all";
+    EXPECT_THAT(doubt_of_order({"s1.png", "s2.png", "s4.png", "s5.png"}),
+                HasSubstr("'s2.png' is followed by 's4.png'"));
+    EXPECT_THAT(doubt_of_order({"s1.png", "s2.png", "s2 copy.png", "s3.png", "s4.png", "s5.png"}),
+                HasSubstr("'s2.png' is followed by 's2 copy.png'"));
 }
 
 TEST_F(PictureStackFolder, OfTiffHasAllLevelsAndAllPages) {
@@ -57,6 +77,43 @@ TEST_F(PictureStackFolder, OfTiffHasAllLevelsAndAllPages) {
     ASSERT_EQ(all.size(), 36U);
     EXPECT_THAT((std::vector<float>{all[11], all[12], all[35]}), ElementsAre(65535.0F, 300.0F, 7.0F));
     EXPECT_EQ(open_picture_stack(folder_ / "a2.TIFF", spacing_mm).image.size_voxels.z, 2);
+}
+
+TEST_F(PictureStackFolder, OfTiffIsAsItsTagsSay) {
+    const std::vector<std::vector<std::uint16_t>> pages(2, {1, 2, 3, 4});
+    const auto first_page = [&](const testing::TiffTags& tags, ImagePurpose purpose = ImagePurpose::scan) {
+        testing::write_tiff_pages<std::uint16_t>(folder_ / "a.tif", 2, 2, pages, tags);
+        std::vector<float> all = values_of(open_picture_stack(folder_ / "a.tif", spacing_mm, purpose));
+        all.resize(4);
+        return all;
+    };
+    const auto refused = [&](const testing::TiffTags& tags) -> std::string {
+        try {
+            (void)first_page(tags);
+        } catch (const ImagingError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_THAT(first_page({.orientation = ORIENTATION_BOTLEFT}), ElementsAre(3, 4, 1, 2));
+    EXPECT_THAT(first_page({.orientation = ORIENTATION_TOPRIGHT}), ElementsAre(2, 1, 4, 3));
+    EXPECT_THAT(first_page({.orientation = ORIENTATION_BOTRIGHT}), ElementsAre(4, 3, 2, 1));
+    EXPECT_THAT(refused({.orientation = ORIENTATION_LEFTTOP}), HasSubstr("rows and columns are exchanged"));
+    EXPECT_THAT(first_page({.photometric = PHOTOMETRIC_MINISWHITE}), ElementsAre(65534, 65533, 65532, 65531));
+    EXPECT_THAT(first_page({.photometric = PHOTOMETRIC_MINISWHITE}, ImagePurpose::labels),
+                ElementsAre(1, 2, 3, 4));
+    EXPECT_THAT(first_page({.description = "ImageJ=1.53t\nimages=2\nc0=-32768.0\nc1=1.0\n"}),
+                ElementsAre(-32767, -32766, -32765, -32764));
+    EXPECT_THAT(refused({.description = "<OME><Pixels SizeC=\"2\" SizeZ=\"1\"></OME>"}), "accepted")
+        << "an axis by another name";
+    std::filesystem::remove(folder_ / "a.tif");
+    testing::write_tiff_pages<std::uint16_t>(
+        folder_ / "b.tif", 2, 2, std::vector<std::vector<std::uint16_t>>(4, {1, 2, 3, 4}),
+        {.description = "ImageJ=1.53t\nimages=4\nchannels=2\nslices=2\n"});
+    EXPECT_THAT(refusal(), HasSubstr("its 4 pages are of 2 channels"));
+    testing::write_tiff_pages<std::uint16_t>(folder_ / "b.tif", 2, 2, {{1, 2, 3, 4}},
+                                             {.description = "ImageJ=1.53t\nimages=4\nslices=4\n"});
+    EXPECT_THAT(refusal(), HasSubstr("says that it holds 4 slices and has one page"));
 }
 
 TEST_F(PictureStackFolder, OfColoursIsALabelMap) {
@@ -102,6 +159,9 @@ TEST_F(PictureStackFolder, IsNoneWhereAPictureLiesBesideAScan) {
     for (const char* name : {"Thumbs.db", ".DS_Store", "._1.png"})
         std::ofstream(folder_ / name) << "of the desktop";
     EXPECT_TRUE(is_picture_folder(folder_.path(), false));
+    testing::write_png_picture(folder_ / "2.png", 1, 1, PNG_FORMAT_GRAY, {0});
+    std::ofstream(folder_ / "scan.log") << "of the scanner";
+    EXPECT_TRUE(is_picture_folder(folder_.path(), false)) << "most are pictures";
     std::ofstream(folder_ / "IM0001") << "DICM";
     EXPECT_FALSE(is_picture_folder(folder_.path(), false));
     EXPECT_TRUE(is_picture_folder(folder_.path(), true));

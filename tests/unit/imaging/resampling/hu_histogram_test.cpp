@@ -112,7 +112,12 @@ TEST(HuHistogram, HasNoOpinionOfOneValueOrNone) {
 }
 
 TEST(HuHistogram, TakesWhatIsBeyondItsEnds) {
-    EXPECT_EQ(doubt_of({-1e30F, 1e30F}), "");
+    EXPECT_THAT(doubt_of({-1e30F, 1e30F}), HasSubstr("lie at 8191 and above"));
+    EXPECT_EQ(doubt_of({-1e30F, -1000, 0, 40, 400, 1e30F}), "") << "metal";
+}
+
+TEST(HuHistogram, TellsAttenuationFromHu) {
+    EXPECT_THAT(doubt_of({-0.014F, 0.0F, 0.02F, 0.34F}), HasSubstr("fractions that all round to 0"));
 }
 
 }  // namespace

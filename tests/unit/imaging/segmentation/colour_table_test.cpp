@@ -39,6 +39,13 @@ TEST_F(ColourTableFile, IsReadAsSlicerWritesIt) {
     EXPECT_EQ(table.at(5).name, "canal");
 }
 
+TEST_F(ColourTableFile, IsReadAsFreeSurferWritesIt) {
+    write("819 Left-HypoThal-noMB 0 80 0 0 2\n7 Rib 12 1 2 3 255\n");
+    const ColourTable table = read_colour_table(path_);
+    EXPECT_EQ(table.at(819), (ColourOfLabel{"Left-HypoThal-noMB", {0, 80, 0}}));
+    EXPECT_EQ(table.at(7), (ColourOfLabel{"Rib 12", {1, 2, 3}}));
+}
+
 TEST_F(ColourTableFile, IsReadAsItkSnapWritesIt) {
     write(
         "####\n# ITK-SnAP Label Description File\n    0     0    0    0        0  0  0    \"Clear Label\"\n"

@@ -101,6 +101,32 @@ TEST_F(SegmentationFile, MayLackANumberOrAName) {
     EXPECT_EQ(read.segments[2].name, "7");
 }
 
+TEST_F(SegmentationFile, MayListItsBackgroundAndSaysWhatItDoesNotList) {
+    std::string voxels(24, '\0');
+    voxels[0] = 1;
+    voxels[2] = 7;
+    write(layered_header("Segment0_Name:=background\nSegment0_LabelValue:=0\nSegment0_Layer:=0\n"
+                         "Segment1_Name:=bone\nSegment1_LabelValue:=1\nSegment1_Layer:=0\n"),
+          voxels);
+    const Segmentation read = read_segmentation(path_);
+    ASSERT_EQ(read.segments.size(), 1U);
+    EXPECT_EQ(read.segments[0].name, "bone");
+    EXPECT_THAT(read.image.notes,
+                ::testing::Contains(HasSubstr("1 of its labels are none of its segments'")));
+}
+
+TEST_F(SegmentationFile, MayBeASingleSlice) {
+    write(
+        "type: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 2 1\n"
+        "space directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\nspace origin: (1,1,1)\n",
+        std::string("\1\0\0\1", 4));
+    const Segmentation read = read_segmentation(path_);
+    const Grid grid{.size_voxels = {8, 8, 8}, .spacing_mm = 0.5, .origin_mm = {0.0, 0.0, 0.0}};
+    const StructureMask one = structure_of(read, read.segments.at(0), grid);
+    EXPECT_TRUE(one.contains({2, 2, 2}));
+    EXPECT_FALSE(one.contains({2, 2, 4})) << "no thicker than its slice";
+}
+
 TEST_F(SegmentationFile, KeepsNamesAsTheyAre) {
     write(layered_header("Segment0_Name:=a b\\\\c d \"e\" \xc3\xb6: f\nSegment1_Name:=under_score\n"),
           std::string(24, '\1'));
