@@ -72,12 +72,15 @@ class AnyKindReader : public gdcm::ImageReader {
 
 constexpr std::string_view rle = "1.2.840.10008.1.2.5";  ///< the one compression that codes bytes, not pixels
 
-/// Whether a pixel's bits are others than the lowest of those that are there.
+/// Whether GDCM would take others for a pixel's bits than the header says, or fail: it takes the lowest of
+/// those that are there, and fewer than all of 16 alone.
 bool lies_elsewhere(const DicomFile& file) {
     const DicomScan& scan = file.header.scan;
     const bool keeps_bits = !scan.is_encapsulated || scan.transfer_syntax == rle;
     return keeps_bits && scan.high_bit && scan.bits_stored && scan.bits_allocated &&
-           *scan.high_bit + 1 > *scan.bits_stored && *scan.high_bit < *scan.bits_allocated;
+           *scan.high_bit < *scan.bits_allocated &&
+           (*scan.high_bit + 1 > *scan.bits_stored ||
+            (*scan.bits_allocated != 16 && *scan.bits_stored < *scan.bits_allocated));
 }
 
 /// GDCM takes them for the lowest, and would clear the others.

@@ -109,6 +109,13 @@ DicomRescale rescale_of(const Places& places, DicomHeader& header) {
              "warning: says nothing of how its values become HU (no Rescale Slope and Intercept, 0028,1053 "
              "and 1052), as cone-beam scans without calibration do; they are taken for HU unless --rescale "
              "or --intensity-window says otherwise");
+    if (!header.values.table && slope && !intercept)
+        note(header,
+             "warning: has a Rescale Slope and no Rescale Intercept (0028,1052); taken as 0, where a CT's is "
+             "-1024 or near it");
+    if (!std::isfinite(rescale.slope) || !std::isfinite(rescale.intercept))
+        header.fault = fmt::format("has a Rescale Slope and Intercept (0028,1053 and 1052) of {} and {}",
+                                   rescale.slope, rescale.intercept);
     if (rescale.slope == 0.0) {
         note(header,
              "warning: its Rescale Slope (0028,1053) is 0, which would make all values the same; taken as 1");
@@ -192,14 +199,20 @@ void stack_frames(const Places& places, std::size_t count, DicomHeader& header) 
         header.frames[frame]->position_mm += static_cast<double>(frame) * gap_mm * normal;
     }
     note(header,
-         fmt::format("is multi-frame and does not say where each frame lies; stacked {:g} mm apart ({})",
-                     gap_mm, is_thickness ? "Slice Thickness" : "Spacing Between Slices"));
+         fmt::format(
+             "warning: is multi-frame and does not say where each frame lies; stacked {:g} mm apart ({}), "
+             "the first lowest: above and below are a guess",
+             gap_mm, is_thickness ? "Slice Thickness" : "Spacing Between Slices"));
 }
 
 void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
     const auto shared = sequence_of(data, shared_groups_tag);
     const auto per_frame = sequence_of(data, per_frame_groups_tag);
-    const bool has_groups = per_frame && per_frame->GetNumberOfItems() == count;
+    const std::size_t groups = per_frame ? per_frame->GetNumberOfItems() : 0;
+    if (groups != 0 && groups != count)
+        throw std::invalid_argument(fmt::format(
+            "says that it has {} frames (0028,0008) and where {} lie (5200,9230)", count, groups));
+    const bool has_groups = groups == count;
     const auto places_of = [&](std::size_t frame) {
         Places places;
         if (has_groups) places.in.push_back(&per_frame->GetItem(frame + 1).GetNestedDataSet());
@@ -281,6 +294,12 @@ std::optional<DicomScan> scan_file(const std::filesystem::path& path) {
 std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) try {
     const std::optional<DicomScan> scan = scan_file(path);
     if (!scan) return std::nullopt;
+    if (const std::string& uid = scan->transfer_syntax;
+        !uid.empty() && gdcm::TransferSyntax::GetTSType(uid.c_str()) == gdcm::TransferSyntax::TS_END)
+        throw ImagingError(path,
+                           fmt::format("is coded in transfer syntax {}, which GDCM does not read; save it "
+                                       "uncompressed",
+                                       printable(uid.substr(0, 64))));
     gdcm::Reader reader;
     reader.SetFileName(path.c_str());
     // Of what is deflated GDCM finds no tag to read up to where it is short.
@@ -308,10 +327,15 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
         throw ImagingError(path, "Number of Frames (0028,0008) is '" + frames + "'");
     header.no_grey_image = why_no_grey_image(*scan);
     header.instance_uid = text_of(data, instance_uid_tag);
+    const std::string photometric = text_of(data, photometric_tag);
+    // GDCM ends the program over blanks and lists.
+    if (data.FindDataElement(photometric_tag) && data.GetDataElement(photometric_tag).GetVL() > 0 &&
+        (photometric.empty() || photometric.find('\\') != std::string::npos))
+        throw ImagingError(path,
+                           "Photometric Interpretation (0028,0004) is '" + photometric.substr(0, 40) + "'");
     if (is_segmentation(*scan)) place_frames(data, static_cast<std::size_t>(count), header);
     if (!header.no_grey_image.empty()) return header;
-    if (const std::string photometric = text_of(data, photometric_tag);
-        header.samples_per_pixel == 1 && !photometric.empty() && !photometric.starts_with("MONOCHROME"))
+    if (header.samples_per_pixel == 1 && !photometric.empty() && !photometric.starts_with("MONOCHROME"))
         header.fault = "has pixels in colour (0028,0004 '" + photometric.substr(0, 16) + "')";
     header.values = values_of(data, *scan, header);
     if (scan->codestream && scan->codestream->is_signed && scan->pixel_representation &&

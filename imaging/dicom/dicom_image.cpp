@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -31,6 +32,18 @@ void note_doubts(const std::filesystem::path& folder, const DicomSeries& series,
     for (const DicomFile& file : series.files)
         notes.insert(file.header.notes.begin(), file.header.notes.end());
     for (const std::string& note : notes) image.notes.push_back(fmt::format("{}: {}", folder.string(), note));
+    double lowest = std::numeric_limits<double>::max(), highest = std::numeric_limits<double>::lowest();
+    for (const DicomFile& file : series.files)
+        for (const DicomRescale& rescale : file.header.rescales) {
+            lowest = std::min(lowest, rescale.intercept);
+            highest = std::max(highest, rescale.intercept);
+        }
+    constexpr double most_difference_hu = 100.0;
+    if (highest - lowest > most_difference_hu)
+        image.notes.push_back(
+            fmt::format("{}: warning: its slices say Rescale Intercepts (0028,1052) from {:g} to "
+                        "{:g}; those of a CT are alike",
+                        folder.string(), lowest, highest));
     const std::string& modality = series.files.front().header.scan.modality;
     if (!modality.empty() && modality != "CT")
         image.notes.push_back(

@@ -50,6 +50,7 @@ void require_sound_pixels(const DicomScan& scan) {
                                expected));
         return;
     }
+    if (scan.pixel_bytes == 0) refuse("has compressed pixel data without a fragment (7fe0,0010)");
     // A JPEG may leave its height to its end.
     if (scan.codestream &&
         (scan.codestream->columns != static_cast<std::uint32_t>(columns) ||
@@ -64,8 +65,12 @@ void require_sound_pixels(const DicomScan& scan) {
                            scan.pixel_bytes, expected));
 }
 
+bool is_label_map(const DicomScan& scan) {
+    return scan.sop_class == label_map_class;
+}
+
 bool is_segmentation(const DicomScan& scan) {
-    return scan.sop_class == segmentation_class || scan.sop_class == label_map_class;
+    return scan.sop_class == segmentation_class || is_label_map(scan);
 }
 
 std::string why_no_grey_image(const DicomScan& scan) {

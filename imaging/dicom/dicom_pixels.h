@@ -15,6 +15,8 @@ void require_sound_pixels(const DicomScan& scan);
 
 /// Whether an object is labels that are read: a segmentation (SEG), or one as a label map.
 bool is_segmentation(const DicomScan& scan);
+/// Whether its pixels are the numbers of segments.
+bool is_label_map(const DicomScan& scan);
 
 /// Why an object holds no CT numbers though it may have pixels ("is a segmentation (SEG)"); empty where it
 /// may hold some.

@@ -72,7 +72,7 @@ std::optional<DicomScan> scan_bare(Bytes bytes, std::uint64_t file_bytes) {
                 if (!walker.scan().transfer_syntax.empty()) syntax = syntax_of(walker.scan().transfer_syntax);
             }
             walker.walk_file(at, syntax, std::nullopt);
-            walker.require_few_hidden_items();
+            walker.require_sound();
             return walker.scan();
         } catch (const DamagedDicom&) {
             // Then it is coded in the other way, or it is none.
@@ -103,13 +103,13 @@ std::optional<DicomScan> scan_dicom(Bytes bytes, std::uint64_t file_bytes) {
         const std::vector<std::uint8_t> plain = inflated(bytes.subspan(body));
         DicomWalker inner(plain, plain.size());
         inner.walk_file(0, {}, std::nullopt);
-        inner.require_few_hidden_items();
+        inner.require_sound();
         DicomScan scan = inner.scan();
         scan.transfer_syntax = uid;
         return scan;
     }
     walker.walk_file(body, syntax_of(uid), std::nullopt);
-    walker.require_few_hidden_items();
+    walker.require_sound();
     return walker.scan();
 }
 

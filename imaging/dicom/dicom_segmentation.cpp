@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 
 #include "common/files/input_file.h"
@@ -31,8 +32,6 @@ using gdcm::Tag;
 constexpr std::uint64_t most_segmentation_bytes = std::uint64_t{1} << 30U;
 constexpr std::uint64_t most_segmentation_voxels = std::uint64_t{1} << 31U;
 constexpr int most_layers_of_segments = 255;
-/// Positions are printed; a slice lies where it is within this share of the gap.
-constexpr double slice_tolerance = 0.02;
 
 /// One layer of labels, x fastest; a segment of frames that overlap others lies in another.
 using Layer = std::vector<std::uint16_t>;
@@ -131,6 +130,11 @@ class SegmentationSource {
         if (there < expected)
             refuse(fmt::format("is cut off: {} of {} bytes of pixel data are there", there, expected));
         bits_ = reinterpret_cast<const std::uint8_t*>(bytes->GetPointer());
+        // Some writers begin each frame with a byte of its own, where frames follow one another by the bit.
+        const std::uint64_t padded = std::uint64_t{header_.frames.size()} * ((pixels_of_frame() + 7) / 8);
+        const bool is_padded =
+            there > expected + expected % 2 && (there == padded || there == padded + padded % 2);
+        bits_of_frame_ = is_padded ? (pixels_of_frame() + 7) / 8 * 8 : pixels_of_frame();
     }
 
     void find_segments() {
@@ -138,59 +142,66 @@ class SegmentationSource {
         if (!per_frame || per_frame->GetNumberOfItems() != header_.frames.size())
             refuse("is a segmentation that does not say where each frame lies (5200,9230)");
         if (!header_.fault.empty()) refuse(header_.fault);
+        for (const int number : described_segments())
+            if (!numbers_.insert(number).second)
+                refuse(fmt::format("has two segments of the number {} (0062,0004)", number));
+        const bool is_of_numbers =
+            is_label_map(header_.scan) || text_of(data(), Tag(0x0062, 0x0001)) == "LABELMAP";
+        const auto shared = sequence_of(data(), Tag(0x5200, 0x9229));
         for (std::size_t i = 1; i <= header_.frames.size(); ++i) {
-            const auto segments = sequence_of(per_frame->GetItem(i).GetNestedDataSet(), Tag(0x0062, 0x000a));
-            segment_of_frame_.push_back(
-                segments && segments->GetNumberOfItems() > 0
-                    ? number_of(segments->GetItem(1).GetNestedDataSet(), Tag(0x0062, 0x000b), 0)
-                    : 0);
+            Places places{{&per_frame->GetItem(i).GetNestedDataSet()}};
+            if (shared && shared->GetNumberOfItems() > 0)
+                places.in.push_back(&shared->GetItem(1).GetNestedDataSet());
+            segment_of_frame_.push_back(is_of_numbers ? 0 : segment_in(places, i));
         }
+    }
+    std::vector<int> described_segments() const {
+        std::vector<int> numbers;
+        const auto segments = sequence_of(data(), Tag(0x0062, 0x0002));
+        for (std::size_t i = 1; segments && i <= segments->GetNumberOfItems(); ++i)
+            if (const int number = number_of(segments->GetItem(i).GetNestedDataSet(), Tag(0x0062, 0x0004), 0);
+                number != 0)
+                numbers.push_back(number);
+        return numbers;
+    }
+    /// A frame says so itself, or all do together; of a single segment it need not be said.
+    int segment_in(const Places& places, std::size_t frame) const {
+        for (const DataSet* place : places.in) {
+            const auto named = sequence_of(*place, Tag(0x0062, 0x000a));
+            if (!named || named->GetNumberOfItems() == 0) continue;
+            const int number = number_of(named->GetItem(1).GetNestedDataSet(), Tag(0x0062, 0x000b), 0);
+            if (!numbers_.empty() && !numbers_.contains(number))
+                refuse(fmt::format("its frame {} is of segment {} (0062,000b), which it does not describe",
+                                   frame, number));
+            return number;
+        }
+        if (numbers_.size() != 1)
+            refuse(fmt::format("its frame {} does not say of which segment it is (0062,000a)", frame));
+        return *numbers_.begin();
     }
 
     /// The lattice of all frames; slices between them are empty.
     SourceImage placed_image() {
-        const SlicePlacement& any = *header_.frames.front();
-        const glm::dvec3 normal = glm::normalize(glm::cross(any.along_row, any.along_column));
-        if (!std::isfinite(normal.x)) refuse("is a segmentation whose rows and columns have no directions");
-        std::map<long, std::size_t> heights;  // of distinct slices, in micrometres
+        std::vector<SlicePlacement> frames;
         for (std::size_t i = 0; i < header_.frames.size(); ++i) {
-            const glm::dvec3& position_mm = header_.frames[i]->position_mm;
-            if (!is_plausible_position(position_mm)) refuse(implausible_position("the position of a frame"));
-            heights.emplace(std::lround(1000.0 * glm::dot(position_mm, normal)), i);
+            frames.push_back(*header_.frames[i]);
+            frames.back().name = fmt::format("frame {}", i + 1);
         }
-        double gap_mm = 0.0;
-        for (auto next = heights.begin(); next != heights.end(); ++next)
-            if (next != heights.begin()) {
-                const double step_mm = 1e-3 * static_cast<double>(next->first - std::prev(next)->first);
-                if (gap_mm == 0.0 || step_mm < gap_mm) gap_mm = step_mm;
-            }
-        // Where few slices are there, what the file says is nearer the truth.
-        if (const double stated_mm = header_.slice_gap_mm;
-            stated_mm > 0.0 && (gap_mm == 0.0 || stated_mm < gap_mm))
-            gap_mm = stated_mm;
-        if (gap_mm == 0.0) gap_mm = header_.slice_thickness_mm;
-        if (!is_plausible_spacing(gap_mm))
-            refuse(implausible_spacing("Spacing Between Slices (0018,0088)", gap_mm));
-        const double low_mm = 1e-3 * static_cast<double>(heights.begin()->first);
-        const double high_mm = 1e-3 * static_cast<double>(heights.rbegin()->first);
-        // A single slice of labels is a volume of one slice among empty ones.
-        const int more = heights.size() == 1 ? 1 : 0;
-        const double slices = std::round((high_mm - low_mm) / gap_mm) + 1 + more;
-        if (slices > static_cast<double>(most_voxels_of_an_axis))
-            refuse("is a segmentation of more than 65535 slices");
-        SourceImage image{.size_voxels = {header_.columns, header_.rows, static_cast<int>(slices)},
-                          .spacing_mm = {any.column_pitch_mm, any.row_pitch_mm, gap_mm},
-                          .origin_mm = header_.frames[heights.begin()->second]->position_mm};
-        image.direction = glm::dmat3(glm::normalize(any.along_row), glm::normalize(any.along_column), normal);
+        SliceLattice lattice;
+        try {
+            lattice = lattice_of(frames, {header_.slice_gap_mm, header_.slice_thickness_mm});
+        } catch (const std::invalid_argument& error) {
+            refuse(error.what());
+        }
+        SourceImage image{.size_voxels = {header_.columns, header_.rows, static_cast<int>(lattice.slices)},
+                          .spacing_mm = lattice.spacing_mm,
+                          .origin_mm = lattice.origin_mm};
+        image.direction = lattice.direction;
+        if (!lattice.note.empty()) image.notes.push_back(path_.string() + ": " + lattice.note);
         settle_geometry(image, path_);
         if (voxel_count(image) > most_segmentation_voxels)
             refuse("has more than 2^31 labels; crop it in 3D Slicer");
-        for (const auto& frame : header_.frames) {
-            const double slice = (glm::dot(frame->position_mm, normal) - low_mm) / gap_mm;
-            if (std::abs(slice - std::round(slice)) > std::max(slice_tolerance, 1e-3 / gap_mm))
-                refuse("is a segmentation whose frames lie at no common spacing");
-            slice_of_frame_.push_back(static_cast<std::size_t>(std::lround(slice)));
-        }
+        slice_of_frame_ = std::move(lattice.slice_of);
         return image;
     }
 
@@ -200,7 +211,7 @@ class SegmentationSource {
         const auto label = static_cast<std::uint16_t>(std::max(segment, 1));
         Layer labels(pixels_of_frame());
         if (bits_ != nullptr) {
-            for (std::size_t i = 0, at = frame * labels.size(); i < labels.size(); ++i, ++at)
+            for (std::size_t i = 0, at = frame * bits_of_frame_; i < labels.size(); ++i, ++at)
                 labels[i] = (bits_[at / 8] >> (at % 8) & 1U) != 0 ? label : std::uint16_t{0};
             return labels;
         }
@@ -278,9 +289,11 @@ class SegmentationSource {
     DicomHeader header_;
     gdcm::Reader reader_;
     const std::uint8_t* bits_ = nullptr;  // of all frames, where a pixel is one
+    std::size_t bits_of_frame_ = 0;
     std::optional<DicomFrames> wider_{};  // where it is more
     bool is_fractional_ = false;
     float half_of_most_ = 0.0F;
+    std::set<int> numbers_;              // of the segments that are described
     std::vector<int> segment_of_frame_;  // 0: of a label map, whose pixels are segments
     std::vector<std::size_t> slice_of_frame_;
     std::map<int, std::size_t> layer_of_segment_;

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "imaging/dicom/dicom_pixels.h"
+#include "imaging/formats/picture_stack.h"
 #include "imaging/imaging_error.h"
 
 namespace osteomill {
@@ -31,12 +33,14 @@ void add(DicomSeries& series, DicomFile file) {
 
 void require_usable(const DicomFile& file) {
     const DicomHeader& header = file.header;
+    if (!header.no_grey_image.empty())
+        throw ImagingError(
+            file.path, header.no_grey_image + ", which holds no CT numbers" +
+                           (is_segmentation(header.scan) ? "; give it as --segmentation or --labels" : ""));
     if (!header.scan.has_pixel_data) throw ImagingError(file.path, "has no pixel data");
     if (header.samples_per_pixel != 1)
         throw ImagingError(
             file.path, fmt::format("has {} samples a pixel (colour); CT has one", header.samples_per_pixel));
-    if (!header.no_grey_image.empty())
-        throw ImagingError(file.path, header.no_grey_image + ", which holds no CT numbers");
     if (!header.fault.empty()) throw ImagingError(file.path, header.fault);
 }
 
@@ -107,7 +111,10 @@ std::vector<DicomSeries> find_series(const std::filesystem::path& folder,
     std::optional<DicomFile> no_image;  // to complain of, if there is nothing else
     for (const std::filesystem::path& path : paths) {
         std::optional<DicomHeader> header = read_dicom_header(path);
-        if (!header) continue;
+        if (!header) {
+            if (!is_of_the_desktop(path)) left.add("is no DICOM", path);
+            continue;
+        }
         if (!header->no_grey_image.empty()) {
             left.add(header->no_grey_image, path);
             if (!no_image) no_image = DicomFile{path, *header};
@@ -157,7 +164,7 @@ const DicomSeries& choose_series(const std::filesystem::path& folder, const std:
 DicomSeries series_of_file(const std::filesystem::path& path) {
     std::optional<DicomHeader> header = read_dicom_header(path);
     if (!header) throw ImagingError(path, "is not DICOM");
-    if (header->rows == 0 || header->columns == 0)
+    if ((header->rows == 0 || header->columns == 0) && header->no_grey_image.empty())
         throw ImagingError(path, "has no pixel data (it is DICOM, but no image)");
     DicomSeries series;
     add(series, {path, std::move(*header)});

@@ -33,7 +33,7 @@ std::size_t DicomWalker::walk_file(std::size_t at, const DicomSyntax& syntax,
                                    std::optional<std::uint32_t> only_group) {
     while (at < bytes_.size()) {
         // What follows the pixels, such as a filled-up block, is GDCM's to judge.
-        if (scan_.has_pixel_data && bytes_.size() - at < 8) break;
+        if (scan_.has_pixel_data && (bytes_.size() - at < 8 || number<std::uint64_t>(at, false) == 0)) break;
         if (only_group && number<std::uint16_t>(at, false) != *only_group) break;
         const Element element = element_at(at, syntax);
         at = reaches_beyond(element) ? bytes_.size() : after(element, syntax, 0, none_open);
@@ -42,7 +42,8 @@ std::size_t DicomWalker::walk_file(std::size_t at, const DicomSyntax& syntax,
     return at;
 }
 
-void DicomWalker::require_few_hidden_items() const {
+void DicomWalker::require_sound() const {
+    if (!wrong_representation_.empty()) throw std::invalid_argument(wrong_representation_);
     if (items_in_values_ > most_items_in_values)
         throw std::invalid_argument(fmt::format(
             "is DICOM with {} items within values that are no sequences; damaged", items_in_values_));
@@ -71,8 +72,12 @@ DicomWalker::Element DicomWalker::element_at(std::size_t at, const DicomSyntax& 
     element.representation = {static_cast<char>(number<std::uint8_t>(at + 4, false)),
                               static_cast<char>(number<std::uint8_t>(at + 5, false))};
     const std::string_view name(element.representation.data(), 2);
-    for (const char letter : name)
-        if (letter < 'A' || letter > 'Z') throw DamagedDicom();
+    // GDCM takes others' lengths for longer than they are.
+    constexpr std::string_view known{
+        "AE AS AT CS DA DS DT FD FL IS LO LT OB OD OF OL OV OW PN SH SL SQ SS ST SV TM UC "
+        "UI UL UN UR US UT UV"};
+    if (const std::size_t found = known.find(name); found == std::string_view::npos || found % 3 != 0)
+        throw DamagedDicom();
     constexpr std::array<std::string_view, 13> with_long_length{"OB", "OD", "OF", "OL", "OV", "OW", "SQ",
                                                                 "SV", "UC", "UN", "UR", "UT", "UV"};
     if (std::find(with_long_length.begin(), with_long_length.end(), name) != with_long_length.end()) {
@@ -104,6 +109,7 @@ bool DicomWalker::is(const Element& element, std::string_view representation) co
 /// Where the element ends; goes through what is nested in it.
 std::size_t DicomWalker::after(const Element& element, const DicomSyntax& syntax, int depth,
                                int open_levels) {
+    require_representation(element);
     if (element.length == undefined_length) {
         // Also of a picture within a sequence, an icon.
         if (element.tag == pixel_data_tag) return after_fragments(element, syntax, depth == 0);
@@ -137,6 +143,28 @@ std::size_t DicomWalker::after(const Element& element, const DicomSyntax& syntax
     items_in_values_ += items_between(element.value, end);
     require_few_hidden(element, items_in_values_ - before);
     return end;
+}
+
+/// GDCM ends the program where one of those is of another form than the standard's.
+void DicomWalker::require_representation(const Element& element) {
+    struct Known {
+        std::uint32_t tag;
+        std::string_view representation;
+    };
+    constexpr std::array known{
+        Known{tag(0x0020, 0x0032), "DS"}, Known{tag(0x0020, 0x0037), "DS"}, Known{tag(0x0028, 0x0002), "US"},
+        Known{tag(0x0028, 0x0004), "CS"}, Known{tag(0x0028, 0x0006), "US"}, Known{tag(0x0028, 0x0008), "IS"},
+        Known{tag(0x0028, 0x0010), "US"}, Known{tag(0x0028, 0x0011), "US"}, Known{tag(0x0028, 0x0030), "DS"},
+        Known{tag(0x0028, 0x0100), "US"}, Known{tag(0x0028, 0x0101), "US"}, Known{tag(0x0028, 0x0102), "US"},
+        Known{tag(0x0028, 0x0103), "US"}, Known{tag(0x0028, 0x1052), "DS"}, Known{tag(0x0028, 0x1053), "DS"},
+        Known{tag(0x0028, 0x2110), "CS"}};
+    const std::string_view name(element.representation.data(), 2);
+    if (name[0] == '\0' || name == "UN") return;
+    const auto found = std::ranges::find(known, element.tag, &Known::tag);
+    if (found != known.end() && found->representation != name && wrong_representation_.empty())
+        wrong_representation_ =
+            fmt::format("is DICOM whose ({:04x},{:04x}) is of form {} and should be of {}",
+                        element.tag >> 16U, element.tag & 0xffffU, name, found->representation);
 }
 
 std::uint64_t DicomWalker::effort_of_item(int open_levels) {
@@ -196,9 +224,34 @@ std::size_t DicomWalker::after_fragments(const Element& element, const DicomSynt
         if (fragment.tag == sequence_end_tag) return fragment.value;
         if (fragment.tag != item_tag) throw DamagedDicom();
         at = end_of(fragment);
-        if (is_table || !is_noted) continue;
+        if (!is_noted) continue;
+        require_fragment(fragment, is_table);
+        if (is_table) continue;
         if (scan_.pixel_bytes == 0) first_fragment_ = bytes_.subspan(fragment.value, fragment.length);
         scan_.pixel_bytes += fragment.length;
+    }
+}
+
+/// What GDCM's codecs end the program over: pixels where the table of offsets should be, and fragments of RLE
+/// and JPEG-LS that are none.
+void DicomWalker::require_fragment(const Element& fragment, bool is_table) const {
+    const Bytes bytes = bytes_.subspan(fragment.value, fragment.length);
+    const auto refuse = [](const char* what) { throw std::invalid_argument(what); };
+    if (is_table) {
+        if (!bytes.empty() && (bytes.size() % 4 != 0 || number<std::uint32_t>(fragment.value, false) != 0))
+            refuse("has compressed pixel data that do not begin with a table of offsets (7fe0,0010)");
+        return;
+    }
+    const std::string& syntax = scan_.transfer_syntax;
+    constexpr std::uint32_t most_rle_segments = 15;
+    if (syntax == "1.2.840.10008.1.2.5")
+        if (bytes.size() < 64 || number<std::uint32_t>(fragment.value, false) - 1 >= most_rle_segments)
+            refuse("has a fragment of pixel data that is no RLE: damaged");
+    const bool is_jpeg_ls = syntax == "1.2.840.10008.1.2.4.80" || syntax == "1.2.840.10008.1.2.4.81";
+    if (is_jpeg_ls && !scan_.frames.empty() && scan_.frames != "1") {
+        const Bytes tail = bytes.last(std::min<std::size_t>(bytes.size(), 4));
+        const std::array<std::uint8_t, 2> end{0xff, 0xd9};
+        if (std::ranges::search(tail, end).empty()) refuse("has pixel data of JPEG-LS that are cut off");
     }
 }
 

@@ -38,8 +38,9 @@ class DicomWalker {
     /// Elements of the file itself, from an offset on, up to one of another group where `only_group` is one.
     /// Returns the offset of the end. Throws as scan_dicom does.
     std::size_t walk_file(std::size_t at, const DicomSyntax& syntax, std::optional<std::uint32_t> only_group);
-    /// Throws std::invalid_argument where values that are no sequences hold many items.
-    void require_few_hidden_items() const;
+    /// Throws std::invalid_argument where values that are no sequences hold many items, or an element is of
+    /// another form than the standard's.
+    void require_sound() const;
 
   private:
     struct Element {
@@ -61,6 +62,8 @@ class DicomWalker {
     static void require_few_hidden(const Element& element, std::uint64_t items);
     std::size_t after_items(std::size_t at, std::optional<std::size_t> end, const DicomSyntax& syntax,
                             int depth, int open_levels);
+    void require_representation(const Element& element);
+    void require_fragment(const Element& fragment, bool is_table) const;
     std::size_t after_fragments(const Element& element, const DicomSyntax& syntax, bool is_noted);
     std::uint64_t items_between(std::size_t begin, std::size_t end) const;
     std::string text(const Element& element) const;
@@ -70,6 +73,7 @@ class DicomWalker {
     std::uint64_t file_bytes_;
     DicomScan scan_;
     Bytes first_fragment_;
+    std::string wrong_representation_;  // of the first element that has one, in words
     std::uint64_t items_in_values_ = 0;
     std::uint64_t effort_ = 0;
 };

@@ -114,6 +114,64 @@ double require_even(const std::vector<SlicePlacement>& slices, const std::vector
     return std::accumulate(gaps.begin(), gaps.end(), 0.0) / static_cast<double>(gaps.size());
 }
 
+/// Heights of the places where slices lie, ascending; nearer ones are one place.
+std::vector<double> places_of(std::vector<double> height_mm, const StatedGap& stated) {
+    std::ranges::sort(height_mm);
+    double expected_mm = stated.spacing_mm > 0.0 ? stated.spacing_mm : stated.thickness_mm;
+    const bool is_stated = expected_mm > 0.0;
+    for (std::size_t i = 1; !is_stated && i < height_mm.size(); ++i)
+        expected_mm = std::max(expected_mm, height_mm[i] - height_mm[i - 1]);
+    const double same_mm = std::max(duplicate_mm, std::min(gap_tolerance_mm, 0.1 * expected_mm));
+    std::vector<double> places{height_mm.front()};
+    for (const double height : height_mm)
+        if (height - places.back() > same_mm) places.push_back(height);
+    return places;
+}
+
+/// Goes from place to place in whole steps and settles the gap on the way, so that one that is printed with
+/// few digits leads to the right slice at the far end, too. Returns the last one's number.
+std::size_t settle_gap(const std::vector<double>& places, double& gap_mm) {
+    double slice = 0.0;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        slice += std::max(1.0, std::round((places[i] - places[i - 1]) / gap_mm));
+        gap_mm = (places[i] - places.front()) / slice;
+        if (slice > static_cast<double>(most_voxels_of_an_axis)) refuse("has more than 65535 slices");
+    }
+    return static_cast<std::size_t>(slice);
+}
+
+/// The gap of places that may have empty ones between them.
+double gap_of(const std::vector<double>& places, const StatedGap& stated, std::string& note) {
+    if (places.size() < 2) return stated.spacing_mm > 0.0 ? stated.spacing_mm : stated.thickness_mm;
+    double least_mm = places[1] - places[0];
+    double most_mm = least_mm;
+    for (std::size_t i = 2; i < places.size(); ++i) {
+        least_mm = std::min(least_mm, places[i] - places[i - 1]);
+        most_mm = std::max(most_mm, places[i] - places[i - 1]);
+    }
+    const auto tolerance = [](double gap_mm) {
+        return std::max(gap_tolerance_relative * gap_mm, std::min(gap_tolerance_mm, 0.1 * gap_mm));
+    };
+    const double stated_mm = stated.spacing_mm;
+    if (stated_mm == 0.0 || std::abs(stated_mm - least_mm) <= tolerance(stated_mm)) return least_mm;
+    // Between frames without a gap, as thick as they lie apart, no slice is missing whatever the file says.
+    const bool is_even = places.size() > 2 && most_mm - least_mm <= 2.0 * tolerance(least_mm);
+    const bool is_filled = std::abs(stated.thickness_mm - stated_mm) > tolerance(stated_mm);
+    if (stated_mm > least_mm || (is_even && is_filled)) {
+        note = fmt::format(
+            "says slices {:g} mm apart (Spacing Between Slices, 0018,0088); its frames lie {:g} mm apart, "
+            "which is "
+            "followed",
+            stated_mm, least_mm);
+        return least_mm;
+    }
+    note = fmt::format(
+        "its frames lie {:g} mm apart or more, its slices {:g} mm (Spacing Between Slices, "
+        "0018,0088); those between are empty",
+        least_mm, stated_mm);
+    return stated_mm;
+}
+
 }  // namespace
 
 SliceStack stack_slices(const std::vector<SlicePlacement>& slices) {
@@ -147,6 +205,44 @@ SliceStack stack_slices(const std::vector<SlicePlacement>& slices) {
     stack.spacing_mm = {any.column_pitch_mm, any.row_pitch_mm, gap_mm};
     stack.direction = glm::dmat3(glm::normalize(any.along_row), glm::normalize(any.along_column), step);
     return stack;
+}
+
+SliceLattice lattice_of(const std::vector<SlicePlacement>& slices, const StatedGap& stated) {
+    if (slices.empty()) refuse("no slices");
+    for (const SlicePlacement& slice : slices) require_sound(slice);
+    for (const SlicePlacement& slice : slices) require_alike(slices.front(), slice);
+    const SlicePlacement& any = slices.front();
+    const glm::dvec3 normal = glm::normalize(glm::cross(any.along_row, any.along_column));
+    std::vector<double> height_mm;
+    for (const SlicePlacement& slice : slices) height_mm.push_back(glm::dot(slice.position_mm, normal));
+    const auto [low, high] = std::ranges::minmax_element(height_mm);
+    const auto index_of = [&](auto at) { return static_cast<std::size_t>(at - height_mm.begin()); };
+
+    SliceLattice lattice;
+    const std::vector<double> places = places_of(height_mm, stated);
+    double gap_mm = gap_of(places, stated, lattice.note);
+    if (!is_plausible_spacing(gap_mm))
+        refuse(implausible_spacing("Spacing Between Slices (0018,0088)", gap_mm));
+    // A single slice of labels is a volume of one slice among empty ones.
+    lattice.slices = places.size() == 1 ? 2 : settle_gap(places, gap_mm) + 1;
+    glm::dvec3 step = normal;
+    if (places.size() > 1) {
+        std::vector<std::size_t> ends{index_of(low), index_of(high)};
+        for (std::size_t i = 0; i < slices.size(); ++i)
+            if (i != ends.front() && i != ends.back()) ends.insert(ends.end() - 1, i);
+        step = require_upright(slices, ends, normal);
+    }
+    for (const double height : height_mm) {
+        const double slice = (height - places.front()) / gap_mm;
+        if (std::abs(slice - std::round(slice)) * gap_mm >
+            std::max(gap_tolerance_relative * gap_mm, std::min(gap_tolerance_mm, 0.2 * gap_mm)))
+            refuse("its frames lie at no common spacing");
+        lattice.slice_of.push_back(static_cast<std::size_t>(std::lround(slice)));
+    }
+    lattice.origin_mm = slices[index_of(low)].position_mm;
+    lattice.spacing_mm = {any.column_pitch_mm, any.row_pitch_mm, gap_mm};
+    lattice.direction = glm::dmat3(glm::normalize(any.along_row), glm::normalize(any.along_column), step);
+    return lattice;
 }
 
 }  // namespace osteomill

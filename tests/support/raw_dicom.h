@@ -1,6 +1,8 @@
 // DICOM as bytes, element by element, for tests that need what no library writes.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -123,24 +125,28 @@ inline RawSlice multi_frame(const std::vector<int>& z_mm) {
     return file;
 }
 
-/// Of a frame of a segmentation, 4 x 3 pixels: the segment, where it lies, and the twelve pixels as bits.
+/// Of a frame of a segmentation, 4 x 3 pixels: the segment (0: it says none), where it lies, and the twelve
+/// pixels as bits.
 struct SegFrame {
     int segment;
-    int z_mm;
+    double z_mm;
     unsigned bits;
 };
 
-/// A segmentation; `bits_of_pixel` is 1 or 8.
+/// A segmentation; `bits_of_pixel` is 1 or 8. `shared` is said of all frames, too.
 inline std::string raw_seg(const std::vector<SegFrame>& frames, const std::vector<std::string>& names,
-                           std::uint32_t bits_of_pixel = 1) {
+                           std::uint32_t bits_of_pixel = 1, const std::string& shared = "") {
     const auto group = [](std::uint32_t element, const std::string& content) {
         return dicom_element(element >> 16U, element & 0xffffU, "SQ", dicom_item(content));
     };
     std::string per_frame, segments, pixels;
     for (const SegFrame& frame : frames) {
         per_frame += dicom_item(
-            group(0x00209113, dicom_element(0x0020, 0x0032, "DS", "10\\20\\" + std::to_string(frame.z_mm))) +
-            group(0x0062000a, dicom_number(0x0062, 0x000b, static_cast<std::uint32_t>(frame.segment))));
+            group(0x00209113, dicom_element(0x0020, 0x0032, "DS", fmt::format("10\\20\\{:g}", frame.z_mm))) +
+            (frame.segment == 0
+                 ? ""
+                 : group(0x0062000a,
+                         dicom_number(0x0062, 0x000b, static_cast<std::uint32_t>(frame.segment)))));
         for (unsigned i = 0; i < 12; ++i) pixels += static_cast<char>(frame.bits >> i & 1U);
     }
     std::uint32_t number = 0;
@@ -157,7 +163,7 @@ inline std::string raw_seg(const std::vector<SegFrame>& frames, const std::vecto
         dicom_element(0x0062, 0x0001, "CS", "BINARY") + dicom_element(0x0062, 0x0002, "SQ", segments) +
         dicom_element(
             0x5200, 0x9229, "SQ",
-            dicom_item(group(0x00289110, dicom_element(0x0028, 0x0030, "DS", "0.5\\0.5")) +
+            dicom_item(shared + group(0x00289110, dicom_element(0x0028, 0x0030, "DS", "0.5\\0.5")) +
                        group(0x00209116, dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0")))) +
         dicom_element(0x5200, 0x9230, "SQ", per_frame);
     file.pixels = pixels;

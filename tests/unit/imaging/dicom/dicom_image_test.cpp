@@ -51,6 +51,15 @@ class DicomImage : public ::testing::Test {
         }
         return "accepted";
     }
+    std::string refusal_of_labels(const std::string& bytes) const {
+        write_bytes(folder_ / "x.dcm", bytes);
+        try {
+            read_segmentation(folder_ / "x.dcm");
+        } catch (const ImagingError& error) {
+            return error.what();
+        }
+        return "accepted";
+    }
     TemporaryFolder folder_;
     std::filesystem::path series_ = folder_ / "series";
 };
@@ -243,6 +252,100 @@ TEST_F(DicomImage, RefusesNumbersWithACommaByName) {
                 HasSubstr("(0020,0032) is '0\\0\\1,5', no numbers as DICOM writes them, with a point"));
 }
 
+TEST_F(DicomImage, RefusesWhatGdcmWouldEndTheProgramOver) {
+    const auto refused = [&](const std::string& from, const std::string& to) {
+        write_series();
+        std::string bytes = raw_dicom({});
+        write_bytes(series_ / "IM0", with(bytes, from, to));
+        return refusal(series_);
+    };
+    EXPECT_THAT(refused(dicom_number(0x0028, 0x0010, 3), dicom_element(0x0028, 0x0010, "SS", little(3, 2))),
+                HasSubstr("(0028,0010) is of form SS and should be of US"));
+    EXPECT_THAT(refused(dicom_element(0x0020, 0x0032, "DS", "0\\0\\0"),
+                        dicom_element(0x0020, 0x0032, "LO", "0\\0\\0")),
+                HasSubstr("(0020,0032) is of form LO and should be of DS"));
+    EXPECT_THAT(refused("MONOCHROME2 ", "            "),
+                HasSubstr("Photometric Interpretation (0028,0004) is ''"));
+    EXPECT_THAT(
+        refused(dicom_element(0x0028, 0x0030, "DS", "1\\1"),
+                dicom_element(0x0028, 0x0031, "ZZ", "abcd") + dicom_element(0x0028, 0x0030, "DS", "1\\1")),
+        HasSubstr("cannot be parsed"));
+    const auto compressed = [&](const std::string& syntax, const std::string& fragments,
+                                const char* frames = "") {
+        RawSlice slice{.transfer_syntax = syntax,
+                       .after_image = hu_as_stored,
+                       .frames = frames,
+                       .pixels = "",
+                       .is_encapsulated = true};
+        std::string bytes = raw_dicom(slice);
+        bytes.resize(bytes.size() - (dicom_item("") + dicom_item("") + dicom_sequence_end).size());
+        write_bytes(folder_ / "x.dcm", bytes + fragments + dicom_sequence_end);
+        return refusal(folder_ / "x.dcm");
+    };
+    EXPECT_THAT(compressed("1.2.840.10008.1.2.5", dicom_item("") + dicom_item(std::string(80, '\0'))),
+                HasSubstr("is no RLE"));
+    EXPECT_THAT(compressed("1.2.840.10008.1.2.4.70", dicom_item("\xff\xd8\xff\xd9")),
+                HasSubstr("do not begin with a table of offsets"));
+    EXPECT_THAT(compressed("1.2.840.10008.1.2.4.70", dicom_item("")), HasSubstr("without a fragment"));
+    EXPECT_THAT(compressed("1.2.840.10008.1.2.4.80", dicom_item("") + dicom_item("\xff\xd8 "), "2"),
+                HasSubstr("JPEG-LS that are cut off"));
+    EXPECT_THAT(compressed("1.2.840.10008.1.2.4.201", dicom_item("") + dicom_item("\xff\x4f")),
+                HasSubstr("transfer syntax 1.2.840.10008.1.2.4.201, which GDCM does not read"));
+}
+
+TEST_F(DicomImage, MayHoldFewerBitsThanItsPixelsTake) {
+    write_series([](RawSlice& slice) {
+        slice.bits = 32;
+        slice.pixel_representation = 0;
+        std::string wide;
+        for (std::size_t i = 0; i < slice.pixels.size(); i += 2)
+            wide += slice.pixels.substr(i, 2) + std::string(2, '\0');
+        slice.pixels = wide;
+    });
+    for (const auto& entry : std::filesystem::directory_iterator(series_)) {
+        std::ifstream in(entry.path(), std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+        write_bytes(entry.path(),
+                    with(with(bytes, dicom_number(0x0028, 0x0101, 32), dicom_number(0x0028, 0x0101, 16)),
+                         dicom_number(0x0028, 0x0102, 31), dicom_number(0x0028, 0x0102, 15)));
+    }
+    EXPECT_EQ(values()[13], 101.0F);
+}
+
+TEST_F(DicomImage, SaysWhatItLacksOfItsRescale) {
+    write_series([](RawSlice& slice) { slice.after_image = dicom_element(0x0028, 0x1053, "DS", "1"); });
+    EXPECT_THAT(open().image.notes, ElementsAre(HasSubstr("no Rescale Intercept")));
+    write_series([](RawSlice& slice) {
+        slice.after_image =
+            with(hu_as_stored, dicom_element(0x0028, 0x1052, "DS", "0"),
+                 dicom_element(0x0028, 0x1052, "DS", slice.position == "0\\0\\1" ? "-1024" : "0"));
+    });
+    EXPECT_THAT(open().image.notes, ElementsAre(HasSubstr("Rescale Intercepts (0028,1052) from -1024 to 0")));
+    write_series([](RawSlice& slice) {
+        slice.after_image =
+            dicom_element(0x0028, 0x1052, "DS", "0") + dicom_element(0x0028, 0x1053, "DS", "nan");
+    });
+    EXPECT_THAT(refusal(series_), HasSubstr("(0028,1053 and 1052) of nan and 0"));
+}
+
+TEST_F(DicomImage, EndsBeforeZerosThatFillABlockAndNamesWhatIsNoDicom) {
+    write_series();
+    for (const auto& entry : std::filesystem::directory_iterator(series_))
+        std::ofstream(entry.path(), std::ios::binary | std::ios::app) << std::string(500, '\0');
+    std::ofstream(series_ / "IM4").close();
+    std::ofstream(series_ / ".DS_Store") << "a Mac's";
+    EXPECT_EQ(values()[13], 101.0F);
+    EXPECT_THAT(open().image.notes, ElementsAre(HasSubstr("left out IM4, which is no DICOM")));
+}
+
+TEST_F(DicomImage, OfFramesMustSayOfEachWhereItLies) {
+    RawSlice file = multi_frame({0, 1, 2});
+    file.frames = "2";
+    write_bytes(folder_ / "x.dcm", raw_dicom(file));
+    EXPECT_THAT(refusal(folder_ / "x.dcm"),
+                HasSubstr("says that it has 2 frames (0028,0008) and where 3 lie"));
+}
+
 TEST_F(DicomImage, OfLabelsMayBeASegmentation) {
     write_bytes(folder_ / "seg.dcm",
                 raw_seg({{1, 4, 0b11}, {1, 2, 0b1}, {2, 8, 0b100}, {3, 2, 0b11}}, {"bone", "nerve", "dura"}));
@@ -278,6 +381,54 @@ TEST_F(DicomImage, OfLabelsMayBeCompressed) {
     }
 }
 
+TEST_F(DicomImage, OfLabelsLiesWhereItsFramesLieWhateverTheirDigits) {
+    const auto gap_of = [&](const std::vector<double>& z_mm, const std::string& stated = "") {
+        std::vector<SegFrame> frames;
+        for (const double z : z_mm) frames.push_back({1, z, 1});
+        write_bytes(
+            folder_ / "seg.dcm",
+            raw_seg(frames, {"bone"}, 1, stated.empty() ? "" : dicom_element(0x0018, 0x0088, "DS", stated)));
+        const SourceImage image = read_segmentation(folder_ / "seg.dcm").image;
+        return std::pair(image.spacing_mm.z, image.size_voxels.z);
+    };
+    EXPECT_EQ(gap_of({0.0, 0.3125, 0.625, 1.5625}), std::pair(0.3125, 6));
+    EXPECT_NEAR(gap_of({0.0, 0.07, 0.15, 0.22, 0.3}).first, 0.075, 1e-9) << "two decimals";
+    EXPECT_NEAR(gap_of({0.0, 1.0, 2.0, 2.004, 3.0}).first, 1.0, 1e-9)
+        << "of two segments' frames of one slice";
+    EXPECT_EQ(gap_of({0.0, 2.0, 4.0}, "1"), std::pair(2.0, 3)) << "no gap between frames";
+    EXPECT_EQ(gap_of({0.0, 2.0, 4.0, 8.0}, "1"), std::pair(1.0, 9)) << "with empty slices";
+    EXPECT_EQ(gap_of({0.0, 1.0, 2.0}, "5"), std::pair(1.0, 3));
+}
+
+TEST_F(DicomImage, OfLabelsSaysOfWhichSegmentEachFrameIs) {
+    const auto labels_of = [&](const std::string& bytes) {
+        write_bytes(folder_ / "seg.dcm", bytes);
+        return read_segmentation(folder_ / "seg.dcm").labels.labels_in(0);
+    };
+    EXPECT_THAT(labels_of(raw_seg({{0, 0, 1}, {0, 2, 1}}, {"bone"})), ElementsAre(1)) << "there is but one";
+    const std::string second =
+        dicom_element(0x0062, 0x000a, "SQ", dicom_item(dicom_number(0x0062, 0x000b, 2)));
+    EXPECT_THAT(labels_of(raw_seg({{0, 0, 1}, {0, 2, 1}}, {"bone", "nerve"}, 1, second)), ElementsAre(2));
+    EXPECT_THAT(refusal_of_labels(raw_seg({{0, 0, 1}, {0, 2, 1}}, {"bone", "nerve"})),
+                HasSubstr("frame 1 does not say of which segment it is"));
+    EXPECT_THAT(refusal_of_labels(raw_seg({{3, 0, 1}, {2, 2, 1}}, {"bone", "nerve"})),
+                HasSubstr("frame 1 is of segment 3 (0062,000b), which it does not describe"));
+}
+
+TEST_F(DicomImage, OfLabelsMayFillEachFrameToAByte) {
+    std::string bytes = raw_seg({{1, 0, 0}, {1, 2, 0}, {1, 4, 0}, {1, 6, 0}, {1, 8, 0}}, {"bone"});
+    // Five frames of 12 bits are 8 bytes, and padded 10.
+    bytes.resize(bytes.size() - dicom_element(0x7fe0, 0x0010, "OW", std::string(8, '\0')).size());
+    write_bytes(folder_ / "seg.dcm",
+                bytes + dicom_element(0x7fe0, 0x0010, "OW", std::string("\1\0\2\0\4\0\0\1\0\10", 10)));
+    const LabelRows labels = read_segmentation(folder_ / "seg.dcm").labels;
+    EXPECT_EQ(labels.at(0, {0, 0, 0}), 1);
+    EXPECT_EQ(labels.at(0, {1, 0, 1}), 1);
+    EXPECT_EQ(labels.at(0, {2, 0, 2}), 1);
+    EXPECT_EQ(labels.at(0, {0, 2, 3}), 1);
+    EXPECT_EQ(labels.at(0, {3, 2, 4}), 1);
+}
+
 TEST_F(DicomImage, OfLabelsMayClaimAPaletteThatIsMissing) {
     std::string bytes = raw_seg({{1, 0, 0b11}, {1, 2, 0b1}}, {"bone"}, 8);
     bytes = with(bytes, dicom_element(0x0028, 0x0004, "CS", "MONOCHROME2"),
@@ -289,21 +440,15 @@ TEST_F(DicomImage, OfLabelsMayClaimAPaletteThatIsMissing) {
 }
 
 TEST_F(DicomImage, OfLabelsIsRefusedInOneLineWhereItCannotBe) {
-    const auto refused = [&](std::string bytes) -> std::string {
-        write_bytes(folder_ / "x.dcm", bytes);
-        try {
-            read_segmentation(folder_ / "x.dcm");
-        } catch (const ImagingError& error) {
-            return error.what();
-        }
-        return "accepted";
-    };
     const std::string good = raw_seg({{1, 0, 1}, {1, 2, 1}, {1, 5, 1}}, {"bone"});
-    EXPECT_THAT(refused(good), HasSubstr("lie at no common spacing"));
-    EXPECT_THAT(refused(with(good, dicom_element(0x0028, 0x0008, "IS", "3"),
-                             dicom_element(0x0028, 0x0008, "IS", "9"))),
-                HasSubstr("is cut off"));
-    EXPECT_THAT(refused(with(good, "0.5\\0.5", "nan\\nan")), HasSubstr("spacing"));
+    EXPECT_THAT(refusal_of_labels(good), HasSubstr("lie at no common spacing"));
+    EXPECT_THAT(refusal_of_labels(with(good, dicom_element(0x0028, 0x0008, "IS", "3"),
+                                       dicom_element(0x0028, 0x0008, "IS", "9"))),
+                HasSubstr("9 frames (0028,0008) and where 3 lie"));
+    EXPECT_THAT(refusal_of_labels(good.substr(0, good.size() - 4)), HasSubstr("cut off"));
+    EXPECT_THAT(refusal_of_labels(with(good, "0.5\\0.5", "nan\\nan")), HasSubstr("spacing"));
+    EXPECT_THAT(refusal_of_labels(with(raw_seg({{1, 0, 1}, {1, 2, 1}}, {"bone"}), "10\\20\\2", "10\\26\\2")),
+                HasSubstr("gantry tilt"));
 }
 
 }  // namespace
