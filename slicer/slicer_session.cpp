@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/bone/patient_space.h"
+#include "common/text/plain_text.h"
 #include "common/text/words.h"
 
 namespace osteomill {
@@ -73,13 +74,15 @@ SessionControl control_of(const std::string& name, const std::string& text, cons
         if (text.size() > SessionControl::longest_text)
             throw std::invalid_argument(fmt::format("Mark: {} bytes; a note has {} at most", text.size(),
                                                     SessionControl::longest_text));
+        require_plain("Mark", text);
         return {.action = SessionAction::mark, .text = text};
     }
     if (name == "Pause" && (text == "1" || text == "0"))
         return {.action = text == "1" ? SessionAction::pause : SessionAction::resume};
     if (name == "Pause") throw std::invalid_argument("Pause: is neither 1 nor 0");
     if (name == "Place") return {.action = SessionAction::place, .pose = pose_of(text, axis)};
-    throw std::invalid_argument(fmt::format("a STRING is named Mark, Pause or Place, not '{}'", name));
+    throw std::invalid_argument(
+        fmt::format("a STRING is named Mark, Pause or Place, not '{}'", one_line(name)));
 }
 
 SlicerSession::SlicerSession(BoneLink& link, std::uint16_t port)
@@ -134,15 +137,19 @@ void SlicerSession::send_what_is_due(double now_s) {
 }
 
 void SlicerSession::obey(const std::string& name, const std::string& text) {
+    const auto now = std::chrono::steady_clock::now();
+    const auto warn = [&](const std::string& line) { log_.write(spdlog::level::warn, line, now); };
     try {
         const SessionControl control =
             control_of(name, text, tool_ ? tool_->spindle_axis : glm::dvec3(0.0, 0.0, 1.0));
-        if (controls_.may_control)
-            link_.send_control(control);
+        if (!controls_.may_control)
+            warn(fmt::format("{} of 3D Slicer: the server takes no controls of this client", name));
+        else if (!controls_taken_.take(now))
+            warn(fmt::format("{} of 3D Slicer: too many at once; left out", name));
         else
-            spdlog::warn("{} of 3D Slicer: the server takes no controls of this client", name);
+            link_.send_control(control);
     } catch (const std::invalid_argument& error) {
-        spdlog::warn("3D Slicer: {}", error.what());
+        warn(fmt::format("3D Slicer: {}", error.what()));
     }
 }
 

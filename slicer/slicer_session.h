@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "common/log/limited_log.h"
+#include "common/log/token_bucket.h"
 #include "common/scene/structure_distance.h"
 #include "common/scene/tool_state.h"
 #include "render_client/link/bone_link.h"
@@ -54,6 +56,8 @@ class SlicerSession {
     std::vector<StructureDistance> distances_{};
     ImageSchedule schedule_{};
     double transforms_sent_s_ = -between_transforms_s;
+    LimitedLog log_{};
+    TokenBucket controls_taken_{5.0, 20.0};  // a second, and at once
     SlicerPort port_;
 };
 

@@ -95,7 +95,7 @@ RecordingSummary summarise(const std::filesystem::path& file,
 
 nlohmann::ordered_json to_json(const RecordingSummary& summary) {
     nlohmann::ordered_json removed{{"total", summary.removed_mm3}};
-    for (const auto& [name, mm3] : summary.by_tissue_mm3) removed[name] = mm3;
+    for (const auto& [name, mm3] : summary.by_tissue_mm3) removed.emplace(name, mm3);
     nlohmann::ordered_json burrs = nlohmann::ordered_json::array();
     for (const Burr& burr : summary.session.burrs) {
         const auto milled = summary.milled_s.find(burr.name);

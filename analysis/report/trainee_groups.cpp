@@ -1,12 +1,14 @@
 #include "analysis/report/trainee_groups.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "common/files/input_file.h"
+#include "common/files/table_line.h"
 #include "common/text/plain_text.h"
 #include "common/text/words.h"
 
@@ -17,15 +19,20 @@ std::map<std::string, std::string> trainee_groups(const std::filesystem::path& f
     std::map<std::string, std::string> groups;
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
-        ++number;
-        if (trimmed(line).empty()) continue;
         const auto fail = [&](const std::string& why) {
             throw std::runtime_error(printable(fmt::format("{}:{}: {}", file.string(), number, why)));
         };
-        const std::size_t comma = line.rfind(',');
-        if (comma == std::string::npos) fail("a line is TRAINEE,GROUP");
-        const std::string trainee = trimmed(line.substr(0, comma));
-        const std::string group = trimmed(line.substr(comma + 1));
+        try {
+            strip_line(line, ++number == 1);
+        } catch (const std::runtime_error& error) {
+            fail(error.what());
+        }
+        if (trimmed(line).empty()) continue;
+        std::vector<std::string> cells = quoted_cells(line, line.find(';') == std::string::npos ? ',' : ';');
+        if (cells.size() < 2) fail("a line is TRAINEE,GROUP");
+        const std::string group = trimmed(cells.back());
+        cells.pop_back();
+        const std::string trainee = trimmed(fmt::format("{}", fmt::join(cells, ",")));
         if (number == 1 && trainee == "trainee" && group == "group") continue;
         if (trainee.empty() || group.empty()) fail("a line is TRAINEE,GROUP, and neither is empty");
         if (const auto [known, is_new] = groups.emplace(trainee, group); !is_new && known->second != group)

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace osteomill {
 
@@ -32,6 +33,24 @@ inline bool next_table_line(std::istream& in, std::string& line, std::size_t& nu
             "has semicolons between its cells and commas for points; write 0.5, not 0,5");
     std::replace(line.begin(), line.end(), ';', ',');
     return true;
+}
+
+/// The cells of a line between commas or semicolons, whichever `separator` is; within quotes they are text,
+/// and two quotes are one.
+inline std::vector<std::string> quoted_cells(std::string_view line, char separator) {
+    std::vector<std::string> cells(1);
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"')
+            cells.back() += line[++i];
+        else if (line[i] == '"')
+            is_quoted = !is_quoted;
+        else if (line[i] == separator && !is_quoted)
+            cells.emplace_back();
+        else
+            cells.back() += line[i];
+    }
+    return cells;
 }
 
 }  // namespace osteomill

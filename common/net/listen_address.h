@@ -11,6 +11,12 @@ struct ListenAddress {
     std::uint16_t port = 7010;  ///< 0: the system picks a free one
 };
 
+/// ADDRESS:PORT, with an IPv6 address in brackets, as it is read again.
+inline std::string text_of_address(const std::string& address, std::uint16_t port) {
+    const bool is_v6 = address.find(':') != std::string::npos;
+    return (is_v6 ? '[' + address + ']' : address) + ':' + std::to_string(port);
+}
+
 /// HOST:PORT apart, where the last colon is; an IPv6 address without its brackets.
 struct AddressParts {
     std::string host;

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -44,6 +45,11 @@ struct TissueStrength {
 
     bool operator==(const TissueStrength&) const = default;
 };
+
+/// Whether reports call a sum so: no tissue may have the name.
+inline bool is_name_of_sum(std::string_view name) {
+    return name == "total" || name == "unlabelled";
+}
 
 struct Tissue {
     std::uint8_t label = 0;  ///< 1 to 255; 0 is "unlabelled"

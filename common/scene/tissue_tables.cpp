@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/scene/material.h"
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
@@ -46,6 +47,7 @@ std::optional<TissueStrength> read_strength(TomlReader& reader) {
 std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segmentation) {
     std::vector<Tissue> tissues;
     std::set<int> labels;
+    std::set<std::string> names;
     for (TomlReader& reader : readers) {
         Tissue tissue;
         tissue.label =
@@ -70,6 +72,11 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segme
         reader.refuse_other_keys();
         if (!labels.insert(tissue.label).second)
             reader.fail("label", fmt::format("label {} stands for two tissues", tissue.label));
+        if (is_name_of_sum(tissue.name))
+            reader.fail("name",
+                        fmt::format("'name' is \"{}\", as reports call a sum; give it another", tissue.name));
+        if (!names.insert(tissue.name).second)
+            reader.fail("name", fmt::format("two tissues are called \"{}\"", one_line(tissue.name)));
         tissues.push_back(std::move(tissue));
     }
     return tissues;

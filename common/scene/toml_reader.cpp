@@ -83,7 +83,8 @@ std::optional<std::size_t> TomlReader::choice(std::string_view key, const std::v
     if (!value) return std::nullopt;
     const auto found = std::find(choices.begin(), choices.end(), *value);
     if (found == choices.end())
-        fail(key, fmt::format("'{}' is \"{}\"; choose one of: {}", key, *value, fmt::join(choices, ", ")));
+        fail(key, fmt::format("'{}' is \"{}\"; choose one of: {}", key, one_line(*value),
+                              fmt::join(choices, ", ")));
     return static_cast<std::size_t>(found - choices.begin());
 }
 
@@ -183,7 +184,7 @@ void TomlReader::refuse_other_keys() const {
         const std::optional<std::string> meant = nearest_name(key.str(), known_keys_);
         const std::string guess = meant ? fmt::format("did you mean '{}'? ", *meant) : "";
         throw SceneError(fmt::format("{}:{}: unknown key '{}' in {}; {}choose one of: {}", file_,
-                                     key.source().begin.line, key.str(), table_name_, guess,
+                                     key.source().begin.line, one_line(key.str()), table_name_, guess,
                                      fmt::join(known_keys_, ", ")));
     }
 }

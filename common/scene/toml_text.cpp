@@ -125,6 +125,8 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
     if (text.size() > most_toml_bytes)
         throw SceneError(fmt::format("{}: {} bytes are more than the {} that are read", name, text.size(),
                                      most_toml_bytes));
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+        throw SceneError(name + ": is text in UTF-16; save it as UTF-8");
     Skimmer(text, name).run();
     try {
         return toml::parse(text, name);

@@ -16,8 +16,8 @@ struct Utf8Character {
 /// Whether a character ends a line, or steers what shows it: the controls C0 and C1, the separators of lines
 /// and paragraphs, and what turns the direction of the text that follows (Unicode's bidirectional controls).
 constexpr bool is_control(char32_t code) {
-    return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x200E || code == 0x200F ||
-           (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+    return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x061C || code == 0x200E ||
+           code == 0x200F || (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
 }
 
 /// The first of a text that is not empty. Overlong forms, surrogates and codes above U+10FFFF are no UTF-8.

@@ -14,6 +14,7 @@
 #include "common/files/table_line.h"
 #include "common/scene/session_control.h"
 #include "common/scene/trajectory_columns.h"
+#include "common/text/plain_text.h"
 #include "common/text/words.h"
 
 namespace osteomill {
@@ -84,7 +85,7 @@ class CsvReader {
         if (!axis) refuse("axis_x,axis_y,axis_z must not all be zero, nor huge: a direction is about 1 long");
         result.pose.spindle_axis = *axis;
         if (cells[7] != "0" && cells[7] != "1")
-            refuse(fmt::format("pedal must be 0 or 1, not '{}'", cells[7]));
+            refuse(fmt::format("pedal must be 0 or 1, not '{}'", one_line(cells[7])));
         result.pedal = cells[7] == "1";
         if (has_burr_) result.burr = to_burr(cells[columns_without_burr]);
         return result;
@@ -100,14 +101,14 @@ class CsvReader {
 
     double to_number(std::string_view cell) const {
         const std::optional<double> value = finite_number(cell);
-        if (!value) refuse(fmt::format("'{}' is not a finite number", cell));
+        if (!value) refuse(fmt::format("'{}' is not a finite number", one_line(cell)));
         return *value;
     }
 
     std::size_t to_burr(std::string_view cell) const {
         const auto value = parse_number<std::size_t>(cell);
         if (!value || *value >= burr_count_)
-            refuse(fmt::format("burr '{}' is not an index into the scene's set, 0 to {}", cell,
+            refuse(fmt::format("burr '{}' is not an index into the scene's set, 0 to {}", one_line(cell),
                                burr_count_ - 1));
         return *value;
     }

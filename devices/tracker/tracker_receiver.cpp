@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/ip/tcp.hpp>
 #include <cerrno>
@@ -45,7 +46,11 @@ TrackerReceiver::TrackerReceiver(Parts parts)
       stream_(
           parts_.name, parts_.pedal,
           {.sample =
-               [this](const TrackerSample& sample) { push({.sample = sample, .connection = connection_}); },
+               [this](const TrackerSample& sample) {
+                   is_newer_ = is_newer_ || sample.stamp_s == 0.0 || sample.stamp_s > newest_stamp_s_;
+                   newest_stamp_s_ = std::max(newest_stamp_s_, sample.stamp_s);
+                   push({.sample = sample, .connection = connection_});
+               },
            .pedal =
                [this](bool is_down) {
                    push(
@@ -89,6 +94,8 @@ void TrackerReceiver::listen_to(int socket) {
     ++connection_;
     std::array<std::uint8_t, 65536> buffer;
     double heard_s = empty_s_ = parts_.now_s();
+    double newer_s = heard_s;
+    newest_stamp_s_ = 0.0;
     TransformStream::Counts before = stream_.counts();
     while (!stops_.load(std::memory_order_relaxed)) {
         const double looked_s = parts_.now_s();
@@ -112,7 +119,11 @@ void TrackerReceiver::listen_to(int socket) {
         if (now.samples != before.samples) {
             heard_s = now_s;
             before = now;
-            notice_.store("", std::memory_order_relaxed);
+            if (std::exchange(is_newer_, false)) newer_s = now_s;
+            notice_.store(now_s - newer_s > sample_age_for_notice_s
+                              ? "the tracker's time stamps stand still, or come in whole seconds"
+                              : "",
+                          std::memory_order_relaxed);
         } else if (now_s - heard_s > sample_age_for_notice_s) {
             notice_.store(now.damaged != before.damaged
                               ? "the tracker's TRANSFORMs are damaged, or no rigid motions"

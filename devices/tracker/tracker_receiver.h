@@ -55,6 +55,8 @@ class TrackerReceiver {
     Parts parts_;
     TransformStream stream_;
     double empty_s_ = 0.0;  // the socket held nothing then
+    double newest_stamp_s_ = 0.0;
+    bool is_newer_ = false;  // a sample came since it was last asked, and its stamp was newer
     std::uint64_t connection_ = 0;
     boost::lockfree::spsc_queue<Item, boost::lockfree::capacity<1024>> items_;
     std::atomic<const char*> notice_{"no tracker is connected yet"};

@@ -59,7 +59,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
         answer_.version(request_.version());
         answer_.keep_alive(false);
         answer_.set(http::field::content_type, "text/plain; version=0.0.4; charset=utf-8");
-        if (request_.target() != path) {
+        const std::string_view target(request_.target().data(), request_.target().size());
+        if (target.substr(0, target.find('?')) != path) {
             answer_.result(http::status::not_found);
             answer_.body() = fmt::format("there is {} alone\n", path);
         } else if (request_.method() != http::verb::get) {

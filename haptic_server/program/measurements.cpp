@@ -31,7 +31,7 @@ nlohmann::ordered_json histogram_us(const Histogram& histogram) {
 nlohmann::ordered_json removed_by_name(const RemovedByTissue& removed_mm3, const Scene& scene) {
     nlohmann::ordered_json json;
     json["total"] = std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0);
-    for (const Tissue& tissue : scene.tissues) json[tissue.name] = removed_mm3[tissue.label];
+    for (const Tissue& tissue : scene.tissues) json.emplace(tissue.name, removed_mm3[tissue.label]);
     if (!scene.tissues.empty() && removed_mm3[0] > 0.0) json["unlabelled"] = removed_mm3[0];
     return json;
 }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/files/atomic_file.h"
 #include "devices/hid/device_list.h"
 #include "devices/hid/hidapi_transport.h"
 #include "haptic_server/check/machine_check.h"
@@ -30,10 +31,15 @@ namespace osteomill {
 namespace {
 
 /// Before an hour of work rather than after it.
-void require_folder_of(const std::optional<std::filesystem::path>& file) {
-    if (!file || !file->has_parent_path() || std::filesystem::is_directory(file->parent_path())) return;
-    throw std::runtime_error(
-        fmt::format("{}: there is no folder {}", file->string(), file->parent_path().string()));
+void require_place_for(const std::optional<std::filesystem::path>& file) {
+    if (!file) return;
+    if (std::filesystem::is_directory(*file))
+        throw std::runtime_error(fmt::format("{}: is a folder; it should be a file", file->string()));
+    if (file->has_parent_path() && !std::filesystem::is_directory(file->parent_path()))
+        throw std::runtime_error(
+            fmt::format("{}: there is no folder {}", file->string(), file->parent_path().string()));
+    // A pipe is opened when it is written.
+    if (!write_target(*file, Link::follow).is_direct) AtomicFile{*file};
 }
 
 /// Throws where something is wrong, once all of it was said.
@@ -128,7 +134,7 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
     if (options.outputs.report) prepare_report_folder(*options.outputs.report);
     for (const auto& file : {options.outputs.save_bone, options.outputs.json, options.outputs.json_histograms,
                              options.logs.force, options.logs.milling, options.record})
-        require_folder_of(file);
+        require_place_for(file);
     std::optional<ShownOptions> shown = shown_options(options, version);
     const MakeDevice make_device = options.device.prepare();
     SessionScene scene = load_session_scene(options.scene);
@@ -164,11 +170,13 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
                                 assembly.shown() ? assembly.shown()->server().traffic() : StreamingTraffic{},
                                 version);
         });
-        output.out->write(fmt::format("metrics on {}:{}\n", options.metrics->address, metrics->port()));
+        output.out->write(
+            fmt::format("metrics on {}\n", text_of_address(options.metrics->address, metrics->port())));
     }
     if (options.listen)
         output.out->write(
-            fmt::format("listening on {}:{}\n", options.listen->address, assembly.shown()->server().port()));
+            fmt::format("listening on {}\n",
+                        text_of_address(options.listen->address, assembly.shown()->server().port())));
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     say_what_to_know(options.session, assembly.scene());
     run(assembly, stop, *output.err);

@@ -114,7 +114,7 @@ void show_session(Playhead& playhead, double speed, StreamingOptions& where, con
     StreamingServer server(where, std::move(session), playhead.bone(), shown, nullptr, playhead.structures());
     server.start();
     where.port = server.port();
-    out.write(fmt::format("listening on {}:{}\n", where.address, where.port));
+    out.write(fmt::format("listening on {}\n", text_of_address(where.address, where.port)));
     while (!shown.is_over() && !stop.load()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     server.stop();
     if (!shown.error().empty()) throw std::runtime_error(shown.error());

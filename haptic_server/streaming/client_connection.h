@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "common/log/token_bucket.h"
 #include "common/net/stream.h"
 #include "common/wire/frame.h"
 #include "haptic_server/streaming/answered_states.h"
 #include "haptic_server/streaming/client_feed.h"
-#include "haptic_server/streaming/token_bucket.h"
 
 namespace osteomill {
 

@@ -16,15 +16,15 @@
 #include <vector>
 
 #include "common/bone/brick_change.h"
+#include "common/log/limited_log.h"
 #include "common/scene/session_state.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/wire_error.h"
-#include "haptic_server/streaming/lease_history.h"
 #include "haptic_server/streaming/client_connection.h"
-#include "haptic_server/streaming/tool_lease.h"
 #include "haptic_server/streaming/control_lease.h"
-#include "haptic_server/streaming/limited_log.h"
+#include "haptic_server/streaming/lease_history.h"
 #include "haptic_server/streaming/streaming_options.h"
+#include "haptic_server/streaming/tool_lease.h"
 #include "haptic_server/streaming/unidentified_connections.h"
 
 namespace osteomill {

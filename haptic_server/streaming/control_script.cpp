@@ -31,13 +31,14 @@ SessionAction action_named(std::string_view name) {
         if (name == name_of(action)) return action;
         names.emplace_back(name_of(action));
     }
-    throw std::invalid_argument(fmt::format("action '{}' is not one of {}", name, fmt::join(names, ", ")));
+    throw std::invalid_argument(
+        fmt::format("action '{}' is not one of {}", one_line(name), fmt::join(names, ", ")));
 }
 
 double number_in(std::string_view text, const char* name, const char* what) {
     const std::optional<double> number = finite_number(text);
     if (!number || *number < 0.0)
-        throw std::invalid_argument(fmt::format("{} '{}' is not {}, 0 or more", name, text, what));
+        throw std::invalid_argument(fmt::format("{} '{}' is not {}, 0 or more", name, one_line(text), what));
     return *number;
 }
 

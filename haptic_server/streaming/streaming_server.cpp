@@ -89,7 +89,8 @@ class StreamingServer::Impl {
         if (options_.record) recorder_.emplace(*options_.record, hello_, mirror_, structures_);
         if (acceptor_) {
             port_ = acceptor_->local_endpoint().port();
-            spdlog::info("listening on {}:{}{}", options_.address, port_, options_.tls ? " with TLS" : "");
+            spdlog::info("listening on {}{}", text_of_address(options_.address, port_),
+                         options_.tls ? " with TLS" : "");
             accept();
         }
         next_frame_ = Clock::now();

@@ -82,10 +82,14 @@ std::shared_ptr<const Segmentation> read(const std::filesystem::path& path, cons
 std::set<std::string> segment_names(const BegunCase& begun) {
     std::set<std::string> names;
     for (const auto& segmentation : begun.segmentations)
-        for (const Segment& segment : segmentation->segments)
-            if (!names.insert(segment.name).second)
-                throw std::runtime_error(fmt::format("{}: has a segment \"{}\", as one before has; rename it",
-                                                     segmentation->path.string(), segment.name));
+        for (const Segment& segment : segmentation->segments) {
+            const auto refuse = [&](const char* why) {
+                throw std::runtime_error(fmt::format("{}: has a segment \"{}\", {}; rename it",
+                                                     segmentation->path.string(), segment.name, why));
+            };
+            if (is_name_of_sum(segment.name)) refuse("as reports call a sum");
+            if (!names.insert(segment.name).second) refuse("as one before has");
+        }
     return names;
 }
 

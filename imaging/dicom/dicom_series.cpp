@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "imaging/dicom/dicom_pixels.h"
-#include "imaging/formats/picture_stack.h"
+#include "imaging/formats/desktop_file.h"
 #include "imaging/imaging_error.h"
 
 namespace osteomill {

@@ -13,6 +13,7 @@
 #include "imaging/dicom/dicom_image.h"
 #include "imaging/dicom/dicom_scan.h"
 #include "imaging/formats/byte_source.h"
+#include "imaging/formats/desktop_file.h"
 #include "imaging/formats/meta_image_header.h"
 #include "imaging/formats/nifti_header.h"
 #include "imaging/formats/nrrd_header.h"

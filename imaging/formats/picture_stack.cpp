@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/text/words.h"
+#include "imaging/formats/desktop_file.h"
 #include "imaging/formats/picture_file.h"
 #include "imaging/formats/picture_order.h"
 #include "imaging/formats/plausible_geometry.h"
@@ -62,11 +63,6 @@ SlicePicture read(const Page& page, ImagePurpose purpose) {
 }
 
 }  // namespace
-
-bool is_of_the_desktop(const std::filesystem::path& path) {
-    const std::string name = lower_case(path.filename().string());
-    return name.starts_with('.') || name == "thumbs.db" || name == "desktop.ini";
-}
 
 glm::dvec3 parse_stack_spacing(const std::string& text) {
     const auto mm = listed_numbers<3>(text);

@@ -31,7 +31,4 @@ bool is_picture_folder(const std::filesystem::path& folder, bool has_spacing);
 OpenedImage open_picture_stack(const std::filesystem::path& path, const std::optional<glm::dvec3>& spacing_mm,
                                ImagePurpose purpose = ImagePurpose::scan);
 
-/// Whether the name is of what a desktop leaves beside files: "._scan.nii.gz", ".DS_Store", "Thumbs.db".
-bool is_of_the_desktop(const std::filesystem::path& path);
-
 }  // namespace osteomill

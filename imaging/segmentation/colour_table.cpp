@@ -74,23 +74,6 @@ std::optional<LabelLine> ctbl_line(const std::string& line) {
     return line_of(words[0], name, {colour[0], colour[1], colour[2]});
 }
 
-/// Cells between commas or semicolons, whichever the table uses; within quotes they are text.
-std::vector<std::string> cells_of(const std::string& line, char separator) {
-    std::vector<std::string> cells(1);
-    bool is_quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"')
-            cells.back() += line[++i];
-        else if (line[i] == '"')
-            is_quoted = !is_quoted;
-        else if (line[i] == separator && !is_quoted)
-            cells.emplace_back();
-        else
-            cells.back() += line[i];
-    }
-    return cells;
-}
-
 /// Where the columns of a table in CSV stand, of which 3D Slicer's has these.
 struct CsvColumns {
     char separator = ',';
@@ -100,7 +83,7 @@ struct CsvColumns {
         constexpr std::array<std::string_view, 5> names{"labelvalue", "name", "color_r", "color_g",
                                                         "color_b"};
         CsvColumns columns{.separator = line.find(';') == std::string::npos ? ',' : ';'};
-        const std::vector<std::string> cells = cells_of(line, columns.separator);
+        const std::vector<std::string> cells = quoted_cells(line, columns.separator);
         for (std::size_t i = 0; i < names.size(); ++i) {
             const auto found = std::ranges::find_if(
                 cells, [&](const std::string& cell) { return lower_case(trimmed(cell)) == names[i]; });
@@ -110,7 +93,7 @@ struct CsvColumns {
         return columns;
     }
     std::optional<LabelLine> line(const std::string& line) const {
-        const std::vector<std::string> cells = cells_of(line, separator);
+        const std::vector<std::string> cells = quoted_cells(line, separator);
         if (std::ranges::max(at) >= cells.size()) return std::nullopt;
         return line_of(cells[at[0]], cells[at[1]], {cells[at[2]], cells[at[3]], cells[at[4]]});
     }

@@ -35,10 +35,12 @@ std::shared_ptr<LoadedCase> load(const std::string& name, const std::vector<std:
 
 Burr make_burr(double diameter_mm, int edges, double rpm, const py::handle& cutting, const py::handle& edge,
                bool clockwise) {
-    if (!(diameter_mm > 0.0) || edges < 1 || !(rpm > 0.0))
-        throw std::invalid_argument(
-            fmt::format("a burr has diameter_mm > 0, edges >= 1 and rpm > 0, not {} mm, {} and {} rpm",
-                        diameter_mm, edges, rpm));
+    // As in a scene, but for diameters of studies.
+    if (!(diameter_mm > 0.0 && diameter_mm <= 100.0) || edges < 1 || edges > 64 || !(rpm > 0.0 && rpm <= 1e6))
+        throw std::invalid_argument(fmt::format(
+            "a burr has a diameter_mm above 0, up to 100, 1 to 64 edges and rpm above 0, up to 1e6, not "
+            "{} mm, {} and {} rpm",
+            diameter_mm, edges, rpm));
     return {.name = fmt::format("{:g} mm", diameter_mm),
             .diameter_mm = diameter_mm,
             .edges = edges,

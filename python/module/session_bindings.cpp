@@ -4,15 +4,19 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/bone/patient_space.h"
+#include "common/scene/session_control.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
 #include "python/module/bone_view.h"
@@ -26,6 +30,14 @@ namespace {
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 using SharedSession = std::shared_ptr<SteppedSession>;
+
+glm::dvec3 place_of(const py::handle& value, const char* argument) {
+    const glm::dvec3 place_mm = vector_of(value, argument);
+    if (!is_place(place_mm))
+        throw std::invalid_argument(
+            fmt::format("{}: lies more than {} mm from the origin", argument, farthest_place_mm));
+    return place_mm;
+}
 
 std::optional<Grip> grip_of(const std::string& hand) {
     if (hand == "prescribed") return std::nullopt;
@@ -41,6 +53,7 @@ SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std:
                            const std::optional<double>& milling_rate_hz, bool vibration,
                            const py::object& start_mm, const py::object& start_axis,
                            const std::optional<std::filesystem::path>& record) {
+    if (record && record->empty()) throw std::invalid_argument("record: is empty; give a file, or None");
     SteppedOptions options{.grip = grip_of(hand),
                            .coupling = coupling.value_or(""),
                            .milling_rate_hz = milling_rate_hz,
@@ -49,12 +62,24 @@ SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std:
     if (force_model) options.force_model = *force_model;
     if (!start_mm.is_none() || !start_axis.is_none()) {
         options.start = loaded->settings().start_pose;
-        if (!start_mm.is_none()) options.start->position_mm = vector_of(start_mm, "start_mm");
+        if (!start_mm.is_none()) options.start->position_mm = place_of(start_mm, "start_mm");
         if (!start_axis.is_none())
             options.start->spindle_axis = unit(vector_of(start_axis, "start_axis"), "start_axis");
     }
     const py::gil_scoped_release released;
-    return std::make_shared<SteppedSession>(loaded, std::move(options));
+    // A forked process has the session's memory and none of its threads: there it is let go as it is.
+    const auto end = [](SteppedSession* session) {
+        if (session->is_of_this_process()) delete session;
+    };
+    return {new SteppedSession(loaded, std::move(options)), end};
+}
+
+constexpr std::uint64_t ticks_between_signals = 1000;
+constexpr auto most_ms = static_cast<std::int64_t>(1000.0 * longest_session_s);
+
+/// Python's signals, Ctrl-C among them, wait for the interpreter's lock.
+void raise_of_signal() {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
 std::int32_t burr_number(const SteppedSession& session, const py::object& burr) {
@@ -80,8 +105,9 @@ void require_prescribed(const SteppedSession& session, const char* what) {
 
 Tick step(const SharedSession& session, const py::object& hand_mm, const py::object& axis, bool pedal,
           const py::object& burr, std::int64_t ms) {
-    if (ms < 1)
-        throw std::invalid_argument(fmt::format("ms: takes whole milliseconds from 1 on, not {}", ms));
+    if (ms < 1 || ms > most_ms)
+        throw std::invalid_argument(
+            fmt::format("ms: takes whole milliseconds from 1 to {}, not {}", most_ms, ms));
     const std::unique_lock<std::mutex> held = taken(session->busy());
     HandInput input{.pose = session->hand(),
                     .pedal = pedal,
@@ -89,11 +115,15 @@ Tick step(const SharedSession& session, const py::object& hand_mm, const py::obj
                     .ticks = static_cast<std::uint64_t>(ms)};
     if (!hand_mm.is_none() || !axis.is_none() || pedal || input.burr >= 0)
         require_prescribed(*session, "hand_mm, axis, pedal, burr");
-    if (!hand_mm.is_none()) input.pose.position_mm = vector_of(hand_mm, "hand_mm");
+    if (!hand_mm.is_none()) input.pose.position_mm = place_of(hand_mm, "hand_mm");
     if (!axis.is_none()) input.pose.spindle_axis = unit(vector_of(axis, "axis"), "axis");
-    {
-        const py::gil_scoped_release released;
-        session->step(input);
+    for (std::uint64_t left = input.ticks; left > 0; left -= input.ticks) {
+        input.ticks = std::min(left, ticks_between_signals);
+        {
+            const py::gil_scoped_release released;
+            session->step(input);
+        }
+        raise_of_signal();
     }
     return {session->state(), session->shared_case()};
 }
@@ -128,6 +158,9 @@ std::vector<HandInput> inputs_of(const SteppedSession& session, const Doubles& h
     for (py::ssize_t i = 0; i < n; ++i) {
         HandInput& at = inputs[static_cast<std::size_t>(i)];
         at.pose.position_mm = row(hands, i);
+        if (!is_place(at.pose.position_mm))
+            throw std::invalid_argument(
+                fmt::format("hands: row {} lies more than {} mm from the origin", i, farthest_place_mm));
         if (axes && !one_axis) at.pose.spindle_axis = unit(row(*axes, i), "axes");
         if (pedals) at.pedal = pedals->data()[pedals->ndim() == 0 ? 0 : i];
     }
@@ -141,27 +174,38 @@ py::dict rollout(const SharedSession& session, const Doubles& hands, const std::
     const std::vector<HandInput> inputs =
         inputs_of(*session, hands, axes, pedals, burr_number(*session, burr));
     TickColumns columns(session->loaded(), inputs.size());
-    {
-        const py::gil_scoped_release released;
-        for (const HandInput& input : inputs) {
-            session->step(input);
-            columns.add(*session);
+    for (std::span<const HandInput> left = inputs; !left.empty();) {
+        const auto now = left.first(std::min<std::size_t>(left.size(), ticks_between_signals));
+        {
+            const py::gil_scoped_release released;
+            for (const HandInput& input : now) {
+                session->step(input);
+                columns.add(*session);
+            }
         }
+        raise_of_signal();
+        left = left.subspan(now.size());
     }
     return dict_of(std::move(columns), session->loaded());
 }
 
 py::dict run(const SharedSession& session, std::int64_t ms) {
-    if (ms < 0) throw std::invalid_argument(fmt::format("ms: takes whole milliseconds, not {}", ms));
+    if (ms < 0 || ms > most_ms)
+        throw std::invalid_argument(
+            fmt::format("ms: takes whole milliseconds up to {}, not {}", most_ms, ms));
     const std::unique_lock<std::mutex> held = taken(session->busy());
     HandInput input{.pose = session->hand()};
     TickColumns columns(session->loaded(), static_cast<std::size_t>(ms));
-    {
-        const py::gil_scoped_release released;
-        for (std::int64_t tick = 0; tick < ms && !session->is_finished(); ++tick) {
-            session->step(input);
-            columns.add(*session);
+    for (std::int64_t tick = 0; tick < ms && !session->is_finished();) {
+        {
+            const py::gil_scoped_release released;
+            const std::int64_t until = std::min(ms, tick + static_cast<std::int64_t>(ticks_between_signals));
+            for (; tick < until && !session->is_finished(); ++tick) {
+                session->step(input);
+                columns.add(*session);
+            }
         }
+        raise_of_signal();
     }
     return dict_of(std::move(columns), session->loaded());
 }
@@ -214,11 +258,11 @@ the pedal up. Many sessions may be at work at once, each in a thread of its own:
 
 The hand must move as a hand can: a jump of over 3 mm within a millisecond turns the force off (Step.fault), and the tool takes
 hold again once it is clear of bone.)")
-        .def(py::init(&make_session), py::arg("case"), py::kw_only(), py::arg("hand") = "prescribed",
-             py::arg("coupling") = py::none(), py::arg("force_model") = py::none(),
-             py::arg("milling_rate_hz") = py::none(), py::arg("vibration") = false,
-             py::arg("start_mm") = py::none(), py::arg("start_axis") = py::none(),
-             py::arg("record") = py::none(),
+        .def(py::init(&make_session), py::arg("case").none(false), py::kw_only(),
+             py::arg("hand") = "prescribed", py::arg("coupling") = py::none(),
+             py::arg("force_model") = py::none(), py::arg("milling_rate_hz") = py::none(),
+             py::arg("vibration") = false, py::arg("start_mm") = py::none(),
+             py::arg("start_axis") = py::none(), py::arg("record") = py::none(),
              R"(Makes a session of a case.
 
 hand: "prescribed" (its pose is what step and rollout say), or "light" or "firm": a simulated hand of that grip holds a simulated

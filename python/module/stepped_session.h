@@ -8,12 +8,15 @@
 // no second bone.
 #pragma once
 
+#include <unistd.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -69,7 +72,15 @@ class SteppedSession {
     SteppedSession& operator=(const SteppedSession&) = delete;
 
     // One thread at a time: the caller of these holds `busy`.
-    std::mutex& busy() { return busy_; }
+    /// Throws std::runtime_error in a process that was forked from the session's: the session's memory is
+    /// there, and none of its threads.
+    std::mutex& busy() {
+        if (!is_of_this_process())
+            throw std::runtime_error(
+                "the session is of the process that this one was forked from; make another");
+        return busy_;
+    }
+    bool is_of_this_process() const { return ::getpid() == process_; }
 
     /// Makes the ticks of `input`. Throws std::logic_error once it has ended.
     void step(const HandInput& input);
@@ -110,6 +121,7 @@ class SteppedSession {
     SteppedOptions options_;
     std::string fingerprint_;
     std::mutex busy_;
+    pid_t process_ = ::getpid();
     PrescribedDevice* prescribed_ = nullptr;      // the assembly's
     const SimulatedDevice* simulated_ = nullptr;  // likewise
     std::unique_ptr<SessionAssembly> assembly_;

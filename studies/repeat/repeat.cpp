@@ -4,11 +4,14 @@
 #include <fmt/ostream.h>
 #include <stdlib.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -16,6 +19,7 @@
 #include "analysis/output/repeated/repeated_tables.h"
 #include "common/program/child_program.h"
 #include "common/program/commit.h"
+#include "common/text/plain_text.h"
 
 namespace osteomill::study {
 
@@ -56,10 +60,26 @@ void run_into(const fs::path& folder, const std::vector<std::string>& study) {
     if (*child.status() != 0) throw std::runtime_error("the study failed: " + child.last_line());
 }
 
+/// A folder may be from elsewhere: what it names must be a study, which writes into its folder alone.
+void require_study(const std::vector<std::string>& command, const fs::path& kept) {
+    constexpr std::array<std::string_view, 7> studies{"bridge",   "calibrate", "force",    "polishing",
+                                                      "realtime", "render",    "stability"};
+    const bool is_study = !command.empty() && std::ranges::find(studies, command.front()) != studies.end();
+    const bool writes = std::ranges::any_of(command, [](const std::string& word) {
+        return word.starts_with("--out") || word.starts_with("--merge") || word.starts_with("--database");
+    });
+    if (!is_study || writes)
+        throw std::runtime_error(fmt::format("{}: its manifest names no study that can be repeated: '{}'",
+                                             printable(kept.string()),
+                                             one_line(fmt::format("{}", fmt::join(command, " ")))));
+}
+
 bool repeat(const fs::path& kept, std::ostream& said) {
     const Manifest manifest = read_manifest(kept);
-    fmt::print(said, "{}: {}\nmade by version {} of commit {}, repeated by commit {}\n", kept.string(),
-               fmt::join(manifest.command, " "), manifest.version, manifest.commit, built_from_commit());
+    require_study(manifest.command, kept);
+    fmt::print(said, "{}: {}\nmade by version {} of commit {}, repeated by commit {}\n",
+               printable(kept.string()), printable(fmt::format("{}", fmt::join(manifest.command, " "))),
+               printable(manifest.version), printable(manifest.commit), built_from_commit());
     const Scratch scratch;
     const fs::path once = scratch.folder() / "once";
     const fs::path again = scratch.folder() / "again";

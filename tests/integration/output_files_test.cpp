@@ -128,6 +128,19 @@ TEST_F(OutputFiles, OfASessionThatCannotBeginLeaveNoParts) {
     EXPECT_FALSE(fs::exists(file("a.part.pcap")));
 }
 
+TEST_F(OutputFiles, ThatCannotBeWrittenAreRefusedAtTheStart) {
+    fs::create_directory(file("folder"));
+    for (const std::string name : {"--json", "--save-bone"})
+        for (const std::string& place :
+             {file("folder"), file(std::string(255, 'n')), std::string("/proc/x.json")}) {
+            const Finished session =
+                run_program(server({"--clock", "virtual", "--duration-s", "1000000", name, place}));
+            EXPECT_EQ(session.status, 1) << session.err;
+            EXPECT_THAT(session.err, HasSubstr(place)) << "and no session is run";
+        }
+    EXPECT_TRUE(fs::is_empty(file("folder")));
+}
+
 TEST_F(OutputFiles, AreRefusedAtTheStartWhereTwoAreOne) {
     put("a.csv");
     fs::create_symlink("a.csv", file("link.csv"));

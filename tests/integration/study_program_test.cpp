@@ -266,6 +266,10 @@ TEST_F(StudyProgram, IsRepeatedFromTheManifestOfItsFolder) {
     EXPECT_EQ(of_another.exit_code, 1);
     EXPECT_THAT(of_another.out, HasSubstr("rails.json: /implicit/cases: cells that differ: 1, by up to 1; "));
     expect_refused("repeat " + (folder_ / "nowhere").string(), 1, "manifest.json: cannot be read");
+    auto hostile = nlohmann::json::parse(text_of(out_ + "/manifest.json"));
+    hostile.at("command") = {"sessions", "/", "--database", "postgresql://elsewhere/\x1b[2J"};
+    std::ofstream(out_ + "/manifest.json") << hostile;
+    expect_refused("repeat " + out_, 1, "names no study that can be repeated");
 }
 
 TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {

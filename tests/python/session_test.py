@@ -1,7 +1,9 @@
 """Sessions from Python: equal to haptic_server's to the bit, however they are stepped, in threads, and back to a state."""
 
+import os
 import pathlib
 import pickle
+import signal
 import tempfile
 import threading
 import unittest
@@ -129,6 +131,10 @@ class SessionTest(unittest.TestCase):
                 (lambda: session.step(hand_mm=[0, 1, float("nan")]), "hand_mm: takes three finite"),
                 (lambda: session.step(axis=[0, 0, 0]), "axis: an axis of length 0"),
                 (lambda: session.step(ms=0), "ms: takes whole milliseconds"),
+                (lambda: session.run(10**18), "ms: takes whole milliseconds"),
+                (lambda: session.step(hand_mm=[1e7, 0, 0]), "hand_mm: lies more than 10000 mm"),
+                (lambda: session.rollout(np.full((4, 3), 1e7)), "hands: row 0 lies more than 10000 mm"),
+                (lambda: om.Session(tooth(), record=""), "record: is empty"),
                 (lambda: session.rollout(np.zeros((4, 2))), r"hands: takes an array \(4, 3\), not \(4, 2\)"),
                 (lambda: session.rollout(np.full((4, 3), np.inf)), "hands: row 0 is not finite"),
                 (lambda: session.rollout(np.zeros((4, 3)), axes=np.zeros((3, 3))), r"axes: takes an array \(4, 3\)"),
@@ -142,6 +148,32 @@ class SessionTest(unittest.TestCase):
             with self.assertRaisesRegex((ValueError, RuntimeError), line) as raised:
                 wrong()
             self.assertNotIn("\n", str(raised.exception))
+
+    def test_a_signal_ends_a_long_step(self):
+        session = om.Session(tooth())
+        for work in (lambda: session.step(ms=10**8), lambda: session.run(10**8),
+                     lambda: session.rollout(np.tile(session.now.hand_mm, (10**6, 1)))):
+            threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+            with self.assertRaises(KeyboardInterrupt):
+                work()
+        self.assertGreater(session.step().time_s, 0.0)
+
+    def test_belongs_to_the_process_that_made_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            session = om.Session(tooth(), record=os.path.join(folder, "a.pcap"))
+            session.step(ms=10)
+            child = os.fork()
+            if child == 0:
+                try:
+                    session.step()
+                except RuntimeError:
+                    del session
+                    os._exit(7)
+                os._exit(1)
+            self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 7)
+            session.step(ms=10)
+            session.close()
+            self.assertTrue(os.path.exists(os.path.join(folder, "a.pcap")))
 
     def test_ends_once_it_is_closed(self):
         with om.Session(tooth()) as session:

@@ -105,6 +105,9 @@ TEST(TraineeGroups, AreALineEach) {
     const std::map<std::string, std::string> two{{"Anna, A.", "novice"}, {"Eva", "expert"}};
     EXPECT_EQ(written("trainee,group\nAnna, A.,novice\n\n Eva , expert \n"), two);
     EXPECT_EQ(written("Eva,expert\nAnna, A.,novice\nEva,expert\n"), two);
+    EXPECT_EQ(written("\xef\xbb\xbftrainee,group\r\n\"Anna, A.\",\"novice\"\r\nEva,expert\r\n"), two)
+        << "as Excel writes it";
+    EXPECT_EQ(written("Anna, A.;novice\nEva;expert\n"), two);
     const auto error_of = [&](const std::string& text) {
         try {
             (void)written(text);

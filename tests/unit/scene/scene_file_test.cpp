@@ -157,6 +157,20 @@ TEST(SceneFile, ATissueMayHaveAFactorAndMayNotBeCut) {
     EXPECT_THAT(error_of(tissue + "cuttable = 1\n"), HasSubstr("cuttable"));
 }
 
+TEST(SceneFile, TwoTissuesHaveTwoNamesAndNoneThatOfASum) {
+    const auto with_tissues = [](const std::string& first, const std::string& second) {
+        std::string text = "name = \"x\"\n[bone]\nphantom = \"tooth\"\n";
+        for (const auto& [label, name] : {std::pair("1", first), std::pair("2", second)})
+            text += std::string("[[tissues]]\nlabel = ") + label + "\nname = \"" + name +
+                    "\"\ncolour = \"#000000\"\n";
+        return text;
+    };
+    EXPECT_THAT(error_of(with_tissues("dentin", "dentin")), HasSubstr("two tissues are called \"dentin\""));
+    EXPECT_THAT(error_of(with_tissues("dentin", "total")), HasSubstr("as reports call a sum"));
+    EXPECT_THAT(error_of("\xff\xfen\0a"), HasSubstr("is text in UTF-16; save it as UTF-8"));
+    EXPECT_LT(error_of("name = \"x\"\n" + std::string(100'000, 'k') + " = 1\n").size(), 1000U);
+}
+
 TEST(SceneFile, AMisspeltKeyGetsTheNearestOne) {
     EXPECT_THAT(error_of(smallest + "[trajectory]\nmotion = \"hold\"\nspeed = 3\n"),
                 AllOf(HasSubstr("did you mean 'speed_mm_per_s'?"), HasSubstr("choose one of: motion, file")));

@@ -30,6 +30,7 @@ TEST(SlicerSession, RefusesWhatItDoesNotKnowInOneLine) {
         }
         return "taken";
     };
+    EXPECT_EQ(refused("Mark", "Z\xe4hne"), "Mark 'Z\\xe4hne' is no UTF-8 (byte 2 is \\xe4)");
     EXPECT_EQ(refused("Place", "1 2"), "Place: give \"x y z\" or \"x y z ax ay az\" in RAS, mm");
     EXPECT_EQ(refused("Place", "1 nan 2"), "Place: 'nan' is no number");
     EXPECT_EQ(refused("Place", "1 2 1e9"), "Place: farther than ten metres from the patient's origin");

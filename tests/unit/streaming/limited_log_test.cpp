@@ -1,4 +1,4 @@
-#include "haptic_server/streaming/limited_log.h"
+#include "common/log/limited_log.h"
 
 #include <gmock/gmock.h>
 #include <spdlog/sinks/ostream_sink.h>

@@ -1,4 +1,4 @@
-#include "haptic_server/streaming/token_bucket.h"
+#include "common/log/token_bucket.h"
 
 #include <gtest/gtest.h>
 

@@ -298,6 +298,14 @@ TEST(BridgeHost, MeasuresTheWayThereAndBackByOneClockEach) {
     EXPECT_NEAR(*bridge.host.round_trip_median_s(), 0.001, 1e-6);
 }
 
+TEST(BridgeHost, TakesThePosesOfAnArmWhoseClockGoesInSteps) {
+    BridgePair bridge;
+    bridge.arm_clock_ns = [](std::uint64_t now_ns) { return (now_ns / 15'600'000 + 1) * 15'600'000; };
+    bridge.exchange(200);
+    EXPECT_EQ(bridge.host.counts().late, 0U);
+    EXPECT_GT(bridge.host.counts().poses, 100U);
+}
+
 TEST(BridgeHost, WithAKeyHearsOnlyWhoHasIt) {
     const testing::TemporaryFolder folder;
     std::ofstream(folder / "key") << std::string(40, 'k');

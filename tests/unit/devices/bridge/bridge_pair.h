@@ -58,7 +58,7 @@ class BridgePair {
     }
     /// The arm speaks, now, and the server hears what `pass_on` makes of each datagram.
     omb_state say() {
-        const omb_state state = omb_exchange_at(&link, &pose, &force, now_ns);
+        const omb_state state = omb_exchange_at(&link, &pose, &force, arm_clock_ns(now_ns));
         if (is_server_stopped) return state;
         Datagram buffer(OMB_MESSAGE_BYTES + 1);
         PeerAddress from;
@@ -125,6 +125,8 @@ class BridgePair {
     bool has_fresh_pose = false;  ///< among what was heard last
     bool is_server_stopped = false;
     std::uint64_t now_ns = 1'000'000'000;
+    /// What the arm takes for it.
+    std::function<std::uint64_t(std::uint64_t)> arm_clock_ns = [](std::uint64_t ns) { return ns; };
 };
 
 }  // namespace osteomill::testing

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "haptic_server/streaming/token_bucket.h"
+#include "common/log/token_bucket.h"
 
 namespace osteomill {
 
