@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/child_process.h"
 #include "tests/support/scraped_metrics.h"
+#include "tests/support/temporary_folder.h"
 
 namespace osteomill::testing {
 namespace {
@@ -54,9 +56,12 @@ TEST(Metrics, AreRefusedWhereOthersCouldAsk) {
 }
 
 TEST(LogJson, IsAnObjectALineAlsoForTheStatusAndTheError) {
+    const TemporaryFolder folder;
+    const std::filesystem::path full = folder / "a \"b\".nrrd";
+    std::filesystem::create_symlink("/dev/full", full);
     const Finished run =
         run_program({HAPTIC_SERVER, "--case", "cube", "--clock", "virtual", "--duration-s", "0.2", "--listen",
-                     "127.0.0.1:0", "--log-json", "--save-bone", "/proc/a \"b\".nrrd"});
+                     "127.0.0.1:0", "--log-json", "--save-bone", full.string()});
     EXPECT_EQ(run.status, 1);
     std::istringstream lines(run.err);
     std::map<std::string, int> levels;
@@ -70,7 +75,7 @@ TEST(LogJson, IsAnObjectALineAlsoForTheStatusAndTheError) {
     }
     EXPECT_THAT(all, HasSubstr("spindle"));
     EXPECT_THAT(all, HasSubstr("listening on 127.0.0.1:"));
-    EXPECT_THAT(all, HasSubstr("/proc/a \"b\".nrrd"));
+    EXPECT_THAT(all, HasSubstr(full.string()));
     EXPECT_EQ(levels["error"], 1) << run.err;
     EXPECT_GT(levels["info"], 1);
 }

@@ -129,16 +129,16 @@ TEST_F(OutputFiles, OfASessionThatCannotBeginLeaveNoParts) {
 }
 
 TEST_F(OutputFiles, ThatCannotBeWrittenAreRefusedAtTheStart) {
-    fs::create_directory(file("folder"));
+    fs::create_directory(file("folder.nrrd"));
     for (const std::string name : {"--json", "--save-bone"})
         for (const std::string& place :
-             {file("folder"), file(std::string(255, 'n')), std::string("/proc/x.json")}) {
+             {file("folder.nrrd"), file(std::string(250, 'n') + ".nrrd"), std::string("/proc/x.nrrd")}) {
             const Finished session =
                 run_program(server({"--clock", "virtual", "--duration-s", "1000000", name, place}));
             EXPECT_EQ(session.status, 1) << session.err;
             EXPECT_THAT(session.err, HasSubstr(place)) << "and no session is run";
         }
-    EXPECT_TRUE(fs::is_empty(file("folder")));
+    EXPECT_TRUE(fs::is_empty(file("folder.nrrd")));
 }
 
 TEST_F(OutputFiles, AreRefusedAtTheStartWhereTwoAreOne) {

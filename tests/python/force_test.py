@@ -60,7 +60,7 @@ class ReferenceForceTest(unittest.TestCase):
             om.reference_force(burr, motion, 3)
         with self.assertRaisesRegex(ZeroDivisionError, "division"):
             om.reference_force(burr, motion, lambda x, y, z: 1 / 0)
-        with self.assertRaisesRegex(ValueError, "a burr has diameter_mm > 0"):
+        with self.assertRaisesRegex(ValueError, "a burr has a diameter_mm above 0"):
             om.Burr(diameter_mm=0.0)
         with self.assertRaisesRegex(ValueError, "velocity_mm_per_s"):
             om.Motion((0, 0, 0), (1, 0))

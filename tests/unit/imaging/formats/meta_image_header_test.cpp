@@ -85,8 +85,8 @@ TEST(MetaImageHeader, RefusesWhatCannotBe) {
     EXPECT_THAT(refusal(with(meta_header(), "3 4 5", "3 4 nan")), HasSubstr("DimSize"));
     EXPECT_THAT(refusal(with(meta_header(), "MET_SHORT", "MET_STRING")), HasSubstr("ElementType"));
     EXPECT_THAT(refusal(meta_header("LOCAL", "DimSize = 1 2 3\n")),
-                HasSubstr("stands there again as '1 2 3'"));
-    EXPECT_THAT(refusal(meta_header("LOCAL", "Origin = 1 2 3\n")), HasSubstr("says other than Offset"));
+                HasSubstr("stands there again as '3 4 5'"));
+    EXPECT_THAT(refusal(meta_header("LOCAL", "Origin = 1 2 4\n")), HasSubstr("says other than Offset"));
     EXPECT_THAT(refusal(meta_header("LOCAL", "HeaderSize = -2\n")), HasSubstr("HeaderSize"));
     EXPECT_THAT(refusal(meta_header("LOCAL", "ElementNumberOfChannels = 3\n")), HasSubstr("colour"));
     EXPECT_THAT(refusal(meta_header("LOCAL", "DistanceUnits = furlong\n")), HasSubstr("mm, cm, m, um"));
