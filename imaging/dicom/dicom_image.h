@@ -9,9 +9,8 @@
 
 namespace osteomill {
 
-/// What is looked for in it: a scan, or labels, which may also be a segmentation (SEG).
 /// Places the slices of the series requested, or else of the largest; their pixels are read later. What else
-/// the folder holds is named in the notes. Throws ImagingError.
+/// the folder holds is named in the notes. Labels may also be a segmentation (SEG). Throws ImagingError.
 OpenedImage open_dicom_folder(const std::filesystem::path& folder,
                               const std::optional<std::string>& series_uid, ImagePurpose purpose);
 OpenedImage open_dicom_file(const std::filesystem::path& path, ImagePurpose purpose);

@@ -251,7 +251,8 @@ void DicomWalker::require_fragment(const Element& fragment, bool is_table) const
     if (is_jpeg_ls && !scan_.frames.empty() && scan_.frames != "1") {
         const Bytes tail = bytes.last(std::min<std::size_t>(bytes.size(), 4));
         const std::array<std::uint8_t, 2> end{0xff, 0xd9};
-        if (std::ranges::search(tail, end).empty()) refuse("has pixel data of JPEG-LS that are cut off");
+        if (std::search(tail.begin(), tail.end(), end.begin(), end.end()) == tail.end())
+            refuse("has pixel data of JPEG-LS that are cut off");
     }
 }
 
