@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/net/listen_address.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
