@@ -138,7 +138,7 @@ std::vector<CaseStructure> structures_of(const BegunCase& begun, const Grid& gri
     std::vector<CaseStructure> structures;
     for (std::size_t i = 0; i < begun.segmentations.size(); ++i) {
         const Segmentation& segmentation = *begun.segmentations[i];
-        // Of labels in place of a scan the first file's have been told.
+        // Where labels stand in for a scan, the import prints the first file's notes as the scan's.
         if (i > 0 || begun.labels == 0)
             for (const std::string& note : segmentation.image.notes) messages << printable(note) << '\n';
         if (segmentation.segments.empty())

@@ -114,17 +114,37 @@ double require_even(const std::vector<SlicePlacement>& slices, const std::vector
     return std::accumulate(gaps.begin(), gaps.end(), 0.0) / static_cast<double>(gaps.size());
 }
 
+/// Slices that are sound and alike, along their common normal.
+struct AlignedSlices {
+    glm::dvec3 normal{0.0};
+    std::vector<double> height_mm{};   ///< of each
+    std::vector<std::size_t> order{};  ///< indices, from the lowest on
+};
+
+AlignedSlices aligned(const std::vector<SlicePlacement>& slices) {
+    for (const SlicePlacement& slice : slices) require_sound(slice);
+    for (const SlicePlacement& slice : slices) require_alike(slices.front(), slice);
+    AlignedSlices aligned{
+        .normal = glm::normalize(glm::cross(slices.front().along_row, slices.front().along_column))};
+    for (const SlicePlacement& slice : slices)
+        aligned.height_mm.push_back(glm::dot(slice.position_mm, aligned.normal));
+    aligned.order.resize(slices.size());
+    std::iota(aligned.order.begin(), aligned.order.end(), std::size_t{0});
+    std::ranges::stable_sort(aligned.order, {}, [&](std::size_t i) { return aligned.height_mm[i]; });
+    return aligned;
+}
+
 /// Heights of the places where slices lie, ascending; nearer ones are one place.
-std::vector<double> places_of(std::vector<double> height_mm, const StatedGap& stated) {
-    std::ranges::sort(height_mm);
+std::vector<double> places_of(const AlignedSlices& slices, const StatedGap& stated) {
+    const auto height_mm = [&](std::size_t i) { return slices.height_mm[slices.order[i]]; };
     double expected_mm = stated.spacing_mm > 0.0 ? stated.spacing_mm : stated.thickness_mm;
     const bool is_stated = expected_mm > 0.0;
-    for (std::size_t i = 1; !is_stated && i < height_mm.size(); ++i)
-        expected_mm = std::max(expected_mm, height_mm[i] - height_mm[i - 1]);
+    for (std::size_t i = 1; !is_stated && i < slices.order.size(); ++i)
+        expected_mm = std::max(expected_mm, height_mm(i) - height_mm(i - 1));
     const double same_mm = std::max(duplicate_mm, std::min(gap_tolerance_mm, 0.1 * expected_mm));
-    std::vector<double> places{height_mm.front()};
-    for (const double height : height_mm)
-        if (height - places.back() > same_mm) places.push_back(height);
+    std::vector<double> places{height_mm(0)};
+    for (std::size_t i = 1; i < slices.order.size(); ++i)
+        if (height_mm(i) - places.back() > same_mm) places.push_back(height_mm(i));
     return places;
 }
 
@@ -178,19 +198,10 @@ SliceStack stack_slices(const std::vector<SlicePlacement>& slices) {
     if (slices.empty()) refuse("no slices");
     if (slices.size() == 1)
         refuse(fmt::format("a single slice ({}), which is no volume", slices.front().name));
-    for (const SlicePlacement& slice : slices) require_sound(slice);
-    for (const SlicePlacement& slice : slices) require_alike(slices.front(), slice);
-
-    const SlicePlacement& any = slices.front();
-    const glm::dvec3 normal = glm::normalize(glm::cross(any.along_row, any.along_column));
-    std::vector<double> height_mm;
-    for (const SlicePlacement& slice : slices) height_mm.push_back(glm::dot(slice.position_mm, normal));
+    const AlignedSlices along = aligned(slices);
+    const std::vector<double>& height_mm = along.height_mm;
     SliceStack stack;
-    stack.order.resize(slices.size());
-    std::iota(stack.order.begin(), stack.order.end(), std::size_t{0});
-    std::stable_sort(stack.order.begin(), stack.order.end(),
-                     [&](std::size_t a, std::size_t b) { return height_mm[a] < height_mm[b]; });
-
+    stack.order = along.order;
     for (std::size_t i = 1; i < stack.order.size(); ++i) {
         const std::size_t below = stack.order[i - 1];
         const std::size_t above = stack.order[i];
@@ -198,7 +209,8 @@ SliceStack stack_slices(const std::vector<SlicePlacement>& slices) {
             refuse(fmt::format("two slices at the same position: {} and {}", slices[below].name,
                                slices[above].name));
     }
-    const glm::dvec3 step = require_upright(slices, stack.order, normal);
+    const SlicePlacement& any = slices.front();
+    const glm::dvec3 step = require_upright(slices, stack.order, along.normal);
     const double gap_mm = require_even(slices, stack.order, height_mm);
 
     stack.origin_mm = slices[stack.order.front()].position_mm;
@@ -209,37 +221,25 @@ SliceStack stack_slices(const std::vector<SlicePlacement>& slices) {
 
 SliceLattice lattice_of(const std::vector<SlicePlacement>& slices, const StatedGap& stated) {
     if (slices.empty()) refuse("no slices");
-    for (const SlicePlacement& slice : slices) require_sound(slice);
-    for (const SlicePlacement& slice : slices) require_alike(slices.front(), slice);
-    const SlicePlacement& any = slices.front();
-    const glm::dvec3 normal = glm::normalize(glm::cross(any.along_row, any.along_column));
-    std::vector<double> height_mm;
-    for (const SlicePlacement& slice : slices) height_mm.push_back(glm::dot(slice.position_mm, normal));
-    const auto [low, high] = std::ranges::minmax_element(height_mm);
-    const auto index_of = [&](auto at) { return static_cast<std::size_t>(at - height_mm.begin()); };
-
+    const AlignedSlices along = aligned(slices);
     SliceLattice lattice;
-    const std::vector<double> places = places_of(height_mm, stated);
+    const std::vector<double> places = places_of(along, stated);
     double gap_mm = gap_of(places, stated, lattice.note);
     if (!is_plausible_spacing(gap_mm))
         refuse(implausible_spacing("Spacing Between Slices (0018,0088)", gap_mm));
     // A single slice of labels is a volume of one slice among empty ones.
     lattice.slices = places.size() == 1 ? 2 : settle_gap(places, gap_mm) + 1;
-    glm::dvec3 step = normal;
-    if (places.size() > 1) {
-        std::vector<std::size_t> ends{index_of(low), index_of(high)};
-        for (std::size_t i = 0; i < slices.size(); ++i)
-            if (i != ends.front() && i != ends.back()) ends.insert(ends.end() - 1, i);
-        step = require_upright(slices, ends, normal);
-    }
-    for (const double height : height_mm) {
+    const glm::dvec3 step =
+        places.size() == 1 ? along.normal : require_upright(slices, along.order, along.normal);
+    for (const double height : along.height_mm) {
         const double slice = (height - places.front()) / gap_mm;
         if (std::abs(slice - std::round(slice)) * gap_mm >
             std::max(gap_tolerance_relative * gap_mm, std::min(gap_tolerance_mm, 0.2 * gap_mm)))
             refuse("its frames lie at no common spacing");
         lattice.slice_of.push_back(static_cast<std::size_t>(std::lround(slice)));
     }
-    lattice.origin_mm = slices[index_of(low)].position_mm;
+    const SlicePlacement& any = slices.front();
+    lattice.origin_mm = slices[along.order.front()].position_mm;
     lattice.spacing_mm = {any.column_pitch_mm, any.row_pitch_mm, gap_mm};
     lattice.direction = glm::dmat3(glm::normalize(any.along_row), glm::normalize(any.along_column), step);
     return lattice;
