@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/files/input_file.h"
+#include "common/text/utf8.h"
 
 namespace osteomill {
 
@@ -125,8 +126,7 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
     if (text.size() > most_toml_bytes)
         throw SceneError(fmt::format("{}: {} bytes are more than the {} that are read", name, text.size(),
                                      most_toml_bytes));
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-        throw SceneError(name + ": is text in UTF-16; save it as UTF-8");
+    if (begins_as_utf16(text)) throw SceneError(name + ": is text in UTF-16; save it as UTF-8");
     Skimmer(text, name).run();
     try {
         return toml::parse(text, name);

@@ -37,4 +37,9 @@ constexpr Utf8Character first_character(std::string_view text) {
     return {.bytes = bytes, .is_plain = !is_control(code), .is_utf8 = true};
 }
 
+/// Whether a file's text begins with the mark of UTF-16, in either byte order.
+constexpr bool begins_as_utf16(std::string_view text) {
+    return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+}
+
 }  // namespace osteomill
