@@ -142,11 +142,11 @@ std::int16_t level_of(const Refiner& refiner, const Grid& grid, double wanted_vo
         std::ranges::transform(here, with_value, with_value.begin(), std::plus<>());
     });
     std::int16_t level = half;
-    double inside = static_cast<double>(with_value[half]);
+    double counted = static_cast<double>(with_value[half]);
     while (level > least_level) {
-        const double more = inside + static_cast<double>(with_value[static_cast<std::size_t>(level - 1)]);
-        if (wanted_voxels - inside <= more - wanted_voxels) break;
-        inside = more;
+        const double more = counted + static_cast<double>(with_value[static_cast<std::size_t>(level - 1)]);
+        if (wanted_voxels - counted <= more - wanted_voxels) break;
+        counted = more;
         --level;
     }
     return level;
