@@ -22,8 +22,10 @@ bool lists(std::string_view names, std::string_view wanted) {
 }  // namespace
 
 std::vector<GraphicsDevice> graphics_devices() {
-    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") ||
-        !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration"))
+    // Mesa says the two halves of the one extension, NVIDIA the whole.
+    const auto has = [](const char* extension) { return epoxy_has_egl_extension(EGL_NO_DISPLAY, extension); };
+    if (!has("EGL_EXT_platform_device") ||
+        !(has("EGL_EXT_device_base") || (has("EGL_EXT_device_enumeration") && has("EGL_EXT_device_query"))))
         return {};
     EGLint count = 0;
     if (!eglQueryDevicesEXT(0, nullptr, &count) || count < 1) return {};

@@ -105,11 +105,20 @@ std::vector<PlacedVoxels> AtlasLayout::all(const BoneContent& content) const {
             }
         return all;
     }
-    // No voxel lies before the grid: the empty tile comes out empty.
-    all.push_back({{glm::ivec3(-tile_edge_texels), glm::ivec3(tile_edge_texels)}, glm::ivec3(0)});
-    for (std::size_t slot = 0; slot < content.brick_of_slot.size(); ++slot)
-        all.push_back(of_brick(brick_position(content.size_bricks, content.brick_of_slot[slot]),
-                               static_cast<std::int32_t>(slot)));
+    // No voxel lies before the grid: the empty tile comes out empty, and so do those to spare, which a
+    // driver leaves as it finds them.
+    const auto add_empty = [&](std::int32_t slot) {
+        all.push_back({{glm::ivec3(-tile_edge_texels), glm::ivec3(tile_edge_texels)},
+                       tile_of_slot(slot) * tile_edge_texels});
+    };
+    add_empty(-1);
+    const auto stored = static_cast<std::int32_t>(content.brick_of_slot.size());
+    for (std::int32_t slot = 0; slot < stored; ++slot)
+        all.push_back(of_brick(
+            brick_position(content.size_bricks, content.brick_of_slot[static_cast<std::size_t>(slot)]),
+            slot));
+    const std::int32_t tiles = size_tiles_.x * size_tiles_.y * size_tiles_.z;
+    for (std::int32_t spare = stored; spare < tiles - 1; ++spare) add_empty(spare);
     return all;
 }
 

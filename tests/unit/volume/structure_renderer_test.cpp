@@ -48,7 +48,10 @@ TEST_F(StructureRendererTest, ShowsASoftStructureBesideTheBoneAndCutsItAsTheBone
     EXPECT_EQ(with_nerve(3.75 * towards_eye, 0.0), bone);
     with_nerve(3.75 * towards_eye, 1.0);
     picture.set_appearance({.cuts = {{.normal = towards_eye, .offset_mm = 2.81}}});
-    EXPECT_EQ(middle(picture.draw(&textures, nullptr, camera).read_back()), bone) << "cut away";
+    const auto cut_away = middle(picture.draw(&textures, nullptr, camera).read_back());
+    // Behind a cut a driver may round a ray's first step to another side.
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(cut_away[channel], bone[channel], 1) << "cut away";
     picture.set_appearance({});
     picture.forget_structures();
     EXPECT_EQ(middle(picture.draw(&textures, nullptr, camera).read_back()), bone);

@@ -1,5 +1,11 @@
 #include "render_client/volume/textures/texture_build.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
 #include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
@@ -46,6 +52,19 @@ std::vector<Texels> content_of(const BoneTextures& textures) {
     return all;
 }
 
+/// Which texture differs, in how many bytes and in which at first; empty where none does.
+std::string first_difference(const std::vector<Texels>& are, const std::vector<Texels>& would_be) {
+    for (std::size_t texture = 0; texture < would_be.size(); ++texture) {
+        const auto [at, other] = std::ranges::mismatch(are[texture], would_be[texture]);
+        if (at == are[texture].end()) continue;
+        const auto differ =
+            std::inner_product(at, are[texture].end(), other, 0, std::plus<>(), std::not_equal_to<>());
+        return fmt::format("texture {}: {} of {} bytes differ, first {}: {} for {}", texture, differ,
+                           are[texture].size(), at - are[texture].begin(), *at, *other);
+    }
+    return "";
+}
+
 bool no_distance_is_longer(const BoneTextures& textures, const BoneTextures& fresh) {
     const Texels are = texels(&textures.blocks(), 2), would_be = texels(&fresh.blocks(), 2);
     for (std::size_t block = 1; block < are.size(); block += 2)
@@ -88,7 +107,8 @@ TEST_P(HeldEachWay, ABoneThatIsCarvedBetweenStepsComesOutAsOneThatWasCarvedBefor
         BoneTextures textures = build.all_at_once();
         textures.update(carved, changes);
         const BoneTextures fresh = TextureBuild(carved, colours, look, limits).all_at_once();
-        EXPECT_TRUE(content_of(textures) == content_of(fresh)) << name << ", carved after " << carved_after;
+        EXPECT_EQ(first_difference(content_of(textures), content_of(fresh)), "")
+            << name << ", carved after " << carved_after;
         EXPECT_TRUE(no_distance_is_longer(textures, fresh)) << name << ", carved after " << carved_after;
     }
 }
