@@ -61,7 +61,11 @@ Program& Program::operator=(Program&& other) noexcept {
 }
 
 Program::~Program() {
-    if (id_ != 0) glDeleteProgram(id_);
+    if (id_ == 0) return;
+    // NVIDIA's driver gives the name of one that is current away: the next of that name would draw with its
+    // uniforms.
+    glUseProgram(0);
+    glDeleteProgram(id_);
 }
 
 void Program::use() const {

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "render_client/volume/passes/pixel_box.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/passes/slice_renderer.h"
 #include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 
@@ -297,6 +299,21 @@ TEST_F(ScenePictureTest, ShowsHazeWithNothingSolidInIt) {
         ScenePicture picture(*renderer, size_px);
         const Picture drawn = picture.draw(&textures, nullptr, camera_on({0.0, 0.0, 0.0}, 6.0)).read_back();
         EXPECT_GT(drawn.at(120, 90)[0], drawn.at(2, 90)[0] + 40) << static_cast<int>(choice);
+    }
+}
+
+// Each program of a renderer that went may leave its name to one of the next.
+TEST_F(ScenePictureTest, IsTheSameOfEachRendererInTurn) {
+    const BoneTextures textures(ball(), {});
+    std::optional<Picture> first;
+    for (int turn = 0; turn < 6; ++turn) {
+        SliceRenderer renderer;
+        const Picture drawn = ScenePicture(renderer, size_px)
+                                  .draw(&textures, nullptr, camera_on({0.0, 0.0, 0.0}, 6.0))
+                                  .read_back();
+        if (!first) first = drawn;
+        EXPECT_GT(drawn.at(120, 90)[0], drawn.at(2, 90)[0] + 40) << turn;
+        EXPECT_EQ(drawn, *first) << turn;
     }
 }
 
