@@ -8,7 +8,6 @@
 #include "common/program/option_checks.h"
 #include "studies/force/case_report.h"
 #include "studies/force/force_study.h"
-#include "studies/loads/loads_study.h"
 
 namespace osteomill::study {
 
@@ -23,7 +22,6 @@ struct ForceOptions {
     std::optional<double> depth_mm{};
     bool has_edge_forces = false;
     bool has_heads = false;
-    bool loads = false;
     bool quick = false;
 };
 
@@ -42,12 +40,9 @@ void run_cases(const ForceOptions& options, const StudySurroundings& surrounding
 }
 
 void perform(const ForceOptions& options, const StudySurroundings& surroundings) {
-    const bool has_charts = !options.loads && options.cases.empty() && !options.random;
-    if (has_charts) require_charts_of(surroundings);
+    if (options.cases.empty() && !options.random) require_charts_of(surroundings);
     make_folder(options.out);
-    if (options.loads)
-        run_loads_study(options.out, surroundings);
-    else if (!options.cases.empty())
+    if (!options.cases.empty())
         run_cases(options, surroundings);
     else if (options.random)
         run_random_motions({.out = options.out,
@@ -92,12 +87,6 @@ StudyCommand add_force(CLI::App& app) {
         ->add_flag("--heads", options.has_heads,
                    "cylinders, cones, barrels and pears in the place of balls, of random proportions")
         ->needs(random);
-    force
-        ->add_flag(
-            "--loads", options.loads,
-            "what a burr removes that is pressed on each material; writes OUT/loads.csv; nothing else is run")
-        ->excludes(cases)
-        ->excludes(random);
     force->add_flag("--quick", options.quick, "fewer points, shorter runs: under a minute")
         ->excludes(cases)
         ->excludes(random);

@@ -5,10 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/output/study_run.h"
-#include "common/scene/phantom_names.h"
 #include "studies/force/contact_curves.h"
 #include "studies/force/force_curves.h"
-#include "studies/force/memory.h"
 #include "studies/force/random_motions.h"
 
 namespace osteomill::study {
@@ -95,12 +93,6 @@ void run_force_study(const ForceStudyOptions& options, const StudySurroundings& 
     const auto steps_us = run.plan(
         models, [](const std::string& model) { return "a step of " + model; },
         [&](const std::string& model) { return contact_step_us(model, options.quick); });
-    const auto scenes = run.plan(
-        std::vector<std::string>(phantom_names.begin(), phantom_names.end()),
-        [](const std::string& phantom) { return "memory of the " + phantom; }, weigh_scene);
-    const auto watch = run.plan(
-        std::vector{"memory of the watch"}, [](const char* name) { return name; },
-        [](const char*) { return weigh_structures(); });
     if (!run.perform()) return;
 
     ordered_json found;
@@ -112,14 +104,6 @@ void run_force_study(const ForceStudyOptions& options, const StudySurroundings& 
     auto model = models.begin();
     for (const double step_us : steps_us.outcomes())
         found["contact"].push_back({{"model", *model++}, {"step_us_p50", step_us}});
-    const Table scene_table = table_of(scenes.outcomes());
-    run.write(scene_table, "memory_scenes");
-    found["memory"] = scene_table.json();
-    const std::vector<MemoryRow> watched = watch.outcomes();
-    run.write(table_of(watched), "memory_structures");
-    run.say("watching {} ({:.0f} mm^3): {:.1f} MiB, ready in {:.2f} s", watched[0].name, watched[0].bone_mm3,
-            watched[0].mebibytes, watched[0].start_s);
-
     run.write(found, "force");
     run.draw({"curves", "contact"});
     run.say("force.json, tables (CSV) and charts (SVG) are in {}", options.out.string());

@@ -1,5 +1,4 @@
-// The study of the milling force: random motions, curves, the older contact models, memory; its tables and
-// charts.
+// The study of the milling force: random motions, curves, the older contact models; its tables and charts.
 #pragma once
 
 #include <cstdint>

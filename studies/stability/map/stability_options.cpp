@@ -6,12 +6,8 @@
 
 #include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
-#include "studies/stability/encoder/encoder_noise.h"
-#include "studies/stability/encoder/spring_choice.h"
-#include "studies/stability/encoder/tissue_forces.h"
 #include "studies/stability/map/map_text.h"
 #include "studies/stability/map/stability_study.h"
-#include "studies/stability/rails/force_response.h"
 #include "studies/stability/rails/motion_on_rails.h"
 #include "studies/stability/scene/map_run.h"
 #include "studies/stability/sites/site_study.h"
@@ -26,10 +22,6 @@ struct StabilityCommand {
     // In place of the map.
     bool runs_sites = false;
     int motions_on_rails = 0;
-    bool varies_encoders = false;
-    bool varies_springs = false;
-    bool varies_tissues = false;
-    bool varies_frequency = false;
     SiteStudyOptions sites{};  ///< without what the map's options say
 };
 
@@ -60,26 +52,6 @@ void add_sites(CLI::App& stability, StabilityCommand& command) {
             "force on it is from the milling model's")
         ->excludes(sites)
         ->check(CLI::Range(1, 100'000));
-    CLI::Option* const encoders =
-        stability
-            .add_flag("--encoders", command.varies_encoders,
-                      "instead of the map: the tooth scene with arms of finer and coarser encoders")
-            ->excludes(sites);
-    stability
-        .add_flag("--response", command.varies_frequency,
-                  "instead of the map: how the force on the hand follows the feed, from 0.3 to 30 Hz")
-        ->excludes(sites)
-        ->excludes(encoders);
-    stability
-        .add_flag("--springs", command.varies_springs,
-                  "instead of the map: what a stiffer spring brings and costs each shipped arm")
-        ->excludes(sites)
-        ->excludes(encoders);
-    stability
-        .add_flag("--tissues", command.varies_tissues,
-                  "instead of the map: what a hand feels of each tissue of the tooth with each shipped arm")
-        ->excludes(sites)
-        ->excludes(encoders);
     stability.add_option("--seed", command.sites.seed, "of the random walks or motions")
         ->capture_default_str();
     stability
@@ -99,11 +71,6 @@ void perform(const StabilityCommand& command, const StudySurroundings& surroundi
                                 .methods = methods.empty() ? std::vector<std::string>{"implicit"} : methods,
                                 .has_edge_forces = command.selection.has_edge_forces},
                                out, surroundings);
-    if (command.varies_encoders)
-        return run_encoder_study(methods.empty() ? "implicit" : methods.front(), out, surroundings);
-    if (command.varies_springs) return run_spring_study(out, surroundings);
-    if (command.varies_tissues) return run_tissue_study(out, surroundings);
-    if (command.varies_frequency) return run_response_study(out, surroundings);
     if (command.runs_sites) {
         SiteStudyOptions sites = command.sites;
         sites.has_edge_forces = command.selection.has_edge_forces;
