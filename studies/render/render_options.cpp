@@ -51,8 +51,6 @@ StudyCommand add_render(CLI::App& app) {
             "rasteriser)")
         ->check(CLI::Range(0, 63));
     render->add_flag("--quick", options.quick, "fewer settings, smaller pictures: under a minute");
-    render->add_flag("--zooms", options.zooms_only,
-                     "only the pictures of every bone at three zooms, into OUT/zooms");
     return {.subcommand = render, .run = [shared](const StudySurroundings& surroundings) {
                 require_charts_of(surroundings);
                 make_folder(shared->out);

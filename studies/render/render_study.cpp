@@ -12,7 +12,6 @@
 #include "studies/render/accuracy.h"
 #include "studies/render/carved_sphere.h"
 #include "studies/render/full_rate/full_rate.h"
-#include "studies/render/zooms.h"
 
 namespace osteomill::study {
 
@@ -54,18 +53,6 @@ ordered_json cut_wall_figures(double p95_deg, const std::vector<double>& found_d
     return {{"p95_deg", p95_deg}, {"pictures", pictures}};
 }
 
-void draw_zooms(TrialBones& bones, const glm::ivec2& size_px, StudyRun& run) {
-    const std::filesystem::path folder = run.out() / "zooms";
-    make_folder(folder);
-    const auto planned = run.plan(
-        zoom_cases(bones.has_scans()), [](const ZoomCase& c) { return c.bone + ", look" + c.suffix; },
-        [&](const ZoomCase& c) { return write_zooms(c, bones, size_px, folder).string(); });
-    if (!run.perform()) return;
-    for (const std::string& picture : planned.outcomes()) run.say("{}", picture);
-    if (!bones.has_scans())
-        run.say("real CT skipped: OSTEOMILL_SCANS does not name the folder of trial scans");
-}
-
 }  // namespace
 
 void run_render_study(const RenderStudyOptions& options, const StudySurroundings& surroundings) {
@@ -81,7 +68,6 @@ void run_render_study(const RenderStudyOptions& options, const StudySurroundings
     // For the chart's title.
     write_text(gl::renderer_name() + "\n", options.out / "gl_renderer.txt");
     TrialBones bones(options.scans, options.out);
-    if (options.zooms_only) return draw_zooms(bones, size_px, run);
 
     std::vector<DrawingCase> cases = drawing_cases(tooth_trial, options.quick);
     const bool has_skull = options.scans && !options.quick;

@@ -14,7 +14,6 @@ struct RenderStudyOptions {
     bool full_rate_only = false;                   ///< only frames a second in a large window, full_rate.h
     std::optional<int> frames{};                   ///< of these, in a row of the table; none: 600
     std::optional<int> gpu{};                      ///< draw on this GPU of several, from 0
-    bool zooms_only = false;                       ///< only the pictures at three zooms
     bool quick = false;                            ///< fewer settings, smaller pictures: under a minute
     std::optional<glm::ivec2> size_px{};           ///< of the pictures; none: 640 x 480, 240 x 180 if quick
     std::optional<std::filesystem::path> scans{};  ///< a folder of trial scans; none: the phantom alone

@@ -9,7 +9,6 @@
 #include "imaging/import_bone.h"
 #include "imaging/phantoms/phantom.h"
 #include "render_client/volume/textures/voxel_box.h"
-#include "studies/render/made_bone.h"
 
 namespace osteomill::study {
 
@@ -26,65 +25,7 @@ double radius_mm(const Bone& bone) {
     return 0.5 * bone.grid().spacing_mm * glm::length(glm::dvec3(box.size));
 }
 
-/// A view of what is in the middle of another, from there.
-Camera closer(const Camera& view, const glm::dvec3& target_mm, double shown_radius_mm) {
-    Camera camera = camera_on(target_mm, shown_radius_mm);
-    camera.azimuth_rad = view.azimuth_rad;
-    camera.elevation_rad = view.elevation_rad;
-    return camera;
-}
-
-TrialBone with_views(const std::string& name, Bone bone, std::vector<TissueColour> tissues,
-                     double close_radius_mm) {
-    const Camera overview = camera_on(middle_mm(bone), radius_mm(bone));
-    const Camera close_up = closer(overview, seen_point_mm(bone, overview), close_radius_mm);
-    return {name, std::move(bone), std::move(tissues), overview, close_up};
-}
-
-TrialBone scan_trial(const std::string& name, ImportOptions options, const std::filesystem::path& folder) {
-    options.output = folder / "trial.nrrd";
-    options.spacing_mm = 0.1;
-    options.threshold_hu = 300.0;
-    std::ostringstream unheard;
-    import_bone(options, {.messages = unheard, .available_memory_bytes = available_memory_bytes()});
-    Scene scene;
-    scene.bone = FileSource{.path = options.output};
-    Bone bone = load_bone(scene).bone;
-    std::filesystem::remove(options.output);
-    return with_views(name, std::move(bone), {}, 9.0);
-}
-
-TrialBone phantom(const std::string& name, const std::string& trial_name) {
-    const Scene scene = phantom_scene(name);
-    std::vector<TissueColour> tissues;
-    for (const Tissue& tissue : scene.tissues) tissues.push_back({tissue.label, tissue.colour_rgb});
-    return with_views(trial_name, load_bone(scene).bone, tissues, 7.0);
-}
-
-TrialBone make(const std::string& name, const std::filesystem::path& scans,
-               const std::filesystem::path& folder) {
-    if (name == skull_trial)
-        return scan_trial(
-            name, {.input = scans / "head_ct", .output = {}, .region = parse_region("-60,10,730,-20,50,770")},
-            folder);
-    if (name == vault_trial)
-        return scan_trial(name,
-                          {.input = scans / "cadaver_head" / "cthead.nrrd",
-                           .output = {},
-                           .region = parse_region("108,110,-40,148,150,0"),
-                           .to_hu = parse_rescale("1,-1000")},
-                          folder);
-    return phantom(name == tooth_trial ? "tooth" : name, name);
-}
-
-}  // namespace
-
-const TrialBone& TrialBones::operator[](const std::string& name) {
-    auto found = made_.find(name);
-    if (found == made_.end()) found = made_.emplace(name, make(name, scans_.value_or(""), folder_)).first;
-    return found->second;
-}
-
+/// Where the camera's axis first meets bone; throws std::runtime_error where it meets none.
 glm::dvec3 seen_point_mm(const Bone& bone, const Camera& camera) {
     const double step_mm = 0.5 * bone.grid().spacing_mm;
     for (double distance = 0.0; distance < camera.far_mm; distance += step_mm) {
@@ -95,9 +36,50 @@ glm::dvec3 seen_point_mm(const Bone& bone, const Camera& camera) {
     throw std::runtime_error("the view's middle shows no bone");
 }
 
-std::vector<BrickChange> carve_in_view(TrialBone& trial, double diameter_mm) {
-    const glm::dvec3 centre_mm = seen_point_mm(trial.bone, trial.close_up);
-    return carve_sphere(trial.bone, centre_mm, 0.5 * diameter_mm);
+/// A view of what is in the middle of another, from there.
+Camera closer(const Camera& view, const glm::dvec3& target_mm, double shown_radius_mm) {
+    Camera camera = camera_on(target_mm, shown_radius_mm);
+    camera.azimuth_rad = view.azimuth_rad;
+    camera.elevation_rad = view.elevation_rad;
+    return camera;
+}
+
+TrialBone with_views(Bone bone, std::vector<TissueColour> tissues, double close_radius_mm) {
+    const Camera overview = camera_on(middle_mm(bone), radius_mm(bone));
+    const Camera close_up = closer(overview, seen_point_mm(bone, overview), close_radius_mm);
+    return {std::move(bone), std::move(tissues), overview, close_up};
+}
+
+TrialBone skull(const std::filesystem::path& scans, const std::filesystem::path& folder) {
+    const ImportOptions options{.input = scans / "head_ct",
+                                .output = folder / "trial.nrrd",
+                                .spacing_mm = 0.1,
+                                .threshold_hu = 300.0,
+                                .region = parse_region("-60,10,730,-20,50,770")};
+    std::ostringstream unheard;
+    import_bone(options, {.messages = unheard, .available_memory_bytes = available_memory_bytes()});
+    Scene scene;
+    scene.bone = FileSource{.path = options.output};
+    Bone bone = load_bone(scene).bone;
+    std::filesystem::remove(options.output);
+    return with_views(std::move(bone), {}, 9.0);
+}
+
+TrialBone tooth() {
+    const Scene scene = phantom_scene("tooth");
+    std::vector<TissueColour> tissues;
+    for (const Tissue& tissue : scene.tissues) tissues.push_back({tissue.label, tissue.colour_rgb});
+    return with_views(load_bone(scene).bone, tissues, 7.0);
+}
+
+}  // namespace
+
+const TrialBone& TrialBones::operator[](const std::string& name) {
+    auto found = made_.find(name);
+    if (found == made_.end())
+        found =
+            made_.emplace(name, name == skull_trial ? skull(scans_.value_or(""), folder_) : tooth()).first;
+    return found->second;
 }
 
 }  // namespace osteomill::study
