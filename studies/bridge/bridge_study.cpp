@@ -10,10 +10,8 @@
 #include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
 #include "common/statistics/percentile.h"
-#include "studies/bridge/delay_rows.h"
 #include "studies/bridge/private_network.h"
 #include "studies/bridge/round_trips.h"
-#include "studies/stability/map/map_text.h"
 
 namespace osteomill::study {
 
@@ -68,12 +66,6 @@ void run_bridge_study(const BridgeStudyOptions& options, const StudySurroundings
                                 [seconds = options.quick ? 2.0 : options.seconds](const Way& way) {
                                     return trips_over(way, seconds);
                                 });
-    const std::vector<DelayCase> cases = delay_cases(options.quick);
-    SceneCache cache;
-    const auto delays = run.plan(
-        cases,
-        [](const DelayCase& c) { return fmt::format("{} ms there and back: {}", c.bridge_ms, text_of(c.run)); },
-        [&](const DelayCase& c) { return study::run(c, cache); });
     if (!run.perform()) return;
 
     nlohmann::ordered_json found;
@@ -94,18 +86,6 @@ void run_bridge_study(const BridgeStudyOptions& options, const StudySurroundings
     }
     if (const std::string why_not = PrivateNetwork::why_not(); !why_not.empty())
         run.say("two namespaces: left out; {}", why_not);
-    run.say("\n{:<34}{:>28}{:>28}{:>12}", "there and back, +- 25 %", "stable, all of the stiffness",
-            "what the server takes", "share");
-    for (const DelayRow& row : delay_rows(cases, delays.outcomes())) {
-        run.say("{:<34}{:>28}{:>28}{:>12.2f}", fmt::format("{} ms", row.bridge_ms),
-                fmt::format("{} of {}", row.stable_with_all, row.cases),
-                fmt::format("{} of {}", row.stable_with_share, row.cases), row.share);
-        found["delays"].push_back({{"bridge_ms", row.bridge_ms},
-                                   {"cases", row.cases},
-                                   {"stable_with_all", row.stable_with_all},
-                                   {"stable_with_share", row.stable_with_share},
-                                   {"share", row.share}});
-    }
     run.write(found, "bridge");
 }
 

@@ -24,11 +24,7 @@ struct MapCase {
     MapGrip grip = MapGrip::light;
     double milling_rate_hz = 1000.0;
     int delay_ticks = 0;  ///< haptic ticks from a reading of the device to its force, beyond the loop's own
-    /// Round trip over a bridge whose arm asks once a tick, at a phase that drifts: its force comes with the
-    /// tick after the way and its jitter of a quarter; negative: none.
-    double bridge_ms = -1.0;
-    double stiffness_share = 1.0;  ///< cutting: of what the arm renders by itself
-    bool is_ideal_device = true;   ///< no encoder steps and no Coulomb friction: they hide limit cycles
+    bool is_ideal_device = true;  ///< no encoder steps and no Coulomb friction: they hide limit cycles
 
     double spindle_rpm = 10'000.0;    ///< cutting
     double depth_mm = 1.0;            ///< cutting: of the burr's lowest point, up to its diameter

@@ -1,7 +1,5 @@
 #include "studies/stability/scene/bench_device.h"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "devices/simulated/arm_model.h"
@@ -13,10 +11,7 @@ BenchDevice::BenchDevice(const MapCase& c, const ScenePlan& plan)
       resolution_mm_(c.is_ideal_device ? 0.0 : ArmModel{}.resolution_mm),
       max_force_n_(ArmModel{}.max_force_n),
       sensor_(resolution_mm_),
-      stiffness_share_(c.stiffness_share),
       in_delay_n_(static_cast<std::size_t>(c.delay_ticks), glm::dvec3(0.0)),
-      bridge_ms_(c.bridge_ms),
-      jitter_(7),
       guided_left_(plan.timing.guided),
       motion_{guided_position_mm(plan, guided_left_), glm::dvec3(0.0)} {
     record_.reserve(plan.timing.released());
@@ -26,10 +21,6 @@ DeviceLimits BenchDevice::limits() const {
     DeviceLimits limits = limits_of(ArmModel{});
     limits.max_stiffness_n_per_mm = ArmModel{}.max_stiffness_n_per_mm;  // the map says what it is to render
     limits.position_resolution_mm = resolution_mm_;
-    limits.max_stiffness_n_per_mm *= stiffness_share_;
-    if (bridge_ms_ >= 0.0)  // with the damper that the server takes for it
-        limits.damping_n_s_per_mm =
-            stiffest_spring({.delay_s = 0.001 * (1.0 + bridge_ms_)}).damping_n_s_per_mm;
     if (plan_.scene == MapScene::wall) limits.max_stiffness_n_per_mm = plan_.wall_n_per_mm;
     return limits;
 }
@@ -65,27 +56,9 @@ DeviceState BenchDevice::read(double now_s) noexcept {
             .pedal = pedal};
 }
 
-glm::dvec3 BenchDevice::over_bridge_n(const glm::dvec3& force_n) {
-    constexpr double phases_per_tick = 0.0007;  // two clocks that are not the same
-    constexpr double jitter = 0.25;
-    const double phase = std::fmod(phases_per_tick * static_cast<double>(++written_), 1.0);
-    const double way_ticks =
-        bridge_ms_ * std::max(0.0, std::normal_distribution(1.0, jitter)(jitter_)) + phase;
-    const auto late = static_cast<std::size_t>(std::max(1.0, std::ceil(way_ticks)));
-    on_bridge_.push_back({written_, written_ + late, force_n});
-    glm::dvec3 newest_n = motor_force_n_;
-    for (const OnBridge& one : on_bridge_) {
-        if (one.comes_with > written_ || one.number < given_) continue;
-        given_ = one.number;  // an older one that comes after it does nothing
-        newest_n = one.force_n;
-    }
-    while (!on_bridge_.empty() && on_bridge_.front().comes_with <= written_) on_bridge_.pop_front();
-    return newest_n;
-}
-
 void BenchDevice::write(const glm::dvec3& force_n) noexcept {
     in_delay_n_.push_back(force_n);
-    motor_force_n_ = bridge_ms_ < 0.0 ? in_delay_n_.front() : over_bridge_n(in_delay_n_.front());
+    motor_force_n_ = in_delay_n_.front();
     in_delay_n_.pop_front();
     const double size_n = glm::length(motor_force_n_);
     if (size_n > max_force_n_) motor_force_n_ *= max_force_n_ / size_n;

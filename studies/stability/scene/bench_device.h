@@ -7,7 +7,6 @@
 
 #include <deque>
 #include <functional>
-#include <random>
 #include <vector>
 
 #include "devices/position_sensor.h"
@@ -47,24 +46,12 @@ class BenchDevice final : public HapticDevice {
 
   private:
     void move_to_next_tick();
-    glm::dvec3 over_bridge_n(const glm::dvec3& force_n);
 
     ScenePlan plan_;
     double resolution_mm_;
     double max_force_n_;
     PositionSensor sensor_;
-    double stiffness_share_;
     std::deque<glm::dvec3> in_delay_n_;
-    double bridge_ms_;
-    std::mt19937_64 jitter_;
-    std::size_t written_ = 0;
-    std::size_t given_ = 0;  // of those written, counted from 1
-    struct OnBridge {
-        std::size_t number;
-        std::size_t comes_with;  // tick
-        glm::dvec3 force_n;
-    };
-    std::deque<OnBridge> on_bridge_;
     std::function<void(const std::vector<DeviceTick>&)> observer_;
 
     bool has_begun_ = false;
