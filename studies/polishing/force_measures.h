@@ -1,7 +1,6 @@
 // Numbers that a record of force is judged by.
 #pragma once
 
-#include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
 
@@ -11,10 +10,8 @@ namespace osteomill::study {
 
 /// A stretch of a record.
 struct ForceWindow {
-    double time_s = 0.0;         ///< its middle
-    double depth_mm = 0.0;       ///< mean
-    glm::dvec3 slow_rms_n{0.0};  ///< of each component's slow part
-    double fast_rms_n = 0.0;     ///< of the force about its own slow part
+    double depth_mm = 0.0;    ///< mean
+    double fast_rms_n = 0.0;  ///< of the force about its own slow part
 };
 
 /// A hand that follows its motion changes the force within tenths of a second; the limit cycles of sampled
@@ -42,19 +39,4 @@ std::optional<double> onset_of_chatter_mm(const std::vector<ForceWindow>& window
 
 /// Mean length of the force, N; 0 for an empty record.
 double mean_force_n(const ForceRecord& record);
-
-/// Spearman's: 1 where y rises whenever x does, however bent the curve; -1 where it always falls. Equal
-/// values share their mean rank. 0 for fewer than two values or where one side does not vary.
-double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
-
-/// How far the components are from being proportional to each other: each is divided by its rms, and of the
-/// power that they then have, what lies off the one line through the origin that takes most of it. 0 where
-/// they are proportional, 2/3 where each goes its own way. A component that is 0 throughout counts for
-/// nothing.
-double share_off_line(const ForceRecord& record);
-
-/// How far the force peaks within a tooth period: the 99th percentile of |F(t)| over its mean within
-/// `around_s` about t. 1 for a steady force.
-double peak_over_mean(const ForceRecord& record, double around_s);
-
 }  // namespace osteomill::study

@@ -1,4 +1,4 @@
-// Force and depth against time, from the logs of a session.
+// Force and depth against time, from the log of a session.
 #pragma once
 
 #include <filesystem>
@@ -14,16 +14,14 @@ struct RecordedForce {
     glm::dvec3 burr_mm{0.0};  ///< patient LPS
     glm::dvec3 force_n{0.0};  ///< patient axes
     double removed_mm3 = 0.0;
-    double depth_mm = 0.0;  ///< of the burr's lowest point below the surface; the logs do not say, 0
+    double depth_mm = 0.0;  ///< of the burr's lowest point below the surface; the log does not say, 0
 };
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RecordedForce, time_s, burr_mm, force_n, removed_mm3, depth_mm)
 
 using ForceRecord = std::vector<RecordedForce>;
 
-/// Read what ForceLog and MillingLog wrote (force_log.h, milling_log.h). `removed_mm3` is since the start in
-/// the first and of the step in the second, as they have it. Throw std::runtime_error naming file and line.
+/// Reads what ForceLog wrote (force_log.h). Throws std::runtime_error naming file and line.
 ForceRecord read_force_log(const std::filesystem::path& file);
-ForceRecord read_milling_log(const std::filesystem::path& file);
 
 }  // namespace osteomill::study

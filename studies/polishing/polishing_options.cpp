@@ -12,8 +12,7 @@ StudyCommand add_polishing(CLI::App& app) {
     const auto shared = std::make_shared<PolishingStudyOptions>();
     PolishingStudyOptions& options = *shared;
     options.out = "study/polishing";
-    CLI::App* polishing =
-        app.add_subcommand("polishing", "the published polishing experiment: its figures and its claims");
+    CLI::App* polishing = app.add_subcommand("polishing", "the published polishing experiment: its figures");
     add_out(*polishing, options.out);
     polishing->add_flag("--edge-forces", options.has_edge_forces,
                         "burrs whose edges rub, as in cortical bone; without, the published law");

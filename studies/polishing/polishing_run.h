@@ -26,10 +26,4 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PolishingRun, record, slide_s, reached_end, d
 /// millisecond; the session's own log is left in `log`. Throws std::runtime_error where that cannot be
 /// written, std::invalid_argument for a set-up that the simulator refuses.
 PolishingRun run_by_hand(const Specimen& cube, const PolishingSetup& setup, const std::filesystem::path& log);
-
-/// The same way on rails: the burr goes exactly where the hand means it to go; `setup.coupling`, hand and arm
-/// do not matter. Recorded is the force of the model, a sample a milling step.
-PolishingRun run_on_rails(const Specimen& cube, const PolishingSetup& setup,
-                          const std::filesystem::path& log);
-
 }  // namespace osteomill::study

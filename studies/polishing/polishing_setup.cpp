@@ -6,13 +6,19 @@
 
 namespace osteomill::study {
 
-Scene polishing_scene(const PolishingSetup& setup, const glm::dvec3& edge_coefficients_n_per_mm) {
+namespace {
+
+constexpr double spindle_rpm = 80'000.0;
+constexpr double stroke_mm = 8.0;
+
+}  // namespace
+
+Scene polishing_scene(const glm::dvec3& edge_coefficients_n_per_mm) {
     Scene scene = phantom_scene("cube");
     Burr& burr = scene.burrs.at(scene.start_burr);
-    burr.spindle_rev_per_s = setup.spindle_rpm / 60.0;
-    burr.edges = setup.edges;
+    burr.spindle_rev_per_s = spindle_rpm / 60.0;
     burr.edge_coefficients_n_per_mm = edge_coefficients_n_per_mm;
-    scene.trajectory.width_mm = setup.stroke_mm;
+    scene.trajectory.width_mm = stroke_mm;
     return scene;
 }
 
@@ -24,6 +30,10 @@ Trajectory polishing_slide(const Scene& scene) {
     });
     way.erase(deepest + 1, way.end());
     return Trajectory(std::move(way));
+}
+
+double depth_mm(const Scene& scene, const glm::dvec3& burr_mm) {
+    return scene.trajectory.start_mm.z + scene.burrs.at(scene.start_burr).radius_mm() - burr_mm.z;
 }
 
 }  // namespace osteomill::study

@@ -8,16 +8,14 @@
 // millimetre deeper than the one before, cost less, and the shorter the less; but under the shortest ones
 // force follows the strokes rather than the depth.
 //
-// The default is five strokes of 8 mm at 80 000 rpm: seven seconds and a half, 3.5 mm, up to 0.6 N. Shapes
-// can be compared with the published figures, values cannot.
+// Here: five strokes of 8 mm at 80 000 rpm: seven seconds and a half, 3.5 mm, up to 0.6 N. Shapes can be
+// compared with the published figures, values cannot.
 #pragma once
 
 #include <string>
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
-#include "devices/simulated/arm_model.h"
-#include "devices/simulated/hand_model.h"
 #include "devices/simulated/trajectory.h"
 
 namespace osteomill::study {
@@ -32,26 +30,21 @@ struct PolishingSetup {
     std::string force_model = "milling";  ///< as of --force-model
     std::string coupling = "implicit";    ///< as of --coupling
     double milling_rate_hz = 1000.0;
-    double spindle_rpm = 80'000.0;
-    double stroke_mm = 8.0;
-    int edges = 6;
-    HandModel hand = hand_model(Grip::firm);
-    ArmModel arm{};
-    /// The slide is broken off then: a hand that waits for its tool may wait for minutes.
-    double longest_s = 45.0;
-};
 
-/// The whole slide in one stroke.
-inline constexpr double single_stroke_mm = 40.0;
+    std::string name() const { return force_model + "_" + coupling; }
+};
 
 /// Rate of the published milling loop.
 inline constexpr double published_milling_rate_hz = 100.0;
 
-/// The scene "cube" with the set-up's burr and strokes.
-Scene polishing_scene(const PolishingSetup& setup, const glm::dvec3& edge_coefficients_n_per_mm);
+/// The scene "cube" with the experiment's burr and strokes.
+Scene polishing_scene(const glm::dvec3& edge_coefficients_n_per_mm);
 
 /// The built-in polishing motion up to its deepest point: the way out of the bone is not part of the
 /// experiment.
 Trajectory polishing_slide(const Scene& scene);
+
+/// Of the burr's lowest point below the surface, the burr's centre being there.
+double depth_mm(const Scene& scene, const glm::dvec3& burr_mm);
 
 }  // namespace osteomill::study

@@ -1,4 +1,4 @@
-// The published polishing experiment: figures 6, 7 and 8, and the paper's claims.
+// The published polishing experiment: figures 6, 7 and 8.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ struct PolishingStudyOptions {
     bool has_edge_forces = false;  ///< burrs whose edges rub with 0.3 N/mm; else the published law
 };
 
-/// Writes claims.json, tables (CSV) and charts (SVG) into `options.out`, a folder that is there, and the logs
-/// of the sessions into its folder `runs`. Throws std::runtime_error in one line naming what cannot be
+/// Writes figures.csv, a table a run and charts (SVG) into `options.out`, a folder that is there, and the
+/// logs of the sessions into its folder `runs`. Throws std::runtime_error in one line naming what cannot be
 /// written.
 void run_polishing_study(const PolishingStudyOptions& options, const StudySurroundings& surroundings);
 

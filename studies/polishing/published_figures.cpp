@@ -1,6 +1,6 @@
 #include "studies/polishing/published_figures.h"
 
-#include <utility>
+#include "studies/polishing/force_measures.h"
 
 namespace osteomill::study {
 
@@ -28,15 +28,6 @@ std::vector<PolishingSetup> setups_of_figures(bool quick) {
     return setups;
 }
 
-FigureRun judged(PolishingSetup setup, PolishingRun run) {
-    FigureRun figure{.setup = std::move(setup), .run = std::move(run)};
-    figure.windows = windows_of(figure.run.record, window_s);
-    figure.mean_force_n = mean_force_n(figure.run.record);
-    figure.limit_cycle_n = limit_cycle_n(figure.windows);
-    figure.onset_mm = onset_of_chatter_mm(figure.windows);
-    return figure;
-}
-
 Table series_of(const ForceRecord& record) {
     Table table({"t_s", "depth_mm", "force_x_n", "force_y_n", "force_z_n"});
     for (std::size_t i = 0; i < record.size(); i += ticks_a_line) {
@@ -47,13 +38,29 @@ Table series_of(const ForceRecord& record) {
     return table;
 }
 
-Table table_of(const std::vector<FigureRun>& figures) {
+Table as_meant(const Scene& scene) {
+    constexpr double tick_s = 0.001;
+    const Trajectory slide = polishing_slide(scene);
+    const auto depth_at = [&](double time_s) { return depth_mm(scene, slide.at(time_s).target.position_mm); };
+    double contact_s = 0.0;
+    while (contact_s < slide.duration_s() && depth_at(contact_s) <= 0.0) contact_s += tick_s;
+    Table table({"t_s", "depth_mm"});
+    for (double t_s = 0.0; contact_s + t_s <= slide.duration_s(); t_s += ticks_a_line * tick_s)
+        table.add({t_s, depth_at(contact_s + t_s)});
+    return table;
+}
+
+Table table_of(const std::vector<PolishingSetup>& setups, const std::vector<PolishingRun>& runs) {
     Table table({"force_model", "coupling", "milling_rate_hz", "reached_end", "slide_s", "largest_depth_mm",
                  "stray_mm", "mean_force_n", "limit_cycle_n", "onset_depth_mm", "faults"});
-    for (const FigureRun& f : figures)
-        table.add({f.setup.force_model, f.setup.coupling, f.setup.milling_rate_hz, f.run.reached_end,
-                   f.run.slide_s, f.run.depth_mm, f.run.stray_mm, f.mean_force_n, f.limit_cycle_n,
-                   or_empty(f.onset_mm), f.run.faults});
+    for (std::size_t i = 0; i < setups.size(); ++i) {
+        const PolishingSetup& setup = setups[i];
+        const PolishingRun& run = runs[i];
+        const std::vector<ForceWindow> windows = windows_of(run.record, window_s);
+        table.add({setup.force_model, setup.coupling, setup.milling_rate_hz, run.reached_end, run.slide_s,
+                   run.depth_mm, run.stray_mm, mean_force_n(run.record), limit_cycle_n(windows),
+                   or_empty(onset_of_chatter_mm(windows)), run.faults});
+    }
     return table;
 }
 

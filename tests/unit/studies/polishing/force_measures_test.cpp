@@ -37,10 +37,7 @@ TEST(ForceMeasures, TellALimitCycleFromASlowForce) {
     ASSERT_EQ(windows.size(), 40u);
     // 20 Hz has whole periods in the slow part's tenth of a second: none of it is left there.
     EXPECT_NEAR(limit_cycle_n(windows), 0.3 / std::numbers::sqrt2, 0.005);
-    const ForceWindow& middle = windows[20];
-    EXPECT_NEAR(middle.slow_rms_n.x, 0.0, 0.005);
-    EXPECT_NEAR(middle.slow_rms_n.y, 2.0 + middle.time_s, 0.005);
-    EXPECT_NEAR(middle.depth_mm, 0.5 * middle.time_s, 1e-9);
+    EXPECT_NEAR(windows[20].depth_mm, half_a_millimetre_a_second(2.0495), 1e-9) << "its middle";
 }
 
 TEST(ForceMeasures, SayWhereChatterBegins) {
@@ -69,41 +66,10 @@ TEST(ForceMeasures, LeaveOutATenthOfTheWindowsWhereForceRightlyChangesFast) {
     EXPECT_EQ(limit_cycle_n({}), 0.0);
 }
 
-TEST(ForceMeasures, CorrelateRanks) {
-    const std::vector<double> depth{1.0, 2.0, 3.0, 4.0, 5.0};
-    EXPECT_DOUBLE_EQ(rank_correlation(depth, {1.0, 10.0, 11.0, 500.0, 501.0}), 1.0);
-    EXPECT_DOUBLE_EQ(rank_correlation(depth, {5.0, 4.0, 3.0, 2.0, -9.0}), -1.0);
-    // 1 - 6 sum d^2 / (n (n^2 - 1)) with d = 1, 1, 0, 1, 1
-    EXPECT_NEAR(rank_correlation(depth, {2.0, 1.0, 3.0, 5.0, 4.0}), 1.0 - 6.0 * 4.0 / 120.0, 1e-12);
-    // Ties: ranks 0.5 0.5 2 3.5 3.5 against 0 to 4.
-    EXPECT_NEAR(rank_correlation(depth, {1.0, 1.0, 2.0, 3.0, 3.0}), 9.0 / std::sqrt(10.0 * 9.0), 1e-12);
-    EXPECT_EQ(rank_correlation(depth, {2.0, 2.0, 2.0, 2.0, 2.0}), 0.0);
-}
-
-TEST(ForceMeasures, KnowProportionalComponents) {
-    const auto off_line = [](auto&& force) {
-        return share_off_line(record_of(1.0, force, half_a_millimetre_a_second));
-    };
-    EXPECT_NEAR(off_line([](double t_s) { return sine(1.0, t_s) * glm::dvec3(1.0, -2.0, 0.01); }), 0.0,
-                1e-12);
-    EXPECT_NEAR(off_line([](double t_s) {
-                    return glm::dvec3(sine(1.0, t_s), 5.0 * sine(2.0, t_s), 0.01 * sine(3.0, t_s));
-                }),
-                2.0 / 3.0, 1e-3);
-    // Two components at right angles in phase, none in the third: half of their power lies off any line.
-    EXPECT_NEAR(off_line([](double t_s) { return glm::dvec3(sine(1.0, t_s), sine(1.0, t_s + 0.25), 0.0); }),
-                0.5, 1e-3);
-}
-
-TEST(ForceMeasures, FindThePeakWithinAToothPeriod) {
-    const auto steady = record_of(
-        1.0, [](double) { return glm::dvec3(0.0, 3.0, 4.0); }, [](double) { return 1.0; });
-    EXPECT_NEAR(peak_over_mean(steady, 0.05), 1.0, 1e-12);
-    EXPECT_NEAR(mean_force_n(steady), 5.0, 1e-12);
-    const auto rippled = record_of(
-        1.0, [](double t_s) { return glm::dvec3(2.0 + sine(20.0, t_s), 0.0, 0.0); },
-        [](double) { return 1.0; });
-    EXPECT_NEAR(peak_over_mean(rippled, 0.05), 1.5, 0.03);
+TEST(ForceMeasures, AverageTheForcesLength) {
+    const ForceRecord record{{.force_n = {0.0, 3.0, 4.0}}, {.force_n = {1.0, 0.0, 0.0}}};
+    EXPECT_DOUBLE_EQ(mean_force_n(record), 3.0);
+    EXPECT_EQ(mean_force_n({}), 0.0);
 }
 
 }  // namespace

@@ -23,20 +23,13 @@ TEST(ForceRecord, ReadsTheColumnsThatAStudyNeeds) {
     EXPECT_EQ(felt[0].burr_mm, glm::dvec3(4.0, 5.0, 6.0)) << "not the hand";
     EXPECT_EQ(felt[0].force_n, glm::dvec3(0.7, -0.8, 0.9));
     EXPECT_EQ(felt[0].removed_mm3, 11.25);
-
-    std::ofstream(folder / "milling.csv") << "header\n0.0001,1,2,3,0.4,0.5,-0.6,0.07,1\n";
-    const ForceRecord milled = read_milling_log(folder / "milling.csv");
-    ASSERT_EQ(milled.size(), 1u);
-    EXPECT_EQ(milled[0].burr_mm, glm::dvec3(1.0, 2.0, 3.0));
-    EXPECT_EQ(milled[0].force_n, glm::dvec3(0.4, 0.5, -0.6));
-    EXPECT_EQ(milled[0].removed_mm3, 0.07);
 }
 
 TEST(ForceRecord, SaysWhichLineIsWrong) {
     const testing::TemporaryFolder folder;
-    std::ofstream(folder / "short.csv") << "header\n1,2,3,4,5,6,7,8,9\n1,2,3,4,5,6,7,8\n";
-    EXPECT_THAT([&] { read_milling_log(folder / "short.csv"); },
-                ThrowsMessage<std::runtime_error>(HasSubstr("short.csv, line 3: 9 numbers were expected")));
+    std::ofstream(folder / "short.csv") << "header\n1,2,3,4,5,6,7,8,9,10,11,12,13,14\n1,2,3,4,5,6,7,8\n";
+    EXPECT_THAT([&] { read_force_log(folder / "short.csv"); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("short.csv, line 3: 14 numbers were expected")));
     EXPECT_THAT([&] { read_force_log(folder / "none.csv"); },
                 ThrowsMessage<std::runtime_error>(HasSubstr("none.csv: cannot be read")));
 }
