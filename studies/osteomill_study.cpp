@@ -1,5 +1,6 @@
 // osteomill_study: what the simulator's choices cost and what they are worth. Parses, runs a study, says
 // where its files are.
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -33,7 +34,13 @@ int main(int argc, char** argv) {
     const std::vector<StudyCommand> studies{
         add_force(app),    add_stability(app), add_polishing(app),   add_render(app),
         add_realtime(app), add_bridge(app),    add_calibration(app), add_sessions(app, OSTEOMILL_VERSION)};
-    const auto repeats_alike = add_repeat(app);
+    std::vector<std::string> names;
+    std::vector<std::string> repeated;
+    for (const StudyCommand& study : studies) {
+        names.push_back(study.subcommand->get_name());
+        if (!study.writes_elsewhere) repeated.push_back(names.back());
+    }
+    const auto repeats_alike = add_repeat(app, repeated);
     StudyParts parts;
     for (const StudyCommand& study : studies) add_parts(*study.subcommand, parts, study.jobs);
     try {
@@ -42,9 +49,7 @@ int main(int argc, char** argv) {
         for (const std::string& word : words) arguments.push_back(word.c_str());
         parse_arguments(app, static_cast<int>(arguments.size()), arguments.data());
         if (app.get_subcommands().empty())
-            throw CLI::RequiredError(
-                "a study to run: force, stability, polishing, render, realtime, bridge, calibrate, "
-                "sessions or repeat");
+            throw CLI::RequiredError(fmt::format("a study to run: {} or repeat", fmt::join(names, ", ")));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << printable(error.what()) << " (see --help)\n";

@@ -18,7 +18,8 @@ struct StudyCommand {
     std::function<void(const StudySurroundings&)> run;
     /// Cases that run at a time unless --jobs says otherwise; one where times are measured.
     int jobs = 1;
-    bool runs_one_by_one = false;  ///< whatever --jobs says: it draws, or measures this machine
+    bool runs_one_by_one = false;   ///< whatever --jobs says: it draws, or measures this machine
+    bool writes_elsewhere = false;  ///< than into the folder of --out: `repeat` does not run it
 };
 
 /// For cases that measure no times: as many as there are processors.

@@ -35,9 +35,11 @@ StudyCommand add_sessions(CLI::App& app, const std::string& version) {
                                        : std::string();
         });
     add_out(*sessions, options.out);
-    return {sessions,
-            [shared](const StudySurroundings& surroundings) { run_sessions_study(*shared, surroundings); },
-            jobs_of_processors()};
+    return {
+        .subcommand = sessions,
+        .run = [shared](const StudySurroundings& surroundings) { run_sessions_study(*shared, surroundings); },
+        .jobs = jobs_of_processors(),
+        .writes_elsewhere = true};
 }
 
 }  // namespace osteomill::study

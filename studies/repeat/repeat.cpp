@@ -5,14 +5,13 @@
 #include <stdlib.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "analysis/output/repeated/manifest.h"
@@ -61,9 +60,8 @@ void run_into(const fs::path& folder, const std::vector<std::string>& study) {
 }
 
 /// A folder may be from elsewhere: what it names must be a study, which writes into its folder alone.
-void require_study(const std::vector<std::string>& command, const fs::path& kept) {
-    constexpr std::array<std::string_view, 7> studies{"bridge",   "calibrate", "force",    "polishing",
-                                                      "realtime", "render",    "stability"};
+void require_one_of(const std::vector<std::string>& studies, const std::vector<std::string>& command,
+                    const fs::path& kept) {
     const bool is_study = !command.empty() && std::ranges::find(studies, command.front()) != studies.end();
     const bool writes = std::ranges::any_of(command, [](const std::string& word) {
         return word.starts_with("--out") || word.starts_with("--merge") || word.starts_with("--database");
@@ -74,9 +72,9 @@ void require_study(const std::vector<std::string>& command, const fs::path& kept
                                              one_line(fmt::format("{}", fmt::join(command, " ")))));
 }
 
-bool repeat(const fs::path& kept, std::ostream& said) {
+bool repeat(const fs::path& kept, const std::vector<std::string>& studies, std::ostream& said) {
     const Manifest manifest = read_manifest(kept);
-    require_study(manifest.command, kept);
+    require_one_of(studies, manifest.command, kept);
     fmt::print(said, "{}: {}\nmade by version {} of commit {}, repeated by commit {}\n",
                printable(kept.string()), printable(fmt::format("{}", fmt::join(manifest.command, " "))),
                printable(manifest.version), printable(manifest.commit), built_from_commit());
@@ -100,12 +98,14 @@ bool repeat(const fs::path& kept, std::ostream& said) {
 
 }  // namespace
 
-std::function<bool(std::ostream&)> add_repeat(CLI::App& app) {
+std::function<bool(std::ostream&)> add_repeat(CLI::App& app, std::vector<std::string> studies) {
     const auto kept = std::make_shared<fs::path>();
     CLI::App* const subcommand = app.add_subcommand(
         "repeat", "run a study again, twice, and say what differs from its folder by more than its noise");
     subcommand->add_option("dir", *kept, "the folder that the study wrote")->required();
-    return [subcommand, kept](std::ostream& said) { return !subcommand->parsed() || repeat(*kept, said); };
+    return [subcommand, kept, studies = std::move(studies)](std::ostream& said) {
+        return !subcommand->parsed() || repeat(*kept, studies, said);
+    };
 }
 
 }  // namespace osteomill::study

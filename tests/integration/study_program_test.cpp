@@ -125,7 +125,8 @@ TEST_F(StudyProgram, PolishesQuickly) {
     const auto numbers_of = [&](const std::string& run) {
         std::istringstream lines(text_of(out_ + "/figures.csv"));
         std::string line;
-        while (std::getline(lines, line) && !line.starts_with(run)) {}
+        while (std::getline(lines, line) && !line.starts_with(run)) {
+        }
         std::istringstream cells(line.substr(std::min(run.size(), line.size())));
         std::vector<double> numbers;
         for (std::string cell; std::getline(cells, cell, ',');)
@@ -268,9 +269,13 @@ TEST_F(StudyProgram, IsRepeatedFromTheManifestOfItsFolder) {
     EXPECT_THAT(of_another.out, HasSubstr("rails.json: /implicit/cases: cells that differ: 1, by up to 1; "));
     expect_refused("repeat " + (folder_ / "nowhere").string(), 1, "manifest.json: cannot be read");
     auto hostile = nlohmann::json::parse(text_of(out_ + "/manifest.json"));
-    hostile.at("command") = {"sessions", "/", "--database", "postgresql://elsewhere/\x1b[2J"};
-    std::ofstream(out_ + "/manifest.json") << hostile;
-    expect_refused("repeat " + out_, 1, "names no study that can be repeated");
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"sessions", "/"},
+          {"stability", "--database", "postgresql://elsewhere/\x1b[2J"}}) {
+        hostile.at("command") = command;
+        std::ofstream(out_ + "/manifest.json") << hostile;
+        expect_refused("repeat " + out_, 1, "names no study that can be repeated");
+    }
 }
 
 TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
