@@ -9,16 +9,15 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <ctime>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/bone/brick_change.h"
 #include "imaging/phantoms/phantom.h"
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/passes/raycast_renderer.h"
+#include "studies/render/made_bone.h"
 
 namespace osteomill {
 namespace {
@@ -54,29 +53,6 @@ double cpu_now_s() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Lowers each voxel to what lies outside the ball; returns the bricks that it touched.
-std::vector<BrickChange> cut_ball(Bone& bone, const glm::dvec3& centre_mm, double radius_mm) {
-    std::vector<BrickChange> changes;
-    const BoneContent& content = bone.content();
-    for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {
-        const glm::ivec3 first =
-            brick_position(content.size_bricks, content.brick_of_slot[slot]) * brick_edge_voxels;
-        BrickChange change{.brick = content.brick_of_slot[slot]};
-        const auto fractions = bone.fractions(static_cast<std::int32_t>(slot));
-        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
-            const glm::dvec3 place_mm = centre_of_voxel_mm(bone.grid(), first + voxel_in_brick(offset));
-            const double outside_voxels =
-                (glm::distance(place_mm, centre_mm) - radius_mm) / bone.grid().spacing_mm;
-            const auto left = static_cast<std::uint8_t>(255.0 * std::clamp(0.5 + outside_voxels, 0.0, 1.0));
-            if (left >= fractions[offset]) continue;
-            fractions[offset] = left;
-            change.voxels.set(offset);
-        }
-        if (change.voxels.any()) changes.push_back(change);
-    }
-    return changes;
-}
-
 /// The middle of the whole bone's box.
 glm::dvec3 middle_mm(const Grid& grid, const VoxelBox& box) {
     return 0.5 * (centre_of_voxel_mm(grid, box.first) + centre_of_voxel_mm(grid, box.first + box.size - 1));
@@ -101,8 +77,8 @@ void update_after_carve(benchmark::State& state, BoneLayout layout, Shading shad
     const Bone& whole = tooth();
     Bone carved = whole;
     BoneTextures textures = textures_of(whole, layout, shading);
-    const auto changes = cut_ball(carved, middle_mm(textures.grid(), textures.box()),
-                                  0.05 * static_cast<double>(state.range(0)));
+    const auto changes = carve_sphere(carved, middle_mm(textures.grid(), textures.box()),
+                                      0.05 * static_cast<double>(state.range(0)));
     time_update(state, textures, whole, carved, changes);
 }
 
@@ -112,9 +88,9 @@ void update_in_a_sweep(benchmark::State& state, BoneLayout layout, Shading shadi
     Bone before = tooth();
     const VoxelBox box = stored_box(before.content());
     const glm::dvec3 middle = middle_mm(before.grid(), box);
-    cut_ball(before, middle, radius_mm);
+    carve_sphere(before, middle, radius_mm);
     Bone after = before;
-    const auto changes = cut_ball(after, middle + glm::dvec3(0.2 * radius_mm, 0.0, 0.0), radius_mm);
+    const auto changes = carve_sphere(after, middle + glm::dvec3(0.2 * radius_mm, 0.0, 0.0), radius_mm);
     BoneTextures textures = textures_of(before, layout, shading);
     time_update(state, textures, before, after, changes);
 }
