@@ -4,46 +4,26 @@
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <memory>
 
-#include "common/statistics/percentile.h"
+#include "common/bone/brick_change.h"
 #include "simulation/cutting_force/reference_force.h"
 #include "simulation/force_models/force_models.h"
 #include "studies/force/bone_block.h"
-#include "studies/force/path_run.h"
 
 namespace osteomill::study {
 
 namespace {
 
 constexpr double block_voxel_mm = 0.1;
-constexpr double curve_travel_mm = 1.0;
 constexpr std::array feeds_mm_per_s{2.0, 6.0};
 
 Burr five_millimetres() {
     return {.diameter_mm = 5.0, .sense = SpindleSense::counter_clockwise};
 }
 
-/// Any model of force_models.h.
-class NamedModel final : public StudiedModel {
-  public:
-    NamedModel(const std::string& name, Bone bone, const Burr& burr)
-        : model_(make_force_model(name, std::move(bone), {burr}, {})) {}
-
-    StepOutcome step(const BurrCommand& command) override {
-        model_->step(command, 0.0, changes_, *result_);
-        return {result_->force_n, result_->removed_mm3};
-    }
-    const Bone& bone() const override { return model_->bone(); }
-
-  private:
-    std::unique_ptr<ForceModel> model_;
-    ForgottenChanges changes_;
-    std::unique_ptr<MillingResult> result_ = std::make_unique<MillingResult>();
-};
-
 Bone flat_block() {
-    const double reach_mm = 3.0 + curve_travel_mm;
-    return voxelised({.low_mm = {-reach_mm, -3.0, -5.5}, .high_mm = {reach_mm, 3.0, 0.0}}, block_voxel_mm);
+    return voxelised({.low_mm = {-4.0, -3.0, -5.5}, .high_mm = {4.0, 3.0, 0.0}}, block_voxel_mm);
 }
 
 glm::dvec3 place_at(double depth_mm, double x_mm) {
@@ -51,19 +31,12 @@ glm::dvec3 place_at(double depth_mm, double x_mm) {
 }
 
 double resting_force_n(const std::string& name, const Bone& bone, double depth_mm) {
-    NamedModel model(name, bone, five_millimetres());
-    const BurrCommand rest{.pose = {place_at(depth_mm, 0.031), {0.0, 0.0, 1.0}}, .elapsed_s = 0.001};
-    return glm::length(model.step(rest).force_n);
-}
-
-double sliding_step_us(const std::string& name, const Bone& bone, bool quick) {
-    NamedModel model(name, bone, five_millimetres());
-    const double step_s = 0.001;
-    const double step_mm = 6.0 * step_s;
-    const int steps = quick ? 20 : static_cast<int>(curve_travel_mm / step_mm);
-    std::vector<glm::dvec3> positions;
-    for (int i = 0; i <= steps; ++i) positions.push_back(place_at(1.0, -0.5 * curve_travel_mm + i * step_mm));
-    return percentile(run_path(model, {0.0, 0.0, 1.0}, step_s, positions).step_us, 0.5);
+    const auto model = make_force_model(name, bone, {five_millimetres()}, {});
+    ForgottenChanges changes;
+    const auto result = std::make_unique<MillingResult>();
+    model->step({.pose = {place_at(depth_mm, 0.031), {0.0, 0.0, 1.0}}, .elapsed_s = 0.001}, 0.0, changes,
+                *result);
+    return glm::length(result->force_n);
 }
 
 double milling_force_n(double depth_mm, double feed_mm_per_s) {
@@ -96,10 +69,6 @@ ContactRow measure_contact(double depth_mm) {
         row.force_n.push_back(resting_force_n(name, bone, depth_mm));
     for (const double feed : feeds_mm_per_s) row.milling_force_n.push_back(milling_force_n(depth_mm, feed));
     return row;
-}
-
-double contact_step_us(const std::string& model, bool quick) {
-    return sliding_step_us(model, flat_block(), quick);
 }
 
 Table table_of(const std::vector<ContactRow>& rows) {

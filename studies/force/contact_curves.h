@@ -24,9 +24,6 @@ std::vector<double> contact_depths_mm(bool quick);
 /// A 5 mm burr, upright, spindle off, over 0.1 mm voxels; the milling force at 10 000 rpm.
 ContactRow measure_contact(double depth_mm);
 
-/// Median of a step of a burr that slides 1 mm deep with the spindle on, 1 kHz.
-double contact_step_us(const std::string& model, bool quick);
-
 /// depth_mm, a column a model, a column a feed ("milling 6 mm/s").
 Table table_of(const std::vector<ContactRow>& rows);
 

@@ -86,13 +86,9 @@ void run_force_study(const ForceStudyOptions& options, const StudySurroundings& 
     const auto by_depth = plan_curve(depth_curve());
     const auto by_feed = plan_curve(feed_curve());
     const auto by_rpm = plan_curve(rpm_curve());
-    const std::vector<std::string> models = contact_models();
     const auto contact = run.plan(
         contact_depths_mm(options.quick), [](double mm) { return fmt::format("contact at {} mm", mm); },
         measure_contact);
-    const auto steps_us = run.plan(
-        models, [](const std::string& model) { return "a step of " + model; },
-        [&](const std::string& model) { return contact_step_us(model, options.quick); });
     if (!run.perform()) return;
 
     ordered_json found;
@@ -101,9 +97,6 @@ void run_force_study(const ForceStudyOptions& options, const StudySurroundings& 
     run.write(table_of(by_feed.outcomes(), "feed_mm_per_s"), "curve_feed");
     run.write(table_of(by_rpm.outcomes(), "thousand_rpm"), "curve_rpm");
     run.write(table_of(contact.outcomes()), "contact");
-    auto model = models.begin();
-    for (const double step_us : steps_us.outcomes())
-        found["contact"].push_back({{"model", *model++}, {"step_us_p50", step_us}});
     run.write(found, "force");
     run.draw({"curves", "contact"});
     run.say("force.json, tables (CSV) and charts (SVG) are in {}", options.out.string());

@@ -3,60 +3,27 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <glm/common.hpp>
-#include <vector>
 
 #include "common/statistics/percentile.h"
+#include "studies/render/full_rate/finished_frames.h"
 
 namespace osteomill::study {
-
-namespace {
-
-double cpu_now_ms() {
-    std::timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double wall_now_ms() {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-
-}  // namespace
-
-Cost median_cost(const std::function<void()>& work, int times) {
-    return median_cost([] {}, work, times);
-}
-
-Cost median_cost(const std::function<void()>& prepare, const std::function<void()>& work, int times) {
-    std::vector<double> wall_ms, cpu_ms;
-    for (int time = 0; time <= times; ++time) {
-        prepare();
-        glFinish();
-        const double wall_before = wall_now_ms(), cpu_before = cpu_now_ms();
-        work();
-        glFinish();
-        if (time == 0 && times > 0) continue;
-        wall_ms.push_back(wall_now_ms() - wall_before);
-        cpu_ms.push_back(cpu_now_ms() - cpu_before);
-    }
-    return {percentile(wall_ms, 0.5), percentile(cpu_ms, 0.5)};
-}
 
 TimedPicture timed_drawing(BoneRenderer& renderer, const BoneTextures& bone, const Camera& camera,
                            const glm::ivec2& size_px, int times) {
     const gl::Framebuffer framebuffer(size_px);
-    const Cost cost = median_cost(
-        [&] {
-            framebuffer.bind();
-            renderer.draw(bone, camera, size_px);
-        },
-        times);
-    return {framebuffer.read_back(), cost};
+    const auto draw = [&] {
+        framebuffer.bind();
+        renderer.draw(bone, camera, size_px);
+        glFinish();
+    };
+    if (times > 0) draw();
+    FrameStopwatch stopwatch;
+    for (int time = 0; time < std::max(times, 1); ++time) stopwatch.time(draw);
+    const FrameMilliseconds& frames = stopwatch.frames();
+    return {framebuffer.read_back(), {percentile(frames.wall, 0.5), percentile(frames.cpu, 0.5)}};
 }
 
 Picture scaled(const Picture& picture, const glm::ivec2& size_px) {

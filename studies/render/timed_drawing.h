@@ -1,7 +1,6 @@
 // Pictures and what they cost.
 #pragma once
 
-#include <functional>
 #include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
 
@@ -17,19 +16,14 @@ struct Cost {
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cost, wall_ms, cpu_ms)
 
-/// Does it once unmeasured, then `times` times; the median of each (the smallest would hide what a driver
-/// does now and then, the mean what else runs on the machine). With `times` 0 the first time is what
-/// counts: for what takes seconds. Needs a current context.
-Cost median_cost(const std::function<void()>& work, int times);
-/// Likewise, of work that has to be prepared each time; preparing is not measured.
-Cost median_cost(const std::function<void()>& prepare, const std::function<void()>& work, int times);
-
 struct TimedPicture {
     Picture picture;
     Cost cost;
 };
 
-/// Draws the whole bone layer at `size_px`.
+/// Draws the whole bone layer at `size_px` once unmeasured, then `times` times; the median of each (the
+/// smallest would hide what a driver does now and then, the mean what else runs on the machine). With `times`
+/// 0 the first time is what counts: for what takes seconds. Needs a current context.
 TimedPicture timed_drawing(BoneRenderer& renderer, const BoneTextures& bone, const Camera& camera,
                            const glm::ivec2& size_px, int times);
 
