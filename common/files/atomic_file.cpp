@@ -81,16 +81,21 @@ fs::path folder_of(const fs::path& path) {
 
 }  // namespace
 
+fs::path end_of_links(fs::path path) {
+    constexpr int most_links = 40;  // as the system follows
+    std::error_code failed;
+    for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(path, failed)); ++i)
+        path = path.parent_path() / fs::read_symlink(path, failed);
+    return path;
+}
+
 WriteTarget write_target(const fs::path& path, Link link) {
     WriteTarget target{.path = path};
     if (link == Link::replace) return target;
     std::error_code ignored;  // what cannot be looked at cannot be written either, and that is reported
-    if (fs::is_symlink(path, ignored)) {
-        const fs::path resolved = fs::weakly_canonical(path, ignored);
-        if (!ignored) target.path = resolved;
-    }
-    const fs::file_status status = fs::status(target.path, ignored);
+    const fs::file_status status = fs::status(path, ignored);
     target.is_direct = fs::exists(status) && !fs::is_regular_file(status);
+    if (!target.is_direct) target.path = end_of_links(path);
     return target;
 }
 

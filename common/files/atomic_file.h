@@ -21,6 +21,9 @@ enum class Link {
              ///< replaced
 };
 
+/// What a link at this path leads to in the end, also where nothing is there yet.
+std::filesystem::path end_of_links(std::filesystem::path path);
+
 /// Where a file's content is to lie at last.
 struct WriteTarget {
     std::filesystem::path path;  ///< links resolved, where they are followed

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "common/files/atomic_file.h"
 #include "common/files/session_file.h"
 
 namespace osteomill {
@@ -11,13 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_links = 40;  // as the system follows
-
-/// Links followed, also one that leads to nothing yet.
-fs::path resolved(fs::path path) {
+/// Links followed.
+fs::path resolved(const fs::path& named) {
+    const fs::path path = end_of_links(named);
     std::error_code failed;
-    for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(path, failed)); ++i)
-        path = path.parent_path() / fs::read_symlink(path, failed);
     fs::path whole = fs::weakly_canonical(fs::absolute(path, failed), failed);
     return failed ? path.lexically_normal() : whole;
 }

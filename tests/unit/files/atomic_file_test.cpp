@@ -98,6 +98,19 @@ TEST(AtomicFile, ReplacesWhatALinkPointsTo) {
     EXPECT_EQ(content(real), "new");
 }
 
+TEST(AtomicFile, IsWhereALinkPointsThatLeadsToNothingYet) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "disk");
+    fs::create_symlink("disk/second.json", folder / "first.json");
+    fs::create_symlink("real.json", folder / "disk/second.json");
+    write_atomic_file(folder / "first.json", "new");
+    EXPECT_TRUE(fs::is_symlink(folder / "first.json") && fs::is_symlink(folder / "disk/second.json"));
+    EXPECT_EQ(content(folder / "disk/real.json"), "new");
+    fs::create_symlink("nowhere/real.json", folder / "lost.json");
+    EXPECT_THROW(write_atomic_file(folder / "lost.json", "new"), std::runtime_error);
+    EXPECT_TRUE(fs::is_symlink(folder / "lost.json"));
+}
+
 TEST(AtomicFile, IsWrittenThroughNoLinkInAFolderFromElsewhere) {
     const TemporaryFolder folder;
     const fs::path precious = folder / "precious.txt";

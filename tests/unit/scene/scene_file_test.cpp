@@ -167,7 +167,8 @@ TEST(SceneFile, TwoTissuesHaveTwoNamesAndNoneThatOfASum) {
     };
     EXPECT_THAT(error_of(with_tissues("dentin", "dentin")), HasSubstr("two tissues are called \"dentin\""));
     EXPECT_THAT(error_of(with_tissues("dentin", "total")), HasSubstr("as reports call a sum"));
-    EXPECT_THAT(error_of("\xff\xfen\0a"), HasSubstr("is text in UTF-16; save it as UTF-8"));
+    for (const char* text : {"\xff\xfen\0a", "\xfe\xff\0na"})
+        EXPECT_THAT(error_of(text), HasSubstr("is text in UTF-16; save it as UTF-8"));
     EXPECT_LT(error_of("name = \"x\"\n" + std::string(100'000, 'k') + " = 1\n").size(), 1000U);
 }
 
