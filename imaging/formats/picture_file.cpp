@@ -81,14 +81,12 @@ bool decode_png(png_structp png, png_infop info, std::FILE* file, PngRows& out, 
     return true;
 }
 
-using TiffFile = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
-
-TiffFile open_tiff(const std::filesystem::path& path) {
+TIFF* open_tiff(const std::filesystem::path& path) {
     { const InputFile is_one(path); }
     TIFFSetErrorHandler(nullptr);
     TIFFSetWarningHandler(nullptr);
-    TiffFile file(TIFFOpen(path.c_str(), "rm"), &TIFFClose);
-    if (!file)
+    TIFF* file = TIFFOpen(path.c_str(), "rm");
+    if (file == nullptr)
         throw ImagingError(path, "cannot be read as TIFF: it does not exist, or its header is damaged");
     return file;
 }
@@ -183,31 +181,35 @@ SlicePicture read_png_slice(const std::filesystem::path& path) {
     return picture;
 }
 
-int tiff_pages(const std::filesystem::path& path) {
-    const TiffFile file = open_tiff(path);
-    const std::string description = description_of(file.get());
-    const int pages = TIFFNumberOfDirectories(file.get());
+TiffPages::TiffPages(const std::filesystem::path& path)
+    : path_(path), file_(open_tiff(path), &TIFFClose), description_(description_of(file_.get())) {}
+
+int TiffPages::count() const {
+    const int pages = TIFFNumberOfDirectories(file_.get());
     for (const auto& [key, name] : {std::pair{"channels=", "channels"}, std::pair{"frames=", "times"},
                                     std::pair{"SizeC=\"", "channels"}, std::pair{"SizeT=\"", "times"}})
-        if (const double count = stated(description, key); count > 1.0 && count < pages)
-            throw ImagingError(path, fmt::format("its {} pages are of {} {}; save one of them as a stack",
-                                                 pages, count, name));
-    if (const double images = stated(description, "images="); images > 1.0 && pages == 1)
-        throw ImagingError(path, fmt::format("says that it holds {} slices and has one page, as ImageJ saves "
-                                             "large stacks; save it as a sequence of pictures",
-                                             images));
+        if (const double count = stated(description_, key); count > 1.0 && count < pages)
+            throw ImagingError(path_, fmt::format("its {} pages are of {} {}; save one of them as a stack",
+                                                  pages, count, name));
+    if (const double images = stated(description_, "images="); images > 1.0 && pages == 1)
+        throw ImagingError(path_,
+                           fmt::format("says that it holds {} slices and has one page, as ImageJ saves "
+                                       "large stacks; save it as a sequence of pictures",
+                                       images));
     return pages;
 }
 
-SlicePicture read_tiff_slice(const std::filesystem::path& path, int page, ImagePurpose purpose) {
-    const TiffFile file = open_tiff(path);
-    TIFF* tiff = file.get();
+SlicePicture TiffPages::read(int page, ImagePurpose purpose) {
+    TIFF* tiff = file_.get();
+    const std::filesystem::path& path = path_;
     const auto damaged = [&] {
         return ImagingError(path,
                             fmt::format("page {}: cannot be read as TIFF: cut off or damaged", page + 1));
     };
-    const std::string description = description_of(tiff);
-    if (TIFFSetDirectory(tiff, static_cast<tdir_t>(page)) == 0) throw damaged();
+    const auto wanted = static_cast<tdir_t>(page);
+    if (wanted == TIFFCurrentDirectory(tiff) + 1 ? TIFFReadDirectory(tiff) == 0
+                                                 : TIFFSetDirectory(tiff, wanted) == 0)
+        throw damaged();
     std::uint32_t width = 0, height = 0;
     std::uint16_t bits = 1, samples = 1, photometric = PHOTOMETRIC_MINISBLACK, format = SAMPLEFORMAT_UINT;
     TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width);
@@ -268,7 +270,7 @@ SlicePicture read_tiff_slice(const std::filesystem::path& path, int page, ImageP
                       : add_samples<std::uint32_t>(line, width, false, picture.values);
     }
     turn(picture, orientation);
-    if (purpose == ImagePurpose::scan) calibrate(path, description, picture);
+    if (purpose == ImagePurpose::scan) calibrate(path, description_, picture);
     return picture;
 }
 

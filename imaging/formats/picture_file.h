@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "imaging/formats/opened_image.h"
+
+struct tiff;  // of libtiff
 
 namespace osteomill {
 
@@ -20,11 +23,22 @@ struct SlicePicture {
 /// PNG of any form: grey stays grey, 8 or 16 bits, palettes are colours. Throws ImagingError.
 SlicePicture read_png_slice(const std::filesystem::path& path);
 
-/// A page of a TIFF: grey of 8, 16 or 32 bits or floats; colours of 8 bits. Of a scan white may be 0, and the
-/// straight line is applied by which ImageJ calibrates levels; labels are as they are stored. Throws
-/// ImagingError.
-SlicePicture read_tiff_slice(const std::filesystem::path& path, int page, ImagePurpose purpose);
-/// Throws ImagingError, too, where ImageJ or OME say that not each of them is a slice.
-int tiff_pages(const std::filesystem::path& path);
+/// A TIFF whose pages are slices. It stays open: a page is found from the one before, else from the first.
+class TiffPages {
+  public:
+    /// Throws ImagingError.
+    explicit TiffPages(const std::filesystem::path& path);
+
+    /// Throws ImagingError where ImageJ or OME say that not each of them is a slice.
+    int count() const;
+    /// Grey of 8, 16 or 32 bits or floats; colours of 8 bits. Of a scan white may be 0, and the straight line
+    /// is applied by which ImageJ calibrates levels; labels are as they are stored. Throws ImagingError.
+    SlicePicture read(int page, ImagePurpose purpose);
+
+  private:
+    std::filesystem::path path_;
+    std::unique_ptr<::tiff, void (*)(::tiff*)> file_;
+    std::string description_;  // of the first page
+};
 
 }  // namespace osteomill

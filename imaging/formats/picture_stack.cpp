@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -52,15 +53,29 @@ std::vector<Page> pages_of(const std::vector<std::filesystem::path>& files) {
             pages.push_back({file});
             continue;
         }
-        const int count = tiff_pages(file);
+        const int count = TiffPages(file).count();
         for (int page = 0; page < count; ++page) pages.push_back({file, page});
     }
     return pages;
 }
 
-SlicePicture read(const Page& page, ImagePurpose purpose) {
-    return page.number < 0 ? read_png_slice(page.file) : read_tiff_slice(page.file, page.number, purpose);
-}
+/// Reads one page after the other; a TIFF of several is opened once.
+class PageReader {
+  public:
+    explicit PageReader(ImagePurpose purpose) : purpose_(purpose) {}
+
+    SlicePicture read(const Page& page) {
+        if (page.number < 0) return read_png_slice(page.file);
+        if (!tiff_ || page.file != open_) tiff_.emplace(page.file);
+        open_ = page.file;
+        return tiff_->read(page.number, purpose_);
+    }
+
+  private:
+    ImagePurpose purpose_;
+    std::filesystem::path open_;
+    std::optional<TiffPages> tiff_;
+};
 
 }  // namespace
 
@@ -93,7 +108,7 @@ OpenedImage open_picture_stack(const std::filesystem::path& path, const std::opt
         throw ImagingError(path,
                            "is a stack of pictures, which do not say how far their pixels are apart; give "
                            "--stack-spacing x,y,z in mm");
-    const SlicePicture first = read(pages.front(), purpose);
+    const SlicePicture first = PageReader(purpose).read(pages.front());
     OpenedImage stack{.is_coloured = first.is_coloured};
     SourceImage& image = stack.image;
     image.size_voxels = {first.width, first.height, static_cast<int>(pages.size())};
@@ -112,9 +127,10 @@ OpenedImage open_picture_stack(const std::filesystem::path& path, const std::opt
     stack.reading_bytes = 2 * sizeof(float) * first.values.size();
     stack.read_slices = [pages = std::move(pages), size = image.size_voxels, is_coloured = first.is_coloured,
                          purpose](const TakeSlice& take, const ReportProgress& report) {
+        PageReader reader(purpose);
         for (int k = 0; k < size.z; ++k) {
             const Page& page = pages[static_cast<std::size_t>(k)];
-            SlicePicture picture = read(page, purpose);
+            SlicePicture picture = reader.read(page);
             if (picture.width != size.x || picture.height != size.y || picture.is_coloured != is_coloured)
                 throw ImagingError(
                     page.file,

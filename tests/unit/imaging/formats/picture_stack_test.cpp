@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "imaging/formats/picture_file.h"
 #include "imaging/formats/picture_order.h"
 #include "imaging/imaging_error.h"
 #include "imaging/segmentation/segmentation.h"
@@ -77,6 +78,17 @@ TEST_F(PictureStackFolder, OfTiffHasAllLevelsAndAllPages) {
     ASSERT_EQ(all.size(), 36U);
     EXPECT_THAT((std::vector<float>{all[11], all[12], all[35]}), ElementsAre(65535.0F, 300.0F, 7.0F));
     EXPECT_EQ(open_picture_stack(folder_ / "a2.TIFF", spacing_mm).image.size_voxels.z, 2);
+}
+
+TEST_F(PictureStackFolder, OfTiffFindsAPageFromTheOneBeforeAndFromAnyOther) {
+    std::vector<std::vector<std::uint8_t>> pages;
+    for (std::uint8_t page = 0; page < 200; ++page) pages.emplace_back(4, page);
+    testing::write_tiff_pages<std::uint8_t>(folder_ / "a.tif", 2, 2, pages);
+    TiffPages tiff(folder_ / "a.tif");
+    ASSERT_EQ(tiff.count(), 200);
+    for (const int page : {0, 1, 2, 2, 150, 151, 7, 199, 0})
+        EXPECT_EQ(tiff.read(page, ImagePurpose::scan).values.front(), static_cast<float>(page));
+    EXPECT_THROW((void)tiff.read(200, ImagePurpose::scan), ImagingError);
 }
 
 TEST_F(PictureStackFolder, OfTiffIsAsItsTagsSay) {
