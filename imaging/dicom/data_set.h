@@ -81,4 +81,29 @@ struct Places {
     }
 };
 
+/// What a multi-frame file says of its frames.
+class FrameGroups {
+  public:
+    explicit FrameGroups(const gdcm::DataSet& data)
+        : data_(data),
+          shared_(sequence_of(data, {0x5200, 0x9229})),
+          per_frame_(sequence_of(data, {0x5200, 0x9230})) {}
+
+    /// Frames that have a group of their own.
+    std::size_t count() const { return per_frame_ ? per_frame_->GetNumberOfItems() : 0; }
+    Places of(std::size_t frame) const {
+        Places places;
+        if (count() > 0) places.in.push_back(&per_frame_->GetItem(frame + 1).GetNestedDataSet());
+        if (shared_ && shared_->GetNumberOfItems() > 0)
+            places.in.push_back(&shared_->GetItem(1).GetNestedDataSet());
+        places.in.push_back(&data_);
+        return places;
+    }
+
+  private:
+    const gdcm::DataSet& data_;
+    gdcm::SmartPointer<gdcm::SequenceOfItems> shared_;
+    gdcm::SmartPointer<gdcm::SequenceOfItems> per_frame_;
+};
+
 }  // namespace osteomill

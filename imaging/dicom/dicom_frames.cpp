@@ -7,6 +7,7 @@
 #include <gdcmImageReader.h>
 #include <gdcmImageRegionReader.h>
 #include <gdcmMediaStorage.h>
+#include <gdcmSequenceOfFragments.h>
 
 #include <cstring>
 #include <stdexcept>
@@ -51,15 +52,39 @@ bool is_known_kind(const DicomFile& file) {
 /// Takes pixels of any kind for those of a CT.
 class AnyKindReader : public gdcm::ImageReader {
   public:
-    bool read(bool is_known) {
-        if (is_known) return Read();
+    bool read(const DicomFile& file) {
+        const DicomScan& scan = file.header.scan;
+        const auto fragments = scan.is_encapsulated ? fragments_of_frames(scan) : Fragments{};
+        const bool is_apart = fragments.size() != scan.fragments.size();
+        if (is_known_kind(file) && !is_apart) return Read();
         if (!gdcm::Reader::Read()) return false;
         forget_palette();
+        if (is_apart) join(fragments);
         GetImage().SetTransferSyntax(GetFile().GetHeader().GetDataSetTransferSyntax());
         return ReadImage(gdcm::MediaStorage::CTImageStorage);
     }
 
   private:
+    using Fragments = std::vector<std::vector<std::size_t>>;
+
+    /// Most of its codecs take a fragment for a frame.
+    void join(const Fragments& fragments_of_frame) {
+        gdcm::DataElement pixels = GetFile().GetDataSet().GetDataElement(gdcm::Tag(0x7fe0, 0x0010));
+        const auto joined = gdcm::SequenceOfFragments::New();
+        for (const std::vector<std::size_t>& fragments : fragments_of_frame) {
+            std::string frame;
+            for (const std::size_t fragment : fragments) {
+                const gdcm::ByteValue* bytes =
+                    pixels.GetSequenceOfFragments()->GetFragment(fragment).GetByteValue();
+                frame.append(bytes->GetPointer(), bytes->GetLength());
+            }
+            gdcm::Fragment whole;
+            whole.SetByteValue(frame.data(), static_cast<std::uint32_t>(frame.size()));
+            joined->AddFragment(whole);
+        }
+        pixels.SetValue(*joined);
+        GetFile().GetDataSet().Replace(pixels);
+    }
     /// Where its tables are missing or torn, GDCM 3.0.21 ends the program.
     void forget_palette() {
         using Photometric = gdcm::Attribute<0x0028, 0x0004>;
@@ -129,7 +154,7 @@ class DicomFrames::AtomicFile : public Source {
         AnyKindReader reader;
         reader.SetFileName(file.path.c_str());
         require(file, [&] {
-            if (!reader.read(is_known_kind(file))) return false;
+            if (!reader.read(file)) return false;
             gdcm::Image& image = reader.GetImage();
             if (file.header.sign_of_codestream) {
                 gdcm::PixelFormat format = image.GetPixelFormat();

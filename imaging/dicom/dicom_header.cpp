@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
@@ -27,15 +26,12 @@ const Tag rows_tag(0x0028, 0x0010);
 const Tag columns_tag(0x0028, 0x0011);
 const Tag samples_tag(0x0028, 0x0002);
 const Tag photometric_tag(0x0028, 0x0004);
-const Tag frames_tag(0x0028, 0x0008);
 const Tag spacing_tag(0x0028, 0x0030);
 const Tag position_tag(0x0020, 0x0032);
 const Tag orientation_tag(0x0020, 0x0037);
 const Tag series_uid_tag(0x0020, 0x000e);
 const Tag series_description_tag(0x0008, 0x103e);
 const Tag pixel_data_tag(0x7fe0, 0x0010);
-const Tag shared_groups_tag(0x5200, 0x9229);
-const Tag per_frame_groups_tag(0x5200, 0x9230);
 const Tag plane_position_tag(0x0020, 0x9113);
 const Tag plane_orientation_tag(0x0020, 0x9116);
 const Tag rescale_group_tag(0x0028, 0x9145);
@@ -206,29 +202,18 @@ void stack_frames(const Places& places, std::size_t count, DicomHeader& header) 
 }
 
 void place_frames(const DataSet& data, std::size_t count, DicomHeader& header) {
-    const auto shared = sequence_of(data, shared_groups_tag);
-    const auto per_frame = sequence_of(data, per_frame_groups_tag);
-    const std::size_t groups = per_frame ? per_frame->GetNumberOfItems() : 0;
-    if (groups != 0 && groups != count)
+    const FrameGroups groups(data);
+    if (groups.count() != 0 && groups.count() != count)
         throw std::invalid_argument(fmt::format(
-            "says that it has {} frames (0028,0008) and where {} lie (5200,9230)", count, groups));
-    const bool has_groups = groups == count;
-    const auto places_of = [&](std::size_t frame) {
-        Places places;
-        if (has_groups) places.in.push_back(&per_frame->GetItem(frame + 1).GetNestedDataSet());
-        if (shared && shared->GetNumberOfItems() > 0)
-            places.in.push_back(&shared->GetItem(1).GetNestedDataSet());
-        places.in.push_back(&data);
-        return places;
-    };
-    const Places of_first = places_of(0);
+            "says that it has {} frames (0028,0008) and where {} lie (5200,9230)", count, groups.count()));
+    const Places of_first = groups.of(0);
     if (const auto gap = of_first.find<1>(pixel_measures_tag, slice_spacing_tag))
         header.slice_gap_mm = std::abs((*gap)[0]);
     if (const auto thickness = of_first.find<1>(pixel_measures_tag, slice_thickness_tag))
         header.slice_thickness_mm = std::abs((*thickness)[0]);
-    if (count > 1 && !has_groups) stack_frames(of_first, count, header);
+    if (count > 1 && groups.count() == 0) stack_frames(of_first, count, header);
     for (std::size_t frame = 0; frame < count; ++frame) {
-        const Places places = places_of(frame);
+        const Places places = groups.of(frame);
         header.rescales.push_back(rescale_of(places, header));
         if (header.frames.size() == count) continue;
         std::string missing;
@@ -321,10 +306,7 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     header.samples_per_pixel = number_of(data, samples_tag, 1);
     header.is_uncompressed = !scan->is_encapsulated && !syntax.IsEncapsulated() &&
                              syntax != gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian;
-    const std::string frames = text_of(data, frames_tag);
-    const long count = frames.empty() ? 1 : std::strtol(frames.c_str(), nullptr, 10);
-    if (count < 1 || count > 65536)
-        throw ImagingError(path, "Number of Frames (0028,0008) is '" + frames + "'");
+    const std::size_t count = frame_count(*scan);
     header.no_grey_image = why_no_grey_image(*scan);
     header.instance_uid = text_of(data, instance_uid_tag);
     const std::string photometric = text_of(data, photometric_tag);
@@ -333,7 +315,7 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
         (photometric.empty() || photometric.find('\\') != std::string::npos))
         throw ImagingError(path,
                            "Photometric Interpretation (0028,0004) is '" + photometric.substr(0, 40) + "'");
-    if (is_segmentation(*scan)) place_frames(data, static_cast<std::size_t>(count), header);
+    if (is_segmentation(*scan)) place_frames(data, count, header);
     if (!header.no_grey_image.empty()) return header;
     if (header.samples_per_pixel == 1 && !photometric.empty() && !photometric.starts_with("MONOCHROME"))
         header.fault = "has pixels in colour (0028,0004 '" + photometric.substr(0, 16) + "')";
@@ -342,7 +324,13 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
         *scan->codestream->is_signed != (*scan->pixel_representation == 1))
         header.sign_of_codestream = scan->codestream->is_signed;
     note_doubtful_kind(*scan, header);
-    place_frames(data, static_cast<std::size_t>(count), header);
+    if (scan->has_bits_above)
+        note(header,
+             fmt::format("warning: some of its pixels have bits set above the {} that hold their values "
+                         "(High Bit, 0028,0102); those are left out, so that metal brighter than these "
+                         "hold would read as tissue or air",
+                         *scan->high_bit + 1));
+    place_frames(data, count, header);
     header.not_of_the_scan = why_left_out(data, *scan, header);
     return header;
 } catch (const std::invalid_argument& error) {

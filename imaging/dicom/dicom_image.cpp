@@ -125,15 +125,10 @@ OpenedImage open_dicom_folder(const std::filesystem::path& folder,
                               const std::optional<std::string>& series_uid, ImagePurpose purpose) {
     if (purpose == ImagePurpose::labels)
         if (const auto segmentation = segmentation_in(folder)) return open_dicom_segmentation(*segmentation);
-    std::vector<std::string> left_out;
-    const std::vector<DicomSeries> series = find_series(folder, left_out);
-    std::vector<std::string> others;
-    OpenedImage opened = open_series(folder, choose_series(folder, series, series_uid, others));
-    for (const std::string& other : others)
-        opened.image.notes.push_back(
-            fmt::format("{}: passed over series {}; --series picks one", folder.string(), other));
-    for (const std::string& line : left_out)
-        opened.image.notes.push_back(fmt::format("{}: {}", folder.string(), line));
+    std::vector<std::string> notes;
+    OpenedImage opened = open_series(folder, choose_series(folder, series_uid, notes));
+    for (const std::string& note : notes)
+        opened.image.notes.push_back(fmt::format("{}: {}", folder.string(), note));
     return opened;
 }
 

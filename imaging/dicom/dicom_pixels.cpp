@@ -11,25 +11,61 @@
 namespace osteomill {
 
 namespace {
-constexpr std::uint64_t most_frames = 65536;
+constexpr std::size_t most_frames = 65536;
 constexpr std::string_view segmentation_class = "1.2.840.10008.5.1.4.1.1.66.4";
 constexpr std::string_view label_map_class = "1.2.840.10008.5.1.4.1.1.66.7";
 }  // namespace
+
+std::size_t frame_count(const DicomScan& scan) {
+    if (scan.frames.empty()) return 1;
+    const std::string_view text =
+        std::string_view(scan.frames)
+            .substr(std::min(scan.frames.find_first_not_of(" +"), scan.frames.size()));
+    const char* last = text.data() + text.size();
+    std::size_t frames = 0;
+    const auto [end, error] = std::from_chars(text.data(), last, frames);
+    if (error != std::errc() || end != last || frames < 1 || frames > most_frames)
+        throw std::invalid_argument(fmt::format("Number of Frames (0028,0008) is '{}'", scan.frames));
+    return frames;
+}
+
+std::vector<std::vector<std::size_t>> fragments_of_frames(const DicomScan& scan) {
+    std::vector<std::size_t> filled;
+    for (std::size_t i = 0; i < scan.fragments.size(); ++i)
+        if (scan.fragments[i].bytes > 0) filled.push_back(i);
+    const auto grouped = [&](const auto& begins_frame) {
+        std::vector<std::vector<std::size_t>> groups;
+        for (std::size_t n = 0; n < filled.size(); ++n) {
+            if (n == 0 || begins_frame(n)) groups.emplace_back();
+            groups.back().push_back(filled[n]);
+        }
+        return groups;
+    };
+    const std::size_t frames = frame_count(scan);
+    auto groups = grouped([](std::size_t) { return true; });
+    if (groups.size() != frames)
+        groups = grouped([&](std::size_t n) { return scan.fragments[filled[n - 1]].ends_picture; });
+    if (groups.size() < frames)
+        groups =
+            grouped([&](std::size_t n) { return scan.frame_offsets.contains(scan.fragments[filled[n]].at); });
+    if (groups.size() != frames)
+        throw std::invalid_argument(
+            fmt::format("has {} fragments of compressed pixel data (7fe0,0010), of which its {} frames "
+                        "cannot be told apart",
+                        filled.size(), frames));
+    const bool is_jpeg_ls =
+        scan.transfer_syntax == "1.2.840.10008.1.2.4.80" || scan.transfer_syntax == "1.2.840.10008.1.2.4.81";
+    const auto is_cut_off = [&](const auto& group) { return !scan.fragments[group.back()].ends_picture; };
+    if (is_jpeg_ls && frames > 1 && std::ranges::any_of(groups, is_cut_off))  // GDCM ends the program over it
+        throw std::invalid_argument("has pixel data of JPEG-LS that are cut off");
+    return groups;
+}
 
 void require_sound_pixels(const DicomScan& scan) {
     const int rows = scan.rows.value_or(0);
     const int columns = scan.columns.value_or(0);
     const auto refuse = [](const std::string& reason) { throw std::invalid_argument(reason); };
-    std::uint64_t frames = 1;
-    if (!scan.frames.empty()) {
-        const std::string_view text =
-            std::string_view(scan.frames)
-                .substr(std::min(scan.frames.find_first_not_of(" +"), scan.frames.size()));
-        const char* last = text.data() + text.size();
-        const auto [end, error] = std::from_chars(text.data(), last, frames);
-        if (error != std::errc() || end != last || frames < 1 || frames > most_frames)
-            refuse(fmt::format("Number of Frames (0028,0008) is '{}'", scan.frames));
-    }
+    const std::uint64_t frames = frame_count(scan);
     if (!scan.has_pixel_data || rows == 0 || columns == 0) return;
     const int bits = scan.bits_allocated.value_or(0);
     if (bits != 8 && bits != 16 && bits != 32)
@@ -63,6 +99,7 @@ void require_sound_pixels(const DicomScan& scan) {
     if (expected > always_allowed && expected / most_shrunk > scan.pixel_bytes)
         refuse(fmt::format("says that {} bytes hold {} bytes of pixels; no scan compresses so",
                            scan.pixel_bytes, expected));
+    fragments_of_frames(scan);
 }
 
 bool is_label_map(const DicomScan& scan) {

@@ -1,7 +1,9 @@
 // Check that the image that a DICOM file describes is one that can be decoded, and is of CT numbers.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "imaging/dicom/dicom_scan.h"
 
@@ -12,6 +14,14 @@ namespace osteomill {
 /// size takes; a codestream of another size; compressed pixels that no codec shrinks so. Nothing for a file
 /// without an image.
 void require_sound_pixels(const DicomScan& scan);
+
+/// Number of Frames (0028,0008), 1 where there is none. Throws std::invalid_argument, in words, unless it is
+/// up to 65536.
+std::size_t frame_count(const DicomScan& scan);
+
+/// Of each frame of compressed pixels, in turn: which fragments hold it; never an empty one. Throws
+/// std::invalid_argument where that cannot be told, by their number, their table or the marks of their ends.
+std::vector<std::vector<std::size_t>> fragments_of_frames(const DicomScan& scan);
 
 /// Whether an object is labels that are read: a segmentation (SEG), or one as a label map.
 bool is_segmentation(const DicomScan& scan);

@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "imaging/dicom/codestream.h"
 
@@ -15,6 +17,13 @@ namespace osteomill {
 
 /// Sequences within sequences; reports nest a dozen deep. GDCM takes twice as long for each.
 inline constexpr int most_dicom_nesting = 16;
+
+/// One of the pieces that compressed pixels stand in.
+struct DicomFragment {
+    std::uint64_t at = 0;  ///< as the table of offsets counts
+    std::uint32_t bytes = 0;
+    bool ends_picture = false;  ///< with the mark of JPEG, JPEG-LS and JPEG 2000
+};
 
 struct DicomScan {
     std::string transfer_syntax{};  ///< UID; empty where the file states none
@@ -32,6 +41,10 @@ struct DicomScan {
     bool is_encapsulated = false;
     std::uint64_t pixel_bytes = 0;           ///< of pixel data; when encapsulated, of all fragments
     std::optional<Codestream> codestream{};  ///< of the first fragment
+    std::vector<DicomFragment> fragments{};
+    std::set<std::uint64_t> frame_offsets{};  ///< where the frames' first fragments are, if the file says so
+    /// Some uncompressed pixel of 16 bits has others set above High Bit than its sign's and an overlay's.
+    bool has_bits_above = false;
 };
 
 /// Bytes that tell whether a file may be DICOM.

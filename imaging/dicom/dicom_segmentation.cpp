@@ -138,31 +138,32 @@ class SegmentationSource {
     }
 
     void find_segments() {
-        const auto per_frame = sequence_of(data(), Tag(0x5200, 0x9230));
-        if (!per_frame || per_frame->GetNumberOfItems() != header_.frames.size())
+        const FrameGroups groups(data());
+        if (groups.count() != header_.frames.size())
             refuse("is a segmentation that does not say where each frame lies (5200,9230)");
         if (!header_.fault.empty()) refuse(header_.fault);
-        for (const int number : described_segments())
+        for (const auto& [number, name] : described_segments())
             if (!numbers_.insert(number).second)
                 refuse(fmt::format("has two segments of the number {} (0062,0004)", number));
         const bool is_of_numbers =
             is_label_map(header_.scan) || text_of(data(), Tag(0x0062, 0x0001)) == "LABELMAP";
-        const auto shared = sequence_of(data(), Tag(0x5200, 0x9229));
-        for (std::size_t i = 1; i <= header_.frames.size(); ++i) {
-            Places places{{&per_frame->GetItem(i).GetNestedDataSet()}};
-            if (shared && shared->GetNumberOfItems() > 0)
-                places.in.push_back(&shared->GetItem(1).GetNestedDataSet());
-            segment_of_frame_.push_back(is_of_numbers ? 0 : segment_in(places, i));
-        }
+        for (std::size_t i = 0; i < groups.count(); ++i)
+            segment_of_frame_.push_back(is_of_numbers ? 0 : segment_in(groups.of(i), i + 1));
     }
-    std::vector<int> described_segments() const {
-        std::vector<int> numbers;
+    /// Numbers and names.
+    std::vector<std::pair<int, std::string>> described_segments() const {
+        std::vector<std::pair<int, std::string>> described;
         const auto segments = sequence_of(data(), Tag(0x0062, 0x0002));
-        for (std::size_t i = 1; segments && i <= segments->GetNumberOfItems(); ++i)
-            if (const int number = number_of(segments->GetItem(i).GetNestedDataSet(), Tag(0x0062, 0x0004), 0);
-                number != 0)
-                numbers.push_back(number);
-        return numbers;
+        for (std::size_t i = 1; segments && i <= segments->GetNumberOfItems(); ++i) {
+            const DataSet& segment = segments->GetItem(i).GetNestedDataSet();
+            const int number = number_of(segment, Tag(0x0062, 0x0004), 0);
+            if (number == 0) continue;
+            const std::string name = text_of(segment, Tag(0x0062, 0x0005));
+            described.emplace_back(number, name.empty()
+                                               ? std::to_string(number)
+                                               : in_utf8(name, text_of(data(), Tag(0x0008, 0x0005))));
+        }
+        return described;
     }
     /// A frame says so itself, or all do together; of a single segment it need not be said.
     int segment_in(const Places& places, std::size_t frame) const {
@@ -262,15 +263,8 @@ class SegmentationSource {
     }
 
     void name_segments(OpenedImage& opened) const {
-        const auto segments = sequence_of(data(), Tag(0x0062, 0x0002));
         int named = 0;
-        for (std::size_t i = 1; segments && i <= segments->GetNumberOfItems(); ++i) {
-            const DataSet& segment = segments->GetItem(i).GetNestedDataSet();
-            const int number = number_of(segment, Tag(0x0062, 0x0004), 0);
-            if (number == 0) continue;
-            std::string name = text_of(segment, Tag(0x0062, 0x0005));
-            if (name.empty()) name = std::to_string(number);
-            name = in_utf8(name, text_of(data(), Tag(0x0008, 0x0005)));
+        for (const auto& [number, name] : described_segments()) {
             const auto layer =
                 layer_of_segment_.contains(0) ? layer_of_segment_.find(0) : layer_of_segment_.find(number);
             const std::string key = fmt::format("Segment{}_", named++);

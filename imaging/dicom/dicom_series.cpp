@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "imaging/dicom/dicom_pixels.h"
@@ -47,20 +48,24 @@ void require_usable(const DicomFile& file) {
 /// Files that are left out, by the reason.
 class LeftOut {
   public:
-    void add(const std::string& reason, const std::filesystem::path& file) {
+    void add(const std::string& reason, const std::filesystem::path& file, const std::string& series) {
         files_[reason].push_back(file.filename().string());
+        reason_of_series_[series] = reason;
     }
-    std::vector<std::string> lines() const {
-        std::vector<std::string> lines;
+    std::string reason_of(const std::string& series) const {
+        const auto found = reason_of_series_.find(series);
+        return found == reason_of_series_.end() ? "" : found->second;
+    }
+    void tell(std::vector<std::string>& lines) const {
         for (const auto& [reason, files] : files_)
             lines.push_back(files.size() == 1 ? fmt::format("left out {}, which {}", files[0], reason)
                                               : fmt::format("left out {} files such as {}, which {}",
                                                             files.size(), files[0], reason));
-        return lines;
     }
 
   private:
     std::map<std::string, std::vector<std::string>> files_;
+    std::map<std::string, std::string> reason_of_series_;
 };
 
 /// What two copies of one slice have in common; nothing for files of several frames.
@@ -79,19 +84,17 @@ void leave_out(std::vector<DicomFile>& images, LeftOut& left) {
     for (DicomFile& file : images) {
         const auto identity = identity_of(file.header);
         if (is_mixed && is_other(file))
-            left.add(file.header.not_of_the_scan, file.path);
+            left.add(file.header.not_of_the_scan, file.path, file.header.series_uid);
         else if (identity && !seen.insert(*identity).second)
-            left.add("is a copy of another file (SOP Instance UID)", file.path);
+            left.add("is a copy of another file (SOP Instance UID)", file.path, file.header.series_uid);
         else
             kept.push_back(std::move(file));
     }
     images = std::move(kept);
 }
 
-}  // namespace
-
-std::vector<DicomSeries> find_series(const std::filesystem::path& folder,
-                                     std::vector<std::string>& left_out) {
+/// The best first.
+std::vector<DicomSeries> find_series(const std::filesystem::path& folder, LeftOut& left) {
     std::vector<std::filesystem::path> paths;
     std::error_code failed;
     for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
@@ -107,16 +110,15 @@ std::vector<DicomSeries> find_series(const std::filesystem::path& folder,
     std::sort(paths.begin(), paths.end());
 
     std::vector<DicomFile> images;
-    LeftOut left;
     std::optional<DicomFile> no_image;  // to complain of, if there is nothing else
     for (const std::filesystem::path& path : paths) {
         std::optional<DicomHeader> header = read_dicom_header(path);
         if (!header) {
-            if (!is_of_the_desktop(path)) left.add("is no DICOM", path);
+            if (!is_of_the_desktop(path)) left.add("is no DICOM", path, {});
             continue;
         }
         if (!header->no_grey_image.empty()) {
-            left.add(header->no_grey_image, path);
+            left.add(header->no_grey_image, path, header->series_uid);
             if (!no_image) no_image = DicomFile{path, *header};
         } else if (header->rows > 0 && header->columns > 0) {
             images.push_back({path, std::move(*header)});
@@ -129,7 +131,6 @@ std::vector<DicomSeries> find_series(const std::filesystem::path& folder,
             "holds no DICOM images, nor slices as PNG or TIFF (folders in it are not searched); "
             "a scan in one file is given by that file's name");
     leave_out(images, left);
-    left_out = left.lines();
     std::map<std::string, DicomSeries> by_uid;
     for (DicomFile& file : images) {
         DicomSeries& series = by_uid[file.header.series_uid];
@@ -141,23 +142,35 @@ std::vector<DicomSeries> find_series(const std::filesystem::path& folder,
         return series.files.front().header.scan.modality == "CT";
     };
     std::stable_sort(found.begin(), found.end(), [&](const DicomSeries& a, const DicomSeries& b) {
-        return std::pair(is_ct(a), a.slices) > std::pair(is_ct(b), b.slices);
+        return std::tuple(a.slices > 1, is_ct(a), a.slices) > std::tuple(b.slices > 1, is_ct(b), b.slices);
     });
     return found;
 }
 
-const DicomSeries& choose_series(const std::filesystem::path& folder, const std::vector<DicomSeries>& series,
-                                 const std::optional<std::string>& uid, std::vector<std::string>& others) {
-    auto chosen = series.begin();
-    if (uid)
-        chosen = std::find_if(series.begin(), series.end(), [&](const auto& one) { return one.uid == *uid; });
+}  // namespace
+
+DicomSeries choose_series(const std::filesystem::path& folder, const std::optional<std::string>& uid,
+                          std::vector<std::string>& notes) {
+    LeftOut left;
+    const std::vector<DicomSeries> series = find_series(folder, left);
+    const auto chosen = uid ? std::ranges::find(series, *uid, &DicomSeries::uid) : series.begin();
     if (chosen == series.end()) {
+        if (const std::string reason = left.reason_of(*uid); !reason.empty())
+            throw ImagingError(folder,
+                               fmt::format("its series {} is left out beside the others, as it {}; give "
+                                           "its files in a folder of their own",
+                                           *uid, reason));
         std::string known;
         for (const DicomSeries& one : series) known += (known.empty() ? "" : ", ") + described(one);
         throw ImagingError(folder, fmt::format("holds no series {}; it holds {}", *uid, known));
     }
     for (const DicomSeries& one : series)
-        if (&one != &*chosen) others.push_back(described(one));
+        if (&one != &*chosen)
+            notes.push_back(fmt::format("passed over series {}; --series picks one", described(one)));
+    left.tell(notes);
+    if (chosen->slices == 1 && !notes.empty())
+        throw ImagingError(folder, fmt::format("of series {} it holds a single slice, which is no volume; {}",
+                                               chosen->uid, fmt::join(notes, "; ")));
     return *chosen;
 }
 

@@ -29,18 +29,15 @@ struct DicomSeries {
     std::size_t slices = 0;        ///< frames of all files
 };
 
-/// The series of a folder (not of the folders in it), CT before others, largest first, then by UID. Files
-/// that are not DICOM are passed over. What holds no CT numbers (segmentations, reports) or is no slice of a
-/// scan (a localizer, a secondary capture) beside what may be, and a second copy of a slice, are left out,
-/// and `left_out` gets a line about each kind. Throws ImagingError for a folder that is empty, holds no such
-/// image or more than 65535 files, for a file that cannot be opened, and for a DICOM file that
-/// read_dicom_header refuses.
-std::vector<DicomSeries> find_series(const std::filesystem::path& folder, std::vector<std::string>& left_out);
-
-/// The series requested, or else the largest. `others` gets one line about each series passed over. Throws
-/// ImagingError, listing the UIDs there are, where there is none of that UID.
-const DicomSeries& choose_series(const std::filesystem::path& folder, const std::vector<DicomSeries>& series,
-                                 const std::optional<std::string>& uid, std::vector<std::string>& others);
+/// The series requested of a folder (not of the folders in it), or else the largest: of more than one slice,
+/// of CT, before others. `notes` gets a line about each that is passed over, and about each kind of file that
+/// is left out: what is no DICOM, holds no CT numbers (segmentations, reports), is no slice of a scan (a
+/// localizer, a secondary capture) beside what may be, or is a second copy of a slice. Throws ImagingError
+/// for a folder that is empty, holds no such image or more than 65535 files; where there is no series of that
+/// UID, or it is left out, or is a single slice, with all that there is; for a file that cannot be opened,
+/// and for a DICOM file that read_dicom_header refuses.
+DicomSeries choose_series(const std::filesystem::path& folder, const std::optional<std::string>& uid,
+                          std::vector<std::string>& notes);
 
 /// A single DICOM file as a series of its own. Throws ImagingError where it is not DICOM or has no image.
 DicomSeries series_of_file(const std::filesystem::path& path);

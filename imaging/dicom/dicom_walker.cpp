@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
@@ -26,6 +29,9 @@ constexpr std::uint64_t most_items_in_values = 1000;
 constexpr std::uint64_t most_effort = std::uint64_t{1} << 21U;
 constexpr std::uint64_t effort_of_level = 6;
 constexpr int none_open = -1;
+/// What is noted of compressed pixels takes little memory, whatever a file says.
+constexpr std::uint32_t most_offset_bytes = 4 * 65536;
+constexpr std::size_t most_fragments = std::size_t{1} << 20U;
 
 }  // namespace
 
@@ -76,8 +82,12 @@ DicomWalker::Element DicomWalker::element_at(std::size_t at, const DicomSyntax& 
     constexpr std::string_view known{
         "AE AS AT CS DA DS DT FD FL IS LO LT OB OD OF OL OV OW PN SH SL SQ SS ST SV TM UC "
         "UI UL UN UR US UT UV"};
-    if (const std::size_t found = known.find(name); found == std::string_view::npos || found % 3 != 0)
-        throw DamagedDicom();
+    // Of private elements that old converters do not know; of "??" and blanks GDCM takes it for longer, too.
+    const bool is_nothing = (element.tag >> 16U) % 2 == 1 && name == std::string_view("\0\0", 2);
+    if (const std::size_t found = known.find(name);
+        !is_nothing && (found == std::string_view::npos || found % 3 != 0))
+        throw DamagedDicom(fmt::format("({:04x},{:04x}) is of the unknown form '{}'", element.tag >> 16U,
+                                       element.tag & 0xffffU, printable(std::string(name))));
     constexpr std::array<std::string_view, 13> with_long_length{"OB", "OD", "OF", "OL", "OV", "OW", "SQ",
                                                                 "SV", "UC", "UN", "UR", "UT", "UV"};
     if (std::find(with_long_length.begin(), with_long_length.end(), name) != with_long_length.end()) {
@@ -219,41 +229,42 @@ std::size_t DicomWalker::after_items(std::size_t at, std::optional<std::size_t> 
 
 std::size_t DicomWalker::after_fragments(const Element& element, const DicomSyntax& syntax, bool is_noted) {
     std::size_t at = element.value;
+    std::size_t first = 0;  // fragment
     for (bool is_table = true;; is_table = false) {
         const Element fragment = element_at(at, syntax);
         if (fragment.tag == sequence_end_tag) return fragment.value;
         if (fragment.tag != item_tag) throw DamagedDicom();
-        at = end_of(fragment);
-        if (!is_noted) continue;
-        require_fragment(fragment, is_table);
-        if (is_table) continue;
-        if (scan_.pixel_bytes == 0) first_fragment_ = bytes_.subspan(fragment.value, fragment.length);
-        scan_.pixel_bytes += fragment.length;
+        const std::size_t begin = std::exchange(at, end_of(fragment));
+        if (is_table) first = at;
+        if (is_noted) is_table ? note_table(fragment) : note_fragment(fragment, begin - first);
     }
 }
 
-/// What GDCM's codecs end the program over: pixels where the table of offsets should be, and fragments of RLE
-/// and JPEG-LS that are none.
-void DicomWalker::require_fragment(const Element& fragment, bool is_table) const {
+/// Pixels where the table of offsets should be are among what GDCM's codecs end the program over.
+void DicomWalker::note_table(const Element& table) {
+    if (table.length > most_offset_bytes || table.length % 4 != 0 ||
+        (table.length != 0 && number<std::uint32_t>(table.value, false) != 0))
+        throw std::invalid_argument(
+            "has compressed pixel data that do not begin with a table of offsets (7fe0,0010)");
+    for (std::size_t at = table.value; at < table.value + table.length; at += 4)
+        scan_.frame_offsets.insert(number<std::uint32_t>(at, false));
+}
+
+void DicomWalker::note_fragment(const Element& fragment, std::uint64_t at) {
     const Bytes bytes = bytes_.subspan(fragment.value, fragment.length);
-    const auto refuse = [](const char* what) { throw std::invalid_argument(what); };
-    if (is_table) {
-        if (!bytes.empty() && (bytes.size() % 4 != 0 || number<std::uint32_t>(fragment.value, false) != 0))
-            refuse("has compressed pixel data that do not begin with a table of offsets (7fe0,0010)");
-        return;
-    }
-    const std::string& syntax = scan_.transfer_syntax;
     constexpr std::uint32_t most_rle_segments = 15;
-    if (syntax == "1.2.840.10008.1.2.5")
-        if (bytes.size() < 64 || number<std::uint32_t>(fragment.value, false) - 1 >= most_rle_segments)
-            refuse("has a fragment of pixel data that is no RLE: damaged");
-    const bool is_jpeg_ls = syntax == "1.2.840.10008.1.2.4.80" || syntax == "1.2.840.10008.1.2.4.81";
-    if (is_jpeg_ls && !scan_.frames.empty() && scan_.frames != "1") {
-        const Bytes tail = bytes.last(std::min<std::size_t>(bytes.size(), 4));
-        const std::array<std::uint8_t, 2> end{0xff, 0xd9};
-        if (std::search(tail.begin(), tail.end(), end.begin(), end.end()) == tail.end())
-            refuse("has pixel data of JPEG-LS that are cut off");
-    }
+    // Likewise.
+    if (scan_.transfer_syntax == "1.2.840.10008.1.2.5" && !bytes.empty() &&
+        (bytes.size() < 64 || number<std::uint32_t>(fragment.value, false) - 1 >= most_rle_segments))
+        throw std::invalid_argument("has a fragment of pixel data that is no RLE: damaged");
+    if (scan_.pixel_bytes == 0) first_fragment_ = bytes;
+    scan_.pixel_bytes += bytes.size();
+    const Bytes tail = bytes.last(std::min<std::size_t>(bytes.size(), 4));
+    const std::array<std::uint8_t, 2> end{0xff, 0xd9};
+    const bool ends = std::search(tail.begin(), tail.end(), end.begin(), end.end()) != tail.end();
+    if (scan_.fragments.size() == most_fragments)
+        throw std::invalid_argument(fmt::format("has more than {} fragments of pixel data", most_fragments));
+    scan_.fragments.push_back({.at = at, .bytes = fragment.length, .ends_picture = ends});
 }
 
 /// In either byte order.
@@ -284,10 +295,16 @@ void DicomWalker::note(const Element& element, const DicomSyntax& syntax) {
         scan_.is_encapsulated = element.length == undefined_length;
         if (!scan_.is_encapsulated) scan_.pixel_bytes = element.length;
         scan_.has_pixel_data = scan_.is_encapsulated || element.length > 0;
-        if (scan_.is_encapsulated) scan_.codestream = codestream_of(first_fragment_);
+        if (scan_.is_encapsulated)
+            scan_.codestream = codestream_of(first_fragment_);
+        else
+            scan_.has_bits_above = has_bits_above(element, syntax.big_endian);
         return;
     }
     if (element.length == undefined_length) return;
+    // Overlay Bit Position (60xx,0102); 0 of one that stands beside the pixels.
+    if (element.tag >> 24U == 0x60 && (element.tag & 0xffffU) == 0x0102 && element.length >= 2)
+        overlay_bits_ |= (1U << number<std::uint16_t>(element.value, syntax.big_endian) % 16U) & ~1U;
     const auto set_text = [&](std::string& into) {
         if (into.empty()) into = text(element);
     };
@@ -320,6 +337,22 @@ void DicomWalker::note(const Element& element, const DicomSyntax& syntax) {
         default:
             return;
     }
+}
+
+/// As far as the pixels are among the bytes.
+bool DicomWalker::has_bits_above(const Element& pixels, bool big_endian) const {
+    const int high = scan_.high_bit.value_or(15);
+    if (scan_.bits_allocated != 16 || high >= 15) return false;
+    const bool is_signed = scan_.pixel_representation == 1;
+    const unsigned above = 0xffffU << (high + 1) & 0xffffU & ~overlay_bits_;
+    const unsigned sign = is_signed ? 1U << high : 0U;
+    const std::size_t end = std::min<std::size_t>(bytes_.size(), pixels.value + std::size_t{pixels.length});
+    for (std::size_t at = pixels.value + 1; at < end; at += 2) {
+        const unsigned pixel =
+            big_endian ? bytes_[at - 1] << 8U | bytes_[at] : bytes_[at] << 8U | bytes_[at - 1];
+        if ((pixel & above) != 0 && ((pixel & sign) == 0 || (pixel & above) != above)) return true;
+    }
+    return false;
 }
 
 }  // namespace osteomill

@@ -16,7 +16,8 @@
 namespace osteomill {
 
 struct DamagedDicom : std::invalid_argument {
-    DamagedDicom() : std::invalid_argument("is DICOM but cannot be parsed: cut off or damaged") {}
+    explicit DamagedDicom(const std::string& why = "cut off or damaged")
+        : std::invalid_argument("is DICOM but cannot be parsed: " + why) {}
 };
 
 /// The part of a transfer syntax that says how elements are coded.
@@ -63,16 +64,19 @@ class DicomWalker {
     std::size_t after_items(std::size_t at, std::optional<std::size_t> end, const DicomSyntax& syntax,
                             int depth, int open_levels);
     void require_representation(const Element& element);
-    void require_fragment(const Element& fragment, bool is_table) const;
+    void note_table(const Element& table);
+    void note_fragment(const Element& fragment, std::uint64_t at);
     std::size_t after_fragments(const Element& element, const DicomSyntax& syntax, bool is_noted);
     std::uint64_t items_between(std::size_t begin, std::size_t end) const;
     std::string text(const Element& element) const;
     void note(const Element& element, const DicomSyntax& syntax);
+    bool has_bits_above(const Element& pixels, bool big_endian) const;
 
     Bytes bytes_;
     std::uint64_t file_bytes_;
     DicomScan scan_;
     Bytes first_fragment_;
+    unsigned overlay_bits_ = 0;         // of a pixel
     std::string wrong_representation_;  // of the first element that has one, in words
     std::uint64_t items_in_values_ = 0;
     std::uint64_t effort_ = 0;

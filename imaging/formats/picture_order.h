@@ -7,9 +7,10 @@
 
 namespace osteomill {
 
-/// Numbers within names count by their value, "2" before "10", and "_-1" (a minus that no letter or digit
-/// precedes) before "_0"; capitals count as small letters.
-bool comes_before(const std::filesystem::path& a, const std::filesystem::path& b);
+/// Numbers within names count by their value: "2" before "10", "z0.25" before "z0.5", and "_-1" before "_0".
+/// A hyphen behind a letter or digit is a minus where other names have none there ("s-1", "s0"); points are
+/// of decimals unless they count ("1.9", "1.10"). Capitals count as small letters.
+void sort_by_numbers(std::vector<std::filesystem::path>& files);
 
 /// One line on the first place where files, in this order, are not numbered in steps as most of them are: a
 /// slice may be missing, or one is too many. Empty where there is none, or most are not numbered at all.

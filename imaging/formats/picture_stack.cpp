@@ -42,7 +42,7 @@ std::vector<std::filesystem::path> picture_files(const std::filesystem::path& fo
         if (!is_of_the_desktop(entry.path()) &&
             (is_tiff_name(entry.path()) || lower_extension(entry.path()) == ".png"))
             files.push_back(entry.path());
-    std::ranges::sort(files, comes_before);
+    sort_by_numbers(files);
     return files;
 }
 

@@ -114,7 +114,9 @@ TEST_F(LargeImport, RefusesCompressedFramesOfMoreThanAnImportMayTake) {
     std::vector<int> z_mm;
     for (int k = 0; k < 400; ++k) z_mm.push_back(k);
     file.after_image = multi_frame(z_mm).after_image;
-    write_bytes(folder_ / "compressed.dcm", raw_dicom(file));
+    std::string fragments = dicom_item(file.pixels);
+    for (int k = 1; k < 400; ++k) fragments += dicom_item("\xff\xd9");
+    write_bytes(folder_ / "compressed.dcm", with(raw_dicom(file), dicom_item(file.pixels), fragments));
     EXPECT_THAT(refusal(folder_ / "compressed.dcm", {"--spacing-mm", "1"}),
                 AllOf(HasSubstr("compressed.dcm: has pixels of which 1.8 GiB would be held at once"),
                       HasSubstr("one file a slice")));

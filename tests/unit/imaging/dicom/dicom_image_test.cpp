@@ -100,6 +100,30 @@ TEST_F(DicomImage, MayBeASecondaryCaptureWhereThereIsNothingElse) {
     EXPECT_EQ(open().image.size_voxels.z, 3);
 }
 
+TEST_F(DicomImage, OfOneSliceSaysWhatIsBesideItAndWhyThatIsNotTaken) {
+    write_series([](RawSlice& slice) { slice.sop_class = "1.2.840.10008.5.1.4.1.1.7"; });
+    write_bytes(series_ / "ct",
+                with(raw_dicom({.position = "0\\0\\9"}), dicom_element(0x0020, 0x000e, "UI", "1.2.3"),
+                     dicom_element(0x0020, 0x000e, "UI", "1.2.5")));
+    EXPECT_THAT(refusal(series_),
+                HasSubstr("a single slice, which is no volume; left out 3 files such as IM0, "
+                          "which is a secondary capture"));
+    const auto refusal_of = [&](const std::string& uid) {
+        try {
+            open_image(series_, {.series_uid = uid});
+        } catch (const ImagingError& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    EXPECT_THAT(refusal_of("1.2.3"), HasSubstr("its series 1.2.3 is left out beside the others, as it is a "
+                                               "secondary capture"));
+    EXPECT_THAT(refusal_of("1.2.9"), HasSubstr("holds no series 1.2.9; it holds 1.2.5 (1 slices)"));
+    write_series([](RawSlice& slice) { slice.modality = "MR"; });
+    EXPECT_EQ(open().image.size_voxels.z, 3) << "whatever it is, rather than a single slice of CT";
+    EXPECT_THAT(open().image.notes, Contains(HasSubstr("passed over series 1.2.5 (1 slices)")));
+}
+
 TEST_F(DicomImage, IsNotInvertedByItsPhotometricInterpretation) {
     write_series();
     const std::vector<float> usual = values();
@@ -226,6 +250,34 @@ TEST_F(DicomImage, LeavesOutBitsThatHoldNoPixel) {
         write_bytes(entry.path(), bytes);
     }
     EXPECT_EQ(values()[13], 101.0F);
+    EXPECT_THAT(open().image.notes, ElementsAre(HasSubstr("bits set above the 12 that hold their values")));
+}
+
+TEST_F(DicomImage, SaysOnlyOfBitsThatAreNoSignAndNoOverlayThatTheyAreLeftOut) {
+    const auto notes = [&](std::uint32_t sign, std::uint32_t pixel, const std::string& overlay) {
+        write_series([&](RawSlice& slice) {
+            slice.pixel_representation = sign;
+            slice.pixels.replace(2, 2, little(pixel, 2));
+            slice.after_image += overlay;
+        });
+        for (const auto& entry : std::filesystem::directory_iterator(series_)) {
+            std::ifstream in(entry.path(), std::ios::binary);
+            const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+            write_bytes(entry.path(),
+                        with(with(bytes, dicom_number(0x0028, 0x0101, 16), dicom_number(0x0028, 0x0101, 12)),
+                             dicom_number(0x0028, 0x0102, 15), dicom_number(0x0028, 0x0102, 11)));
+        }
+        return open().image.notes.size();
+    };
+    EXPECT_EQ(notes(1, 0xff00, ""), 0U) << "-256, in all bits";
+    EXPECT_EQ(notes(1, 0x0f00, ""), 0U) << "-256, in twelve";
+    EXPECT_EQ(notes(1, 0x1700, ""), 1U) << "5888, cut to 1792";
+    EXPECT_EQ(notes(0, 0xff00, ""), 1U);
+    const std::string overlay = dicom_number(0x6000, 0x0102, 12);
+    EXPECT_EQ(notes(0, 0x1f00, overlay), 0U);
+    EXPECT_EQ(notes(1, 0xff00, overlay), 0U);
+    EXPECT_EQ(notes(1, 0xef00, overlay), 0U);
+    EXPECT_EQ(notes(0, 0x2f00, overlay), 1U);
 }
 
 TEST_F(DicomImage, HasItsBitsWhereItSays) {
@@ -269,7 +321,7 @@ TEST_F(DicomImage, RefusesWhatGdcmWouldEndTheProgramOver) {
     EXPECT_THAT(
         refused(dicom_element(0x0028, 0x0030, "DS", "1\\1"),
                 dicom_element(0x0028, 0x0031, "ZZ", "abcd") + dicom_element(0x0028, 0x0030, "DS", "1\\1")),
-        HasSubstr("cannot be parsed"));
+        HasSubstr("cannot be parsed: (0028,0031) is of the unknown form 'ZZ'"));
     const auto compressed = [&](const std::string& syntax, const std::string& fragments,
                                 const char* frames = "") {
         RawSlice slice{.transfer_syntax = syntax,
@@ -287,10 +339,70 @@ TEST_F(DicomImage, RefusesWhatGdcmWouldEndTheProgramOver) {
     EXPECT_THAT(compressed("1.2.840.10008.1.2.4.70", dicom_item("\xff\xd8\xff\xd9")),
                 HasSubstr("do not begin with a table of offsets"));
     EXPECT_THAT(compressed("1.2.840.10008.1.2.4.70", dicom_item("")), HasSubstr("without a fragment"));
-    EXPECT_THAT(compressed("1.2.840.10008.1.2.4.80", dicom_item("") + dicom_item("\xff\xd8 "), "2"),
+    EXPECT_THAT(compressed("1.2.840.10008.1.2.4.80",
+                           dicom_item("") + dicom_item("\xff\xd8 ") + dicom_item("\xff\xd8 "), "2"),
                 HasSubstr("JPEG-LS that are cut off"));
+    EXPECT_THAT(compressed("1.2.840.10008.1.2.4.80", dicom_item("") + dicom_item("\xff\xd8 "), "2"),
+                HasSubstr("has 1 fragments of compressed pixel data"));
     EXPECT_THAT(compressed("1.2.840.10008.1.2.4.201", dicom_item("") + dicom_item("\xff\x4f")),
                 HasSubstr("transfer syntax 1.2.840.10008.1.2.4.201, which GDCM does not read"));
+}
+
+TEST_F(DicomImage, MayHavePrivateElementsOfNoForm) {
+    const auto write = [&](std::uint32_t group, const std::string& form) {
+        write_series([&](RawSlice& slice) {
+            slice.before_image =
+                dicom_element(group, 0x1001, form, "abcd") + dicom_element(group, 0x1002, form, "");
+        });
+    };
+    write(0x0021, std::string(2, '\0'));
+    EXPECT_EQ(values()[13], 101.0F);
+    for (const std::string form : {"??", "  "}) {
+        write(0x0021, form);
+        EXPECT_THAT(refusal(series_), HasSubstr("(0021,1001) is of the unknown form '" + form + "'"));
+    }
+    write(0x0022, std::string(2, '\0'));
+    EXPECT_THAT(refusal(series_), HasSubstr("(0022,1001) is of the unknown form"));
+}
+
+/// Two frames, and each in pieces of two lengths.
+TEST_F(DicomImage, OfFramesMayHaveEachInSeveralFragments) {
+    RawSlice file = multi_frame({0, 1});
+    for (std::size_t i = 0; i < file.pixels.size(); i += 2) file.pixels[i] = static_cast<char>(i / 5);
+    write_bytes(folder_ / "plain.dcm", raw_dicom(file));
+    const std::vector<float> expected = values_of(open_image(folder_ / "plain.dcm"));
+    compress_as_jpeg2000(folder_ / "plain.dcm", folder_ / "x.dcm");
+    std::ifstream in(folder_ / "x.dcm", std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const std::string pixels = dicom_element(0x7fe0, 0x0010, "OB", "", undefined_dicom_length);
+    const std::size_t begin = bytes.rfind(pixels) + pixels.size();
+    std::vector<std::string> frames;
+    for (std::size_t at = begin; bytes.substr(at, 4) == dicom_tag(0xfffe, 0xe000);) {
+        std::uint32_t length = 0;
+        std::memcpy(&length, &bytes[at + 4], 4);
+        if (at != begin) frames.push_back(bytes.substr(at + 8, length));
+        at += 8 + length;
+    }
+    ASSERT_EQ(frames.size(), 2U);
+    const auto in_two = [](const std::string& frame) {
+        return dicom_item(frame.substr(0, 60)) + dicom_item(frame.substr(60));
+    };
+    const auto read = [&](const std::string& items) {
+        write_bytes(folder_ / "y.dcm", bytes.substr(0, begin) + items + dicom_sequence_end);
+        const std::string refused = refusal(folder_ / "y.dcm");
+        return refused != "accepted"                                  ? refused
+               : values_of(open_image(folder_ / "y.dcm")) == expected ? "right"
+                                                                      : "wrong";
+    };
+    const std::string first = in_two(frames[0]), second = in_two(frames[1]);
+    const auto second_at = static_cast<std::uint32_t>(first.size());
+    EXPECT_EQ(read(dicom_item("") + first + second), "right") << "by the marks of their ends";
+    EXPECT_EQ(read(dicom_item(little(0, 4) + little(second_at, 4)) + first + second), "right");
+    EXPECT_EQ(read(dicom_item("") + dicom_item(frames[0]) + dicom_item(frames[1]) + dicom_item("")), "right");
+    EXPECT_THAT(read(dicom_item("") + first + second + second),
+                HasSubstr("its 2 frames cannot be told apart"));
+    EXPECT_THAT(read(dicom_item("") + first), HasSubstr("cannot be decoded"));
+    EXPECT_THAT(read(dicom_item("") + dicom_item(frames[0].substr(0, 60)) + second), HasSubstr("cannot be"));
 }
 
 TEST_F(DicomImage, MayHoldFewerBitsThanItsPixelsTake) {

@@ -53,7 +53,7 @@ TEST_F(PictureStackFolder, IsInTheOrderOfTheNumbersInItsNames) {
 
 TEST(PictureOrder, IsThatOfNumbersAndSaysWhereOneIsMissing) {
     const auto sorted = [](std::vector<std::filesystem::path> names) {
-        std::ranges::sort(names, comes_before);
+        sort_by_numbers(names);
         return names;
     };
     EXPECT_THAT(sorted({"s_1.png", "s_-2.png", "s_0.png", "s_-10.png"}),
@@ -61,6 +61,18 @@ TEST(PictureOrder, IsThatOfNumbersAndSaysWhereOneIsMissing) {
     EXPECT_THAT(sorted({"b-2.png", "B-1.png", "a-3.png"}), ElementsAre("a-3.png", "B-1.png", "b-2.png"));
     EXPECT_THAT(sorted({"a (10).png", "a.png", "a (2).png"}),
                 ElementsAre("a.png", "a (2).png", "a (10).png"));
+    EXPECT_THAT(sorted({"s0.png", "s-2.png", "s1.png", "s-10.png", "s-1.png"}),
+                ElementsAre("s-10.png", "s-2.png", "s-1.png", "s0.png", "s1.png"));
+    EXPECT_THAT(sorted({"z10.25.png", "z10.5.png", "z9.75.png", "z10.png", "z-0.5.png", "z-0.25.png"}),
+                ElementsAre("z-0.5.png", "z-0.25.png", "z9.75.png", "z10.png", "z10.25.png", "z10.5.png"));
+    EXPECT_THAT(sorted({"v1.10.png", "v1.9.png", "v1.8.png"}),
+                ElementsAre("v1.8.png", "v1.9.png", "v1.10.png"))
+        << "which count";
+    EXPECT_THAT(sorted({"1.2.25.png", "1.2.3.png"}), ElementsAre("1.2.3.png", "1.2.25.png"));
+    EXPECT_EQ(doubt_of_order({"z0.5.png", "z0.75.png", "z1.png", "z1.25.png", "z1.5.png"}), "");
+    EXPECT_THAT(doubt_of_order({"z0.5.png", "z0.75.png", "z1.25.png", "z1.5.png"}),
+                HasSubstr("'z0.75.png' is followed by 'z1.25.png', where most names differ by 0.25"));
+    EXPECT_EQ(doubt_of_order({"s-2.png", "s-1.png", "s0.png", "s1.png"}), "");
     EXPECT_EQ(doubt_of_order({"s010.png", "s020.png", "s030.png"}), "");
     EXPECT_EQ(doubt_of_order({"apple.png", "pear.png", "plum.png"}), "") << "not numbered at all";
     EXPECT_THAT(doubt_of_order({"s1.png", "s2.png", "s4.png", "s5.png"}),
