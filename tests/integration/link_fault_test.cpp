@@ -1,6 +1,5 @@
 // What a network and its people do to a session, with the real server: afterwards every client that still
-// lives has the server's bone bit for bit, and the server has kept within its memory. How the loops fare is
-// for link_fault_benchmark to measure.
+// lives has the server's bone bit for bit, and the server has kept within its memory.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
