@@ -2,12 +2,6 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
-#include <array>
-#include <atomic>
-#include <boost/asio/buffer.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/udp.hpp>
-#include <boost/asio/local/stream_protocol.hpp>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +11,6 @@
 #include <thread>
 #include <vector>
 
-#include "bridge/osteomill_bridge.h"
 #include "tests/support/child_process.h"
 #include "tests/support/logged_removal.h"
 #include "tests/support/temporary_folder.h"
@@ -27,7 +20,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 using Command = std::vector<std::string>;
 
@@ -37,11 +29,10 @@ class BridgePrograms : public ::testing::Test {
   protected:
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
     std::string socket() const { return "unix:" + file("arm"); }
-    Command server(const std::string& seconds, const Command& more = {}, const std::string& at = {}) const {
-        Command command{HAPTIC_SERVER,    "--device",  "bridge",          "--scene", "cube",
-                        "--listen",       "none",      "--duration-s",    seconds,   "--json",
-                        file("run.json"), "--log-csv", file("force.csv"), "--bridge"};
-        command.push_back(at.empty() ? socket() : at);
+    Command server(const std::string& seconds, const Command& more = {}) const {
+        Command command{HAPTIC_SERVER,    "--device",  "bridge",          "--scene",  "cube",
+                        "--listen",       "none",      "--duration-s",    seconds,    "--json",
+                        file("run.json"), "--log-csv", file("force.csv"), "--bridge", socket()};
         command.insert(command.end(), more.begin(), more.end());
         return command;
     }
@@ -130,24 +121,6 @@ TEST_F(BridgePrograms, AServerThatStandsStillTakesTheForceAwayWithoutAJump) {
     expect_no_jump(hand.out());
 }
 
-TEST_F(BridgePrograms, AnArmThatStandsStillTakesTheForceAwayAndComesBack) {
-    ChildProcess running(server("600"));
-    ASSERT_TRUE(running.line_after("waiting for an arm at"));
-    ChildProcess hand(arm("600"));
-    ASSERT_TRUE(running.line_after("arm simulated arm has joined"));
-    ASSERT_TRUE(has_removed(0.1)) << running.err();
-    const double before_mm3 = removed_mm3();
-    hand.send_signal(SIGSTOP);
-    EXPECT_TRUE(has_logged(running, lost)) << running.err();
-    hand.send_signal(SIGCONT);
-    EXPECT_TRUE(has_removed(before_mm3 + 0.1)) << "it comes back: " << running.err();
-    hand.send_signal(SIGINT);
-    ASSERT_EQ(hand.wait(), 0) << hand.err();
-    running.send_signal(SIGINT);
-    ASSERT_EQ(running.wait(), 0) << running.err();
-    expect_no_jump(hand.out());
-}
-
 TEST_F(BridgePrograms, WithAnotherKeyNobodyJoins) {
     std::ofstream(file("key")) << std::string(40, 'k');
     std::ofstream(file("other")) << std::string(40, 'o');
@@ -164,67 +137,6 @@ TEST_F(BridgePrograms, WithAnotherKeyNobodyJoins) {
     EXPECT_EQ(member.wait(), 0);
 }
 
-TEST_F(BridgePrograms, ARecordedHelloKeepsNoArmOutHoweverOftenItIsSent) {
-    const std::string secret(40, 'k');
-    std::ofstream(file("key")) << secret;
-    std::filesystem::permissions(file("key"), std::filesystem::perms(0600));
-    ChildProcess running(server("2", {"--bridge-key", file("key")}, "udp:127.0.0.1:0"));
-    const auto where = running.line_after("waiting for an arm at ");
-    ASSERT_TRUE(where) << running.err();
-    std::atomic<bool> is_over{false};
-    std::thread stranger([&, port = std::stoi(where->substr(where->rfind(':') + 1))] {
-        // As somebody on the path saw it: of an arm that has the key.
-        std::array<std::uint8_t, OMB_MESSAGE_BYTES> hello{};
-        omb_key key;
-        omb_set_key(&key, reinterpret_cast<const std::uint8_t*>(secret.data()), secret.size());
-        const omb_header header{OMB_HELLO, 0, 1, 1};
-        omb_arm arm{};
-        arm.max_force_n = 3.0;
-        arm.max_stiffness_n_per_mm = 1.5;
-        arm.apparent_mass_kg = 0.05;
-        omb_put_header(hello.data(), &header);
-        omb_put_hello(hello.data(), 7, &arm);
-        omb_seal(hello.data(), &key);
-        boost::asio::io_context io;
-        const boost::asio::ip::udp::endpoint to(boost::asio::ip::address_v4::loopback(),
-                                                static_cast<unsigned short>(port));
-        boost::asio::ip::udp::socket socket(io, boost::asio::ip::udp::v4());
-        boost::system::error_code ignored;
-        while (!is_over) {
-            for (int i = 0; i < 4; ++i) socket.send_to(boost::asio::buffer(hello), to, 0, ignored);
-            std::this_thread::sleep_for(1ms);
-        }
-    });
-    ChildProcess member({SIMULATED_ARM, *where, file("key"), "600"});
-    EXPECT_TRUE(running.line_after("arm simulated arm has joined")) << running.err();
-    EXPECT_EQ(running.wait(), 0) << running.err();
-    is_over = true;
-    stranger.join();
-    member.send_signal(SIGKILL);
-    member.wait();
-}
-
-TEST_F(BridgePrograms, LeavesAloneWhatOfOthersIsAtItsPath) {
-    boost::asio::io_context io;
-    boost::asio::local::stream_protocol::acceptor others(
-        io, boost::asio::local::stream_protocol::endpoint(file("arm")));
-    const Finished beside = run_program(server("1"));
-    EXPECT_EQ(beside.status, 1);
-    EXPECT_THAT(beside.err, HasSubstr("arm: another program listens there"));
-    EXPECT_EQ(count(beside.err, "\n"), 1) << beside.err;
-    boost::asio::local::stream_protocol::socket visitor(io);
-    visitor.connect(others.local_endpoint());  // it still serves
-    std::filesystem::remove(file("arm"));
-    // And what came in its own socket's place.
-    ChildProcess running(server("100"));
-    ASSERT_TRUE(running.line_after("waiting for an arm at"));
-    std::filesystem::remove(file("arm"));
-    std::ofstream(file("arm")) << "kept";
-    running.send_signal(SIGINT);
-    EXPECT_EQ(running.wait(), 0) << running.err();
-    EXPECT_TRUE(std::filesystem::exists(file("arm")));
-}
-
 TEST_F(BridgePrograms, StopsOnASignalWhileItWaits) {
     ChildProcess running(server("2"));
     ASSERT_TRUE(running.line_after("waiting for an arm at"));
@@ -234,6 +146,8 @@ TEST_F(BridgePrograms, StopsOnASignalWhileItWaits) {
 }
 
 TEST_F(BridgePrograms, SaysInOneLineWhatIsWrong) {
+    std::ofstream(file("open")) << std::string(40, 'k');
+    std::filesystem::permissions(file("open"), std::filesystem::perms(0644));
     for (const auto& [more, status, words] :
          {std::tuple(Command{"--device", "bridge", "--bridge", "udp:0.0.0.0:7020"}, 2, "needs --bridge-key"),
           std::tuple(Command{"--device", "bridge", "--bridge", "here"}, 2, "--bridge: 'here' is no address"),
@@ -241,6 +155,8 @@ TEST_F(BridgePrograms, SaysInOneLineWhatIsWrong) {
           std::tuple(Command{"--device", "bridge", "--clock", "virtual"}, 2, "--clock"),
           std::tuple(Command{"--device", "bridge", "--bridge-key", "/nowhere"}, 1,
                      "/nowhere: cannot be read"),
+          std::tuple(Command{"--device", "bridge", "--bridge-key", file("open")}, 1,
+                     "open: is a key of the bridge that others may read"),
           std::tuple(Command{"--device", "bridge", "--bridge", "unix:/nowhere/arm"}, 1,
                      "no socket can be made")}) {
         Command command{HAPTIC_SERVER, "--listen", "none"};

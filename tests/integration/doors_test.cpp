@@ -173,44 +173,6 @@ TEST_F(Doors, LetOperatorsAloneMoveTheToolAndTellTheOthersThatTheyWatch) {
     EXPECT_THAT(server_->err(), Not(HasSubstr("(student) may only watch; "))) << "it asked for nothing";
 }
 
-TEST_F(Doors, TakeTheToolFromOneWhoOnlyKeepsItWhenAnotherAsks) {
-    start_server(lab_->server("bench"));
-    const auto asleep = link(lab_->client("asleep"));
-    const auto awake = link(lab_->client("awake"));
-    ASSERT_TRUE(is_live(*asleep));
-    ASSERT_TRUE(is_live(*awake));
-    const glm::dvec3 rest_mm = asleep->poll().tool.value_or(ToolState{}).hand_position_mm;
-    const auto keep = [&] { asleep->send_operator({.hand_target_mm = rest_mm}); };
-    ASSERT_TRUE(eventually([&] {
-        keep();
-        const auto tool = asleep->poll().tool;
-        return tool && tool->driver == ToolDriver::you;
-    }));
-    double time_s = 0.0;
-    double asked_first_s = 0.0;
-    EXPECT_TRUE(eventually([&] {
-        keep();
-        asleep->poll();
-        awake->send_operator({.hand_target_mm = rest_mm});
-        const auto tool = awake->poll().tool;
-        if (!tool) return false;
-        time_s = tool->time_s;  // the session's, which a busy machine does not stretch
-        if (asked_first_s == 0.0) asked_first_s = time_s;
-        return tool->driver == ToolDriver::you;
-    })) << "it has asked for it for a minute";
-    EXPECT_GT(time_s - asked_first_s, 25.0) << "half a minute of rest is its right";
-    EXPECT_TRUE(eventually([&] {
-        awake->send_operator({.hand_target_mm = rest_mm});
-        keep();
-        awake->poll();
-        const auto tool = asleep->poll().tool;
-        return tool && tool->driver == ToolDriver::another;
-    }));
-    end_session();
-    EXPECT_THAT(server_->err(), HasSubstr("(asleep) no longer moves the tool"));
-    EXPECT_THAT(server_->err(), HasSubstr("(awake) moves the tool"));
-}
-
 TEST_F(Doors, OpenForOperatorsOnlyWhereItIsKnownWhoTheyAre) {
     std::ofstream(file("operators")) << "surgeon\n";
     const TlsFiles bench = lab_->server("bench");

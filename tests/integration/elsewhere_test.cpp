@@ -27,7 +27,6 @@ using namespace std::chrono_literals;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using ::testing::StartsWith;
 using Command = std::vector<std::string>;
 
 constexpr const char* cube_case = "name = \"x\"\n[bone]\nphantom = \"cube\"\n";
@@ -287,16 +286,6 @@ TEST_F(FromElsewhere, ASignalEndsWhatIsStillReading) {
     ChildProcess loading({HAPTIC_SERVER, "--scene", "head", "--listen", "none"});
     loading.send_signal(SIGTERM);
     EXPECT_THAT(loading.wait(60s), ::testing::AnyOf(0, 128 + SIGTERM));
-}
-
-TEST_F(FromElsewhere, ASecretThatOthersMayReadIsNone) {
-    write(folder_ / "key", std::string(40, 'k'));
-    for (const auto mode : {0644, 0622, 0666, 0640 | 0004}) {
-        fs::permissions(folder_ / "key", static_cast<fs::perms>(mode));
-        expect_refused(run_program({HAPTIC_SERVER, "--device", "bridge", "--bridge-key", file("key"),
-                                    "--listen", "none"}),
-                       "key: is a key of the bridge that others may read");
-    }
 }
 
 TEST_F(FromElsewhere, NumbersOutOfAnySenseAreRefusedWhereTheyEnter) {

@@ -26,7 +26,6 @@ using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 using Command = std::vector<std::string>;
 using ::testing::AllOf;
-using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 class OutputFiles : public ::testing::Test {
@@ -117,17 +116,6 @@ TEST_F(OutputFiles, OnAFullDiskLeaveTheOldOnesAsTheyWere) {
     EXPECT_FALSE(fs::exists(file("b.part.csv")));
 }
 
-TEST_F(OutputFiles, OfASessionThatCannotBeginLeaveNoParts) {
-    put("force.csv");
-    const Finished session =
-        run_program(server({"--listen", "192.0.2.1:7010", "--insecure-network", "--log-csv",
-                            file("force.csv"), "--record", file("a.pcap")}));
-    EXPECT_EQ(session.status, 1) << session.err;
-    EXPECT_EQ(text_of("force.csv"), "old");
-    EXPECT_FALSE(fs::exists(file("force.part.csv")));
-    EXPECT_FALSE(fs::exists(file("a.part.pcap")));
-}
-
 TEST_F(OutputFiles, ThatCannotBeWrittenAreRefusedAtTheStart) {
     fs::create_directory(file("folder.nrrd"));
     for (const std::string name : {"--json", "--save-bone"})
@@ -201,18 +189,6 @@ TEST_F(OutputFiles, AreRefusedWhereTheyWouldDestroyAKeyOrACertificate) {
         expect_refused(with({RENDER_CLIENT, "--offscreen"}, {"--record", path}), option, "--record");
     }
     EXPECT_EQ(text_of("key.pem"), "old");
-}
-
-TEST_F(OutputFiles, OfTwoSessionsAtATimeDoNotMix) {
-    ChildProcess first(server({"--listen", "127.0.0.1:0", "--record", file("a.pcap")}));
-    ASSERT_TRUE(first.line_after("listening on ", 60s));
-    const Finished second =
-        run_program(server({"--clock", "virtual", "--duration-s", "0.1", "--record", file("a.pcap")}));
-    EXPECT_EQ(second.status, 1);
-    EXPECT_THAT(second.err, HasSubstr("a.part.pcap: another session is writing it"));
-    first.send_signal(SIGINT);
-    EXPECT_EQ(first.wait(60s), 0);
-    EXPECT_EQ(run_program({PACKET_REPLAY, file("a.pcap"), "--info"}).status, 0);
 }
 
 }  // namespace

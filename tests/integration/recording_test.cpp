@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -21,7 +20,6 @@
 #include "common/recording/playhead.h"
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
-#include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::testing {
@@ -212,9 +210,8 @@ TEST_F(Recording, BecomesAFilm) {
     EXPECT_EQ(seen.out, "102\n80\n30/1\n" + std::to_string(frames) + "\n") << "of an even width";
 
     // As packet_replay has it made.
-    const Finished without =
-        run_program({"/usr/bin/env", "PATH=/nowhere", "ASAN_OPTIONS=detect_leaks=0", PACKET_REPLAY,
-                     file("a.pcap"), "--film", file("b.mp4")});
+    const Finished without = run_program({"/usr/bin/env", "PATH=/nowhere", "ASAN_OPTIONS=detect_leaks=0",
+                                          PACKET_REPLAY, file("a.pcap"), "--film", file("b.mp4")});
     EXPECT_EQ(without.status, 1);
     EXPECT_THAT(without.err, HasSubstr("install Debian's package ffmpeg"));
     EXPECT_EQ(std::count(without.err.begin(), without.err.end(), '\n'), 1) << without.err;
@@ -329,32 +326,6 @@ TEST_F(Recording, HoldsOnlyStatesWhereNoTicksAreAskedFor) {
     EXPECT_EQ(text_of("a--csv"), text_of("a--states-csv"));
     command.back() = "100";
     EXPECT_EQ(run_program(command).status, 2);
-}
-
-TEST_F(Recording, OfAServerThatWasKilledIsReadableToItsLastWholeFrame) {
-    ChildProcess server(
-        {HAPTIC_SERVER, "--bone", file("block.nrrd"), "--listen", "127.0.0.1:0", "--record", file("a.pcap")});
-    ASSERT_TRUE(server.line_after("listening on ", 60s)) << server.err();
-    // Until its session ends a recording is a part; that of a killed one stays.
-    const auto size = [&] { return std::filesystem::file_size(file("a.part.pcap")); };
-    const auto with_snapshot = size();
-    ASSERT_TRUE(eventually([&] { return size() > with_snapshot + 5'000; })) << "no states";
-    server.send_signal(SIGKILL);
-    EXPECT_EQ(server.wait(60s), 128 + SIGKILL);
-    EXPECT_FALSE(std::filesystem::exists(file("a.pcap")));
-    const auto read = info("a.part.pcap");
-    EXPECT_FALSE(read.at("ends_with_goodbye"));
-    EXPECT_GT(read.at("frames"), 10);
-
-    // The disk of a machine that lost its power may have kept less.
-    std::filesystem::resize_file(file("a.part.pcap"), size() - 3);
-    EXPECT_TRUE(info("a.part.pcap").at("is_truncated"));
-    EXPECT_EQ(info("a.part.pcap").at("frames").get<int>(), read.at("frames").get<int>() - 1);
-
-    // Nor is it lost with the next session of that name.
-    record("a.pcap");
-    EXPECT_TRUE(info("a.pcap").at("ends_with_goodbye"));
-    EXPECT_EQ(info("a.torn-1.pcap").at("frames").get<int>(), read.at("frames").get<int>() - 1);
 }
 
 TEST_F(Recording, WithADamagedMiddleIsNotTakenForATornEnd) {

@@ -1,5 +1,5 @@
-// What --save-bone leaves when it is stopped, when the disk is full, and when a bit of it flips: the real
-// server saves, is killed, and loads again.
+// What --save-bone leaves when it is stopped and when the disk is full: the real server saves, is killed, and
+// loads again.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
-#include <thread>
 
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -121,20 +120,14 @@ TEST_F(SavedBone, KilledAtAnyMomentIsTheOldOrTheNewOne) {
         }
         return bytes;
     };
-    std::mt19937 random(4);
     int kept = 0;
-#if defined(__SANITIZE_ADDRESS__)
-    constexpr int kills = 4;  // each takes seconds there
-#else
-    constexpr int kills = 20;
-#endif
-    for (int round = 0; round < kills; ++round) {
+    constexpr unsigned kills = 6;
+    for (unsigned round = 0; round < kills; ++round) {
         for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
             if (entry.path().filename().string().starts_with("carved")) std::filesystem::remove(entry.path());
         std::filesystem::copy(folder_ / "old", folder_.path());
         ChildProcess killed(save_again);
-        const auto at_bytes = std::max<std::uintmax_t>(
-            1, std::uniform_int_distribution<std::uintmax_t>(0, whole_bytes)(random));
+        const std::uintmax_t at_bytes = 1 + whole_bytes * round / kills;
         const auto deadline = Clock::now() + 60s;
         bool has_begun = false;
         while (Clock::now() < deadline) {
@@ -178,51 +171,6 @@ TEST_F(SavedBone, MayBeTheFileThatWasLoaded) {
     EXPECT_EQ(loaded(file("block.nrrd")), second);
 }
 
-TEST_F(SavedBone, GoesOnCountingWhatWasRemoved) {
-    write_block(file("block.nrrd"), 60, 0.1, 50);
-    saved(file("block.nrrd"), file("carved.nrrd"), "4");
-    const double first_mm3 = measured("saved.json").at("removed_mm3").at("total");
-    EXPECT_GT(first_mm3, 0.01);
-    EXPECT_FALSE(measured("saved.json").contains("removed_before_mm3"));
-    const Finished second = testing::run_program(
-        server({"--duration-s", "0.01", "--bone", file("carved.nrrd"), "--save-bone", file("carved.nrrd"),
-                "--json", file("second.json"), "--log-csv", file("second.csv")}));
-    ASSERT_EQ(second.status, 0) << second.err;
-    EXPECT_THAT(second.err, HasSubstr("mm^3 were removed before; the count goes on from there"));
-    EXPECT_NEAR(measured("second.json").at("removed_mm3").at("total"), first_mm3, 1e-6);
-    EXPECT_NEAR(measured("second.json").at("removed_before_mm3").at("total"), first_mm3, 1e-6);
-    // And once more, of what was saved over.
-    saved(file("carved.nrrd"), file("again.nrrd"), "0.01");
-    EXPECT_NEAR(measured("saved.json").at("removed_mm3").at("total"), first_mm3, 1e-6);
-}
-
-TEST_F(SavedBone, IsRefusedOrTheSameWithAnyBitFlipped) {
-    write_block(file("scan.nrrd"), 24, 0.2, 20);
-    ASSERT_EQ(
-        testing::run_program({BONE_IMPORT, file("scan.nrrd"), file("imported.nrrd"), "--threshold-hu", "300"})
-            .status,
-        0);
-    saved(file("imported.nrrd"), file("carved.nrrd"), "1");
-    std::mt19937 random(8);
-    for (const char* name : {"imported.nrrd", "carved.nrrd"}) {
-        const std::string text = text_of(file(name));
-        const std::string whole = loaded(file(name));
-        ASSERT_EQ(whole.size(), 16u) << whole;
-        int refused = 0;
-        constexpr int rounds = 40;
-        for (int round = 0; round < rounds; ++round) {
-            std::string flipped = text;
-            const std::size_t at = std::uniform_int_distribution<std::size_t>(0, text.size() - 1)(random);
-            flipped[at] = static_cast<char>(flipped[at] ^ (1 << (random() % 8)));
-            std::ofstream(file("flipped.nrrd"), std::ios::binary) << flipped;
-            const std::string now = loaded(file("flipped.nrrd"));
-            EXPECT_TRUE(now == whole || now.size() > 16u) << name << ", byte " << at << ": " << now;
-            if (now != whole) ++refused;
-        }
-        EXPECT_GT(refused, rounds * 3 / 4) << name;
-    }
-}
-
 // Refined to 451^3 voxels, of which few are bone.
 TEST_F(SavedBone, TakesTheMemoryOfItsBoneNotOfItsGrid) {
     constexpr std::uint64_t volume_bytes = 2 * std::uint64_t{451} * 451 * 451;
@@ -238,11 +186,6 @@ TEST_F(SavedBone, TakesTheMemoryOfItsBoneNotOfItsGrid) {
     if (is_optimised) {
         EXPECT_LT(peak_of_children(), volume_bytes * 3 / 4) << "of both programs";
     }
-}
-
-TEST_F(SavedBone, WithoutBoneIsRefused) {
-    write_block(file("air.nrrd"), 300, 0.1, 0);
-    EXPECT_THAT(loaded(file("air.nrrd")), HasSubstr("air.nrrd: holds no bone: no voxel reaches 300 HU"));
 }
 
 }  // namespace

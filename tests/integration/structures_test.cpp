@@ -212,50 +212,6 @@ TEST_F(StructuresProgram, OfACaseThatWasImportedWithItsSegmentationAreGuarded) {
     EXPECT_THAT(text("case_report/report.html"), HasSubstr("nerve"));
 }
 
-// The pulp of the built-in tooth is bone of a protected label: what is gone of it is what was milled of that
-// tissue, and undo gives it back, though not the touch.
-TEST_F(StructuresProgram, OfBoneTellWhatWasMilledAndWhatWasGivenBack) {
-    std::ofstream(file("down.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
-                                       "0.0,0.5,0.2,6.5,0,0,1,0\n"
-                                       "0.3,0.5,0.2,6.0,0,0,1,1\n"
-                                       "6.0,0.5,0.2,-3.0,0,0,1,1\n"
-                                       "7.0,0.5,0.2,6.0,0,0,1,1\n"
-                                       "7.5,0.5,0.2,6.0,0,0,1,0\n"
-                                       "9.5,0.5,0.2,6.0,0,0,1,0\n";
-    std::ofstream(file("undo.csv")) << "t_s,action,text\n8.0,undo,\n";
-    const auto drill = [&](const std::string& report, std::vector<std::string> more) {
-        std::vector<std::string> command{HAPTIC_SERVER,  "--clock",        "virtual",
-                                         "--trajectory", file("down.csv"), "--report",
-                                         file(report),   "--json",         file("server.json")};
-        command.insert(command.end(), more.begin(), more.end());
-        const Finished served = run_program(command);
-        EXPECT_EQ(served.status, 0) << served.err;
-        EXPECT_THAT(served.err, HasSubstr("the burr touches pulp"));
-        return nlohmann::json::parse(text("server.json"));
-    };
-    const auto metric = [&](const std::string& report, const std::string& key) {
-        return nlohmann::json::parse(text(report + "/metrics.json"))
-            .at("metrics")
-            .at(key + "_of")
-            .at("pulp")
-            .get<double>();
-    };
-    const auto drilled = drill("drilled", {});
-    const double milled_mm3 = drilled.at("removed_mm3").at("pulp").get<double>();
-    ASSERT_GT(milled_mm3, 0.5);
-    EXPECT_NEAR(drilled.at("structures").at(0).at("removed_mm3").get<double>(), milled_mm3, 1e-9);
-    EXPECT_NEAR(metric("drilled", "structure_dose_mm3"), milled_mm3, 1e-9);
-    // Of a structure that is bone all through, the head was where bone is gone, but for voxels in part.
-    EXPECT_NEAR(metric("drilled", "structure_entered_mm3"), milled_mm3, 0.15 * milled_mm3);
-
-    const auto undone = drill("undone", {"--controls", file("undo.csv")});
-    EXPECT_EQ(undone.at("structures").at(0).at("removed_mm3"), 0.0);
-    EXPECT_EQ(undone.at("structures").at(0).at("touches"), 1);
-    EXPECT_NEAR(metric("undone", "structure_dose_mm3"), 0.0, 1e-9);
-    EXPECT_NEAR(metric("undone", "structure_undone_mm3"), milled_mm3, 1e-9);
-    EXPECT_EQ(metric("undone", "structure_touches"), 1.0);
-}
-
 TEST_F(StructuresProgram, CostNothingWhereNothingIsProtected) {
     write_scene("");
     std::string scene = text("scene.toml");

@@ -293,6 +293,10 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     expect_refused("realtime --quick --duration-s 60", 2, "--duration-s");
     expect_refused(std::string("force --cases ") + case_file + " --voxel-mm 0", 2, "--voxel-mm");
     expect_refused("force --case x.json", 2, "--case");
+    expect_refused("stability --shard 3/2", 2, "'3/2' is no part I/N with 1 <= I <= N");
+    expect_refused("stability --methods hold,glue", 2, "glue");
+    expect_refused("stability --delays 7", 2, "7");
+    expect_refused("stability --merge a --quick", 2, "--merge");
 }
 
 TEST_F(StudyProgram, SaysAtTheStartThatItCannotDrawCharts) {

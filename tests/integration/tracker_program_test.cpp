@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -173,41 +172,6 @@ TEST_F(TrackerPrograms, MillsTheSweptVolumeAtAnyRateAndJitter) {
             EXPECT_NEAR(removed_mm3(), groove_mm3(), 0.01 * groove_mm3()) << how.rate_hz << " Hz";
         });
     }
-}
-
-TEST_F(TrackerPrograms, MillsARecordedMotionAsItWasMilled) {
-    // A hand's motion through the cavity of a tooth, as a session logged the burr.
-    const Finished recorded =
-        run_program({HAPTIC_SERVER, "--clock", "virtual", "--scene", "tooth", "--duration-s", "6",
-                     "--log-csv", file("motion.csv"), "--json", file("run.json")});
-    ASSERT_EQ(recorded.status, 0) << recorded.err;
-    const double expected_mm3 = removed_mm3();
-    ASSERT_GT(expected_mm3, 1.0);
-    std::vector<Moment> moments;
-    std::ifstream csv(file("motion.csv"));
-    std::string line;
-    std::getline(csv, line);
-    while (std::getline(csv, line)) {
-        std::vector<double> values;
-        std::istringstream cells(line);
-        for (std::string cell; std::getline(cells, cell, ',');) values.push_back(std::stod(cell));
-        moments.push_back({{values[4], values[5], values[6]}, values[12] != 0.0});
-    }
-    const auto motion = [&](double time_s) {
-        const double at_s = std::max(0.0, time_s - 1.0);  // what turns the force on takes a while in the air
-        return moments[std::min(moments.size() - 1, static_cast<std::size_t>(1000.0 * at_s))];
-    };
-    const auto session = [&] {
-        ChildProcess running(server("tooth"));
-        ASSERT_TRUE(tracker_.accept());
-        play(motion, 7.2, {.rate_hz = 100.0, .jitter_s = 0.01});
-        end(running);
-        tracker_.hang_up();
-    };
-    in_a_session_in_time(session, [&] {
-        RecordProperty("error_percent", std::to_string(100.0 * (removed_mm3() / expected_mm3 - 1.0)));
-        EXPECT_NEAR(removed_mm3(), expected_mm3, 0.03 * expected_mm3);
-    });
 }
 
 TEST_F(TrackerPrograms, StopsTheSpindleWhenTheTrackerIsSilentAndGoesOn) {
