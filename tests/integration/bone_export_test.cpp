@@ -8,9 +8,13 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <string>
 #include <thread>
+#include <vector>
 
+#include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
+#include "tests/support/milling_motion.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -27,12 +31,15 @@ std::string text_of(const std::filesystem::path& path) {
 
 class BoneExport : public ::testing::Test {
   protected:
-    /// The cube, drilled for a while.
-    void drill() const {
-        const Finished run = run_program({HAPTIC_SERVER, "--scene", "cube", "--clock", "virtual",
-                                          "--duration-s", "1", "--record", file("a.pcap"), "--save-bone",
-                                          file("carved.nrrd"), "--json", file("a.json")});
-        ASSERT_EQ(run.status, 0) << run.err;
+    /// A block, drilled for a while.
+    Finished drill(const std::string& duration_s, const std::vector<std::string>& more) const {
+        testing::write_block(file("block.nrrd"));
+        testing::write_milling_motion(file("motion.csv"));
+        std::vector<std::string> command{HAPTIC_SERVER,  "--bone",           file("block.nrrd"),
+                                         "--trajectory", file("motion.csv"), "--clock",
+                                         "virtual",      "--duration-s",     duration_s};
+        command.insert(command.end(), more.begin(), more.end());
+        return run_program(command);
     }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
     double removed_mm3() const {
@@ -43,8 +50,9 @@ class BoneExport : public ::testing::Test {
 };
 
 TEST_F(BoneExport, GivesTheSameSurfaceOfTheSavedBoneAndOfTheRecording) {
-    drill();
-    drill();
+    const Finished drilled = drill(
+        "2", {"--record", file("a.pcap"), "--save-bone", file("carved.nrrd"), "--json", file("a.json")});
+    ASSERT_EQ(drilled.status, 0) << drilled.err;
     const Finished exported = run_program({BONE_EXPORT, file("carved.nrrd"), file("a.stl")});
     EXPECT_EQ(exported.status, 0) << exported.err;
     EXPECT_THAT(exported.err, HasSubstr("triangles"));
@@ -55,8 +63,7 @@ TEST_F(BoneExport, GivesTheSameSurfaceOfTheSavedBoneAndOfTheRecording) {
     EXPECT_TRUE(std::filesystem::exists(file("b.json")));
 
     // A bone saved at once is the one that was drilled.
-    const Finished whole = run_program({HAPTIC_SERVER, "--scene", "cube", "--clock", "virtual",
-                                        "--duration-s", "0.001", "--save-bone", file("whole.nrrd")});
+    const Finished whole = drill("0.001", {"--save-bone", file("whole.nrrd")});
     ASSERT_EQ(whole.status, 0) << whole.err;
     const Finished gone =
         run_program({BONE_EXPORT, file("carved.nrrd"), file("gone2.nrrd"), "--removed", file("whole.nrrd")});
@@ -79,14 +86,14 @@ TEST_F(BoneExport, GivesTheSameSurfaceOfTheSavedBoneAndOfTheRecording) {
 }
 
 TEST_F(BoneExport, ThatIsStoppedLeavesNothingAndSaysSo) {
-    const Finished large = run_program({HAPTIC_SERVER, "--case", "jaw", "--clock", "virtual", "--duration-s",
-                                        "0.001", "--save-bone", file("jaw.nrrd")});
+    const Finished large = run_program({HAPTIC_SERVER, "--scene", "cube", "--clock", "virtual",
+                                        "--duration-s", "0.001", "--save-bone", file("cube.nrrd")});
     ASSERT_EQ(large.status, 0) << large.err;
     std::filesystem::create_directory(file("out"));
     bool was_in_time = false;
     // It may be told before it listens, or be done before it is told; then once more.
     for (int attempt = 0; attempt < 20 && !was_in_time; ++attempt) {
-        testing::ChildProcess exported({BONE_EXPORT, file("jaw.nrrd"), file("out/a.stl")});
+        testing::ChildProcess exported({BONE_EXPORT, file("cube.nrrd"), file("out/a.stl")});
         std::this_thread::sleep_for(std::chrono::milliseconds(100 * (attempt + 1)));
         exported.send_signal(attempt % 2 == 0 ? SIGINT : SIGTERM);
         if (exported.wait(std::chrono::seconds(100)) == 1) {
