@@ -204,18 +204,18 @@ class DatasetTest(unittest.TestCase):
 
     def test_a_point_of_the_tool_lands_by_the_poses_within_half_a_pixel_in_the_next_frame(self):
         """Measured in pictures four times as fine, for a pixel says no more of an outline than that it is somewhere in it."""
-        self.make("fine", "--dataset-images", "depth,labels,normals", cameras="fine.toml")
+        self.make("fine", "--from-s", "1.4", "--dataset-images", "depth,labels,normals", cameras="fine.toml")
         self.look_at("fine")
         for off_px in (0.0, 1.0):
             seen, landed = (np.concatenate(all_of) for all_of in zip(*(
-                self.landings(camera, frame, off_px) for camera in ("fine", "fine_moving") for frame in range(4, 24))))
-            self.assertGreater(len(seen), 50_000)
+                self.landings(camera, frame, off_px) for camera in ("fine", "fine_moving") for frame in range(1, 10))))
+            self.assertGreater(len(seen), 20_000)
             if off_px == 0.0:
                 # The rest is hidden: by bone, and by the burr's edges.
                 self.assertGreater(seen.mean(), 0.99)
                 self.assertEqual((seen & ~landed).sum(), 0, "points that landed elsewhere")
             else:
-                self.assertGreater((seen & ~landed).sum(), 5_000, "what is off by a pixel is not found out")
+                self.assertGreater((seen & ~landed).sum(), 2_000, "what is off by a pixel is not found out")
 
     def test_a_pair_sees_the_same_surface(self):
         points = self.points(24, "side_left")[self.image(24, "side_left", "labels") > 3]
@@ -227,13 +227,10 @@ class DatasetTest(unittest.TestCase):
         baseline = self.pose(24, "side_right")[:3] - self.pose(24, "side_left")[:3]
         self.assertAlmostEqual(np.linalg.norm(baseline), 4.0, places=9)
 
-    def test_the_same_command_writes_the_same_bytes_and_parts_those_of_the_whole(self):
+    def test_parts_that_are_made_later_have_the_bytes_of_the_whole(self):
         whole = hashes(self.folder / "set")
-        kinds = "--dataset-images", "colour,depth,ray-depth,labels,normals"
-        self.make("again", *kinds)
-        self.assertEqual(hashes(self.folder / "again"), whole)
         for part in ("1/3", "2/3", "3/3"):
-            self.make("parts", *kinds, "--shard", part)
+            self.make("parts", "--dataset-images", "colour,depth,ray-depth,labels,normals", "--shard", part)
         parts = hashes(self.folder / "parts")
         frames = []
         for part in (1, 2, 3):

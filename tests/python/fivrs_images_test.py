@@ -22,7 +22,7 @@ baseline_mm = 4
 """
 TRAJECTORY = """t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal,burr
 0.0,0.5,0.2,4.5,0,0,1,1,2
-0.6,-0.8,0.4,3.6,0.1,0.1,1,1,2
+0.3,-0.2,0.3,4.0,0.05,0.05,1,1,2
 """
 
 
@@ -50,7 +50,7 @@ class FivrsImagesTest(unittest.TestCase):
         (cls.folder / "cameras.toml").write_text(CAMERAS)
         (cls.folder / "hand.csv").write_text(TRAJECTORY)
         run_server(cls.folder, "--scene", "tooth", "--record", cls.folder / "s.pcap", "--trajectory", cls.folder / "hand.csv",
-                   "--duration-s", "0.6")
+                   "--duration-s", "0.3")
         for command in ((program("packet_replay"), "s.pcap", "--hdf5", "20260102_103000.hdf5", "--layout", "fivrs"),
                         (program("render_client"), "--replay", "s.pcap", "--dataset", "set", "--cameras", "cameras.toml"),
                         (program("render_client"), "--replay", "s.pcap", "--dataset", "few", "--dataset-fps", "5"),
@@ -64,7 +64,7 @@ class FivrsImagesTest(unittest.TestCase):
     def test_has_the_names_types_and_shapes(self):
         data, metadata = self.file["data"], self.file["metadata"]
         count = len(data["time"])
-        self.assertGreater(count, 15)
+        self.assertGreater(count, 7)
         for name, dtype, shape in (("l_img", "u1", (480, 640, 3)), ("r_img", "u1", (480, 640, 3)), ("segm", "u1", (480, 640, 3)),
                                    ("depth", "f8", (480, 640)), ("pose_main_camera", "f8", (7,))):
             self.assertEqual((data[name].dtype, data[name].shape), (dtype, (count, *shape)))
@@ -110,7 +110,7 @@ class FivrsImagesTest(unittest.TestCase):
             is_as_deep = np.abs(data["depth"][i + 1][at] / moved[2][inside] - 1.0) < 0.01
             points += inside.sum()
             landed += (is_there & is_as_deep).sum()
-        self.assertGreater(points, 20_000)
+        self.assertGreater(points, 8_000)
         self.assertGreater(landed / points, 0.995)
 
     def test_the_mastoid_has_the_colours_by_which_their_programs_tell_anatomy(self):
