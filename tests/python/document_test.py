@@ -35,6 +35,8 @@ class DocumentTest(unittest.TestCase):
     def test_the_first_image_set_and_its_frames_in_python_are_made_as_written(self):
         page = REPOSITORY / "docs" / "datasets.md"
         _, commands = blocks_of(page, "sh")[0]
+        self.assertIn("--duration-s 4 ", commands)
+        commands = commands.replace("--duration-s 4 ", "--duration-s 1 ")  # a quarter of the pictures
         [(line, block)] = blocks_of(page, "python")
         printed = io.StringIO()
         with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), contextlib.redirect_stdout(printed):
