@@ -17,5 +17,5 @@ set yrange [0.1:*]
 set xrange [-0.6:*]
 plot table using 0:'frames_per_s':xtic(strcol('bone').': '.strcol('motion')) \
          with boxes lc rgb blue title 'window: bone, tool and panels', \
-     table using 0:(column('frames_per_s')):(sprintf('%.3g', column('frames_per_s'))) with labels offset 0,0.6 font ',11' notitle, \
+     table using 0:(column('frames_per_s')):(sprintf('%.4g', column('frames_per_s'))) with labels offset 0,0.6 font ',11' notitle, \
      240 with lines dt 2 lw 1.5 lc rgb black title 'goal on a data-centre GPU'
