@@ -30,10 +30,10 @@ inline std::string text_of(const gdcm::DataSet& data, const gdcm::Tag& tag) {
 }
 
 /// An unsigned 16-bit number; GDCM hands its bytes over in the machine's order.
-inline int number_of(const gdcm::DataSet& data, const gdcm::Tag& tag, int otherwise) {
-    if (!data.FindDataElement(tag)) return otherwise;
+inline std::optional<std::uint16_t> number_of(const gdcm::DataSet& data, const gdcm::Tag& tag) {
+    if (!data.FindDataElement(tag)) return std::nullopt;
     const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
-    if (bytes == nullptr || bytes->GetLength() < 2) return otherwise;
+    if (bytes == nullptr || bytes->GetLength() < 2) return std::nullopt;
     std::uint16_t number = 0;
     std::copy_n(bytes->GetPointer(), 2, reinterpret_cast<char*>(&number));
     return number;

@@ -22,9 +22,6 @@ namespace {
 using gdcm::DataSet;
 using gdcm::Tag;
 
-const Tag rows_tag(0x0028, 0x0010);
-const Tag columns_tag(0x0028, 0x0011);
-const Tag samples_tag(0x0028, 0x0002);
 const Tag photometric_tag(0x0028, 0x0004);
 const Tag spacing_tag(0x0028, 0x0030);
 const Tag position_tag(0x0020, 0x0032);
@@ -129,22 +126,19 @@ DicomRescale rescale_of(const Places& places, DicomHeader& header) {
     return rescale;
 }
 
-/// A signed or unsigned number of 16 or 32 bits, as the pixels are.
-std::optional<std::int64_t> stored_number(const DataSet& data, const Tag& tag, bool is_signed) {
-    if (!data.FindDataElement(tag)) return std::nullopt;
-    const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
-    if (bytes == nullptr || bytes->GetLength() < 2) return std::nullopt;
-    std::uint16_t number = 0;
-    std::copy_n(bytes->GetPointer(), sizeof number, reinterpret_cast<char*>(&number));
+/// Signed or not, as the pixels are.
+std::int64_t stored_number(std::uint16_t number, bool is_signed) {
     return is_signed ? std::int64_t{static_cast<std::int16_t>(number)} : std::int64_t{number};
 }
 
 DicomValues values_of(const DataSet& data, const DicomScan& scan, DicomHeader& header) {
     DicomValues values;
     const bool is_signed = scan.pixel_representation.value_or(0) == 1;
-    if (const auto low = stored_number(data, padding_tag, is_signed)) {
-        const std::int64_t high = stored_number(data, padding_limit_tag, is_signed).value_or(*low);
-        values.padding = {.low = std::min(*low, high), .high = std::max(*low, high)};
+    if (const auto padding = number_of(data, padding_tag)) {
+        const auto [low, high] =
+            std::minmax({stored_number(*padding, is_signed),
+                         stored_number(number_of(data, padding_limit_tag).value_or(*padding), is_signed)});
+        values.padding = {.low = low, .high = high};
     }
     const auto tables = sequence_of(data, modality_lut_tag);
     if (!tables || tables->GetNumberOfItems() == 0) return values;
@@ -155,8 +149,7 @@ DicomValues values_of(const DataSet& data, const DicomScan& scan, DicomHeader& h
     if (descriptor == nullptr || entries == nullptr || descriptor->GetLength() < 6) return values;
     std::array<std::uint16_t, 3> numbers{};  // entries, the first stored value, bits of an entry
     std::copy_n(descriptor->GetPointer(), sizeof numbers, reinterpret_cast<char*>(numbers.data()));
-    ModalityTable table{.first =
-                            is_signed ? std::int64_t{static_cast<std::int16_t>(numbers[1])} : numbers[1]};
+    ModalityTable table{.first = stored_number(numbers[1], is_signed)};
     const std::size_t count = numbers[0] == 0 ? 65536 : numbers[0];
     const std::size_t bytes = entries->GetLength() >= 2 * count ? 2 : 1;
     if (entries->GetLength() < bytes * count) {
@@ -301,9 +294,9 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
     header.series_description = text_of(data, series_description_tag);
     const gdcm::TransferSyntax syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
     if (const char* words = syntax.GetString()) header.transfer_syntax = words;
-    header.rows = number_of(data, rows_tag, 0);
-    header.columns = number_of(data, columns_tag, 0);
-    header.samples_per_pixel = number_of(data, samples_tag, 1);
+    header.rows = scan->rows.value_or(0);
+    header.columns = scan->columns.value_or(0);
+    header.samples_per_pixel = scan->samples_per_pixel.value_or(1);
     header.is_uncompressed = !scan->is_encapsulated && !syntax.IsEncapsulated() &&
                              syntax != gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian;
     const std::size_t count = frame_count(*scan);

@@ -107,7 +107,7 @@ class SegmentationSource {
         if (header_.rows < 2 || header_.columns < 2)
             refuse(fmt::format("is a segmentation of {} x {} pixels", header_.columns, header_.rows));
         is_fractional_ = text_of(data(), Tag(0x0062, 0x0001)) == "FRACTIONAL";
-        half_of_most_ = static_cast<float>(number_of(data(), Tag(0x0062, 0x000e), 255)) / 2.0F;
+        half_of_most_ = static_cast<float>(number_of(data(), Tag(0x0062, 0x000e)).value_or(255)) / 2.0F;
         if (bits != 1) {
             try {
                 require_sound_pixels(header_.scan);
@@ -156,7 +156,7 @@ class SegmentationSource {
         const auto segments = sequence_of(data(), Tag(0x0062, 0x0002));
         for (std::size_t i = 1; segments && i <= segments->GetNumberOfItems(); ++i) {
             const DataSet& segment = segments->GetItem(i).GetNestedDataSet();
-            const int number = number_of(segment, Tag(0x0062, 0x0004), 0);
+            const int number = number_of(segment, Tag(0x0062, 0x0004)).value_or(0);
             if (number == 0) continue;
             const std::string name = text_of(segment, Tag(0x0062, 0x0005));
             described.emplace_back(number, name.empty()
@@ -170,7 +170,8 @@ class SegmentationSource {
         for (const DataSet* place : places.in) {
             const auto named = sequence_of(*place, Tag(0x0062, 0x000a));
             if (!named || named->GetNumberOfItems() == 0) continue;
-            const int number = number_of(named->GetItem(1).GetNestedDataSet(), Tag(0x0062, 0x000b), 0);
+            const int number =
+                number_of(named->GetItem(1).GetNestedDataSet(), Tag(0x0062, 0x000b)).value_or(0);
             if (!numbers_.empty() && !numbers_.contains(number))
                 refuse(fmt::format("its frame {} is of segment {} (0062,000b), which it does not describe",
                                    frame, number));

@@ -41,6 +41,18 @@ class DicomImage : public ::testing::Test {
             write_bytes(series_ / ("IM" + std::to_string(k)), raw_dicom(slice));
         }
     }
+    /// The series says that so many of the allocated bits hold a pixel, up to the highest.
+    void state_bits(std::uint32_t allocated, std::uint32_t stored, std::uint32_t high) const {
+        for (const auto& entry : std::filesystem::directory_iterator(series_)) {
+            std::ifstream in(entry.path(), std::ios::binary);
+            const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+            write_bytes(
+                entry.path(),
+                with(bytes,
+                     dicom_number(0x0028, 0x0101, allocated) + dicom_number(0x0028, 0x0102, allocated - 1),
+                     dicom_number(0x0028, 0x0101, stored) + dicom_number(0x0028, 0x0102, high)));
+        }
+    }
     OpenedImage open() const { return open_image(series_); }
     std::vector<float> values() const { return values_of(open()); }
     std::string refusal(const std::filesystem::path& path) const {
@@ -242,13 +254,7 @@ TEST_F(DicomImage, LeavesOutBitsThatHoldNoPixel) {
         for (std::size_t i = 1; i < slice.pixels.size(); i += 2)
             slice.pixels[i] = static_cast<char>(slice.pixels[i] | 0x10);
     });
-    for (const auto& entry : std::filesystem::directory_iterator(series_)) {
-        std::ifstream in(entry.path(), std::ios::binary);
-        std::string bytes{std::istreambuf_iterator<char>(in), {}};
-        bytes = with(with(bytes, dicom_number(0x0028, 0x0101, 16), dicom_number(0x0028, 0x0101, 12)),
-                     dicom_number(0x0028, 0x0102, 15), dicom_number(0x0028, 0x0102, 11));
-        write_bytes(entry.path(), bytes);
-    }
+    state_bits(16, 12, 11);
     EXPECT_EQ(values()[13], 101.0F);
     EXPECT_THAT(open().image.notes, ElementsAre(HasSubstr("bits set above the 12 that hold their values")));
 }
@@ -260,13 +266,7 @@ TEST_F(DicomImage, SaysOnlyOfBitsThatAreNoSignAndNoOverlayThatTheyAreLeftOut) {
             slice.pixels.replace(2, 2, little(pixel, 2));
             slice.after_image += overlay;
         });
-        for (const auto& entry : std::filesystem::directory_iterator(series_)) {
-            std::ifstream in(entry.path(), std::ios::binary);
-            const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-            write_bytes(entry.path(),
-                        with(with(bytes, dicom_number(0x0028, 0x0101, 16), dicom_number(0x0028, 0x0101, 12)),
-                             dicom_number(0x0028, 0x0102, 15), dicom_number(0x0028, 0x0102, 11)));
-        }
+        state_bits(16, 12, 11);
         return open().image.notes.size();
     };
     EXPECT_EQ(notes(1, 0xff00, ""), 0U) << "-256, in all bits";
@@ -289,12 +289,7 @@ TEST_F(DicomImage, HasItsBitsWhereItSays) {
             slice.pixels.replace(i, 2, little(static_cast<std::uint32_t>(16 * pixel + 7), 2));
         }
     });
-    for (const auto& entry : std::filesystem::directory_iterator(series_)) {
-        std::ifstream in(entry.path(), std::ios::binary);
-        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-        write_bytes(entry.path(),
-                    with(bytes, dicom_number(0x0028, 0x0101, 16), dicom_number(0x0028, 0x0101, 12)));
-    }
+    state_bits(16, 12, 15);
     EXPECT_EQ(values()[13], 101.0F) << "the twelve highest, not the lowest";
 }
 
@@ -414,13 +409,7 @@ TEST_F(DicomImage, MayHoldFewerBitsThanItsPixelsTake) {
             wide += slice.pixels.substr(i, 2) + std::string(2, '\0');
         slice.pixels = wide;
     });
-    for (const auto& entry : std::filesystem::directory_iterator(series_)) {
-        std::ifstream in(entry.path(), std::ios::binary);
-        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-        write_bytes(entry.path(),
-                    with(with(bytes, dicom_number(0x0028, 0x0101, 32), dicom_number(0x0028, 0x0101, 16)),
-                         dicom_number(0x0028, 0x0102, 31), dicom_number(0x0028, 0x0102, 15)));
-    }
+    state_bits(32, 16, 15);
     EXPECT_EQ(values()[13], 101.0F);
 }
 
