@@ -59,7 +59,7 @@ class AnyKindReader : public gdcm::ImageReader {
         if (is_known_kind(file) && !is_apart) return Read();
         if (!gdcm::Reader::Read()) return false;
         forget_palette();
-        if (is_apart) join(fragments);
+        if (is_apart && !join(fragments, scan.fragments.size())) return false;
         GetImage().SetTransferSyntax(GetFile().GetHeader().GetDataSetTransferSyntax());
         return ReadImage(gdcm::MediaStorage::CTImageStorage);
     }
@@ -68,14 +68,15 @@ class AnyKindReader : public gdcm::ImageReader {
     using Fragments = std::vector<std::vector<std::size_t>>;
 
     /// Most of its codecs take a fragment for a frame.
-    void join(const Fragments& fragments_of_frame) {
+    bool join(const Fragments& fragments_of_frame, std::size_t expected) {
         gdcm::DataElement pixels = GetFile().GetDataSet().GetDataElement(gdcm::Tag(0x7fe0, 0x0010));
+        const gdcm::SequenceOfFragments* apart = pixels.GetSequenceOfFragments();
+        if (apart == nullptr || apart->GetNumberOfFragments() != expected) return false;
         const auto joined = gdcm::SequenceOfFragments::New();
         for (const std::vector<std::size_t>& fragments : fragments_of_frame) {
             std::string frame;
             for (const std::size_t fragment : fragments) {
-                const gdcm::ByteValue* bytes =
-                    pixels.GetSequenceOfFragments()->GetFragment(fragment).GetByteValue();
+                const gdcm::ByteValue* bytes = apart->GetFragment(fragment).GetByteValue();
                 frame.append(bytes->GetPointer(), bytes->GetLength());
             }
             gdcm::Fragment whole;
@@ -84,6 +85,7 @@ class AnyKindReader : public gdcm::ImageReader {
         }
         pixels.SetValue(*joined);
         GetFile().GetDataSet().Replace(pixels);
+        return true;
     }
     /// Where its tables are missing or torn, GDCM 3.0.21 ends the program.
     void forget_palette() {
