@@ -9,6 +9,7 @@
 #include <gdcmMediaStorage.h>
 #include <gdcmSequenceOfFragments.h>
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "common/files/input_file.h"
+#include "imaging/dicom/apart.h"
 #include "imaging/dicom/data_set.h"
 #include "imaging/dicom/dicom_pixels.h"
 #include "imaging/dicom/quiet_libraries.h"
@@ -150,12 +152,14 @@ class DicomFrames::Source {
     virtual gdcm::PixelFormat format() const = 0;
 };
 
+/// Decoded apart: over some damaged pixels GDCM's codecs end their process.
 class DicomFrames::AtomicFile : public Source {
   public:
-    explicit AtomicFile(const DicomFile& file) {
-        AnyKindReader reader;
-        reader.SetFileName(file.path.c_str());
-        require(file, [&] {
+    explicit AtomicFile(const DicomFile& file) : shared_(sizeof(Decoded) + most_bytes(file)) {
+        const std::span<char> pixels = shared_.bytes().subspan(sizeof(Decoded));
+        const auto decode = [&] {
+            AnyKindReader reader;
+            reader.SetFileName(file.path.c_str());
             if (!reader.read(file)) return false;
             gdcm::Image& image = reader.GetImage();
             if (file.header.sign_of_codestream) {
@@ -164,26 +168,46 @@ class DicomFrames::AtomicFile : public Source {
                 image.SetPixelFormat(format);
             }
             if (lies_elsewhere(file)) keep_all_bits(reader);
-            stored_.resize(image.GetBufferLength());
-            return image.GetBuffer(stored_.data());
-        });
-        format_ = reader.GetImage().GetPixelFormat();
-        const unsigned* size = reader.GetImage().GetDimensions();
-        frames_ = reader.GetImage().GetNumberOfDimensions() > 2 ? size[2] : 1;
-        if (std::size_t{size[0]} * size[1] != pixels_of_frame(file)) throw of_other_size(file);
+            const unsigned* size = image.GetDimensions();
+            const Decoded decoded{.format = image.GetPixelFormat(),
+                                  .columns = size[0],
+                                  .rows = size[1],
+                                  .frames = image.GetNumberOfDimensions() > 2 ? size[2] : 1,
+                                  .bytes = image.GetBufferLength()};
+            std::memcpy(shared_.bytes().data(), &decoded, sizeof decoded);
+            return decoded.bytes > pixels.size() || image.GetBuffer(pixels.data());
+        };
+        require(file, [&] { return succeeds_apart(decode); });
+        std::memcpy(&decoded_, shared_.bytes().data(), sizeof decoded_);
+        if (std::size_t{decoded_.columns} * decoded_.rows != pixels_of_frame(file) ||
+            decoded_.bytes > pixels.size() || decoded_.frames == 0)
+            throw of_other_size(file);
     }
 
     std::span<const char> stored(unsigned index) override {
-        const std::size_t bytes = stored_.size() / frames_;
-        if (index >= frames_) return {};
-        return std::span(stored_).subspan(index * bytes, bytes);
+        const std::size_t bytes = decoded_.bytes / decoded_.frames;
+        if (index >= decoded_.frames) return {};
+        return shared_.bytes().subspan(sizeof(Decoded) + index * bytes, bytes);
     }
-    gdcm::PixelFormat format() const override { return format_; }
+    gdcm::PixelFormat format() const override { return decoded_.format; }
 
   private:
-    std::vector<char> stored_;
-    gdcm::PixelFormat format_;
-    unsigned frames_ = 1;
+    struct Decoded {
+        gdcm::PixelFormat format;
+        unsigned columns = 0, rows = 0, frames = 0;
+        std::size_t bytes = 0;
+    };
+    static_assert(std::is_trivially_copyable_v<Decoded>);
+
+    static std::size_t most_bytes(const DicomFile& file) {
+        const DicomScan& scan = file.header.scan;
+        const auto bits = static_cast<std::size_t>(std::max(scan.bits_allocated.value_or(0), 8));
+        return frame_count(scan) * pixels_of_frame(file) *
+               static_cast<std::size_t>(scan.samples_per_pixel.value_or(1)) * bits / 8;
+    }
+
+    SharedBytes shared_;
+    Decoded decoded_;
 };
 
 class DicomFrames::FrameByFrame : public Source {

@@ -53,11 +53,6 @@ std::vector<std::vector<std::size_t>> fragments_of_frames(const DicomScan& scan)
             fmt::format("has {} fragments of compressed pixel data (7fe0,0010), of which its {} frames "
                         "cannot be told apart",
                         filled.size(), frames));
-    const bool is_jpeg_ls =
-        scan.transfer_syntax == "1.2.840.10008.1.2.4.80" || scan.transfer_syntax == "1.2.840.10008.1.2.4.81";
-    const auto is_cut_off = [&](const auto& group) { return !scan.fragments[group.back()].ends_picture; };
-    if (is_jpeg_ls && frames > 1 && std::ranges::any_of(groups, is_cut_off))  // GDCM ends the program over it
-        throw std::invalid_argument("has pixel data of JPEG-LS that are cut off");
     return groups;
 }
 

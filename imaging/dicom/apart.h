@@ -1,0 +1,30 @@
+// A step of a library in a process of its own: a file over which the library ends its process ends no other.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+namespace osteomill {
+
+/// Memory that a child shares with its parent, of zeros at first. Throws std::system_error where there is
+/// none.
+class SharedBytes {
+  public:
+    explicit SharedBytes(std::size_t size);
+    ~SharedBytes();
+    SharedBytes(const SharedBytes&) = delete;
+    SharedBytes& operator=(const SharedBytes&) = delete;
+
+    std::span<char> bytes() const { return bytes_; }
+
+  private:
+    std::span<char> bytes_;
+};
+
+/// Runs `step` in a child (fork) and waits for it: true where it came back with true, false where it came
+/// back with false, threw, or ended its process (an assertion, a signal). What it leaves behind is what it
+/// wrote into SharedBytes made before. Throws std::system_error where no process can be begun.
+bool succeeds_apart(const std::function<bool()>& step);
+
+}  // namespace osteomill
