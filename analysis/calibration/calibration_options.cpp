@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "analysis/calibration/calibration_study.h"
-#include "analysis/output/study_run.h"
 #include "common/program/option_checks.h"
 
 namespace osteomill::study {
@@ -97,7 +96,6 @@ StudyCommand add_calibration(CLI::App& app) {
                     shared->design.out = shared->out;
                     return design_runs(shared->design, surroundings);
                 }
-                require_charts_of(surroundings);
                 study::calibrate({.data = shared->data, .out = shared->out}, surroundings);
             }};
 }

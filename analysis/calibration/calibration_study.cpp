@@ -109,9 +109,9 @@ std::array<std::string, 2> designed(const DesignOptions& options) {
 }  // namespace
 
 void calibrate(const CalibrationOptions& options, const StudySurroundings& surroundings) {
+    require_charts_of(surroundings);
     std::vector<MaterialCalibration> calibrations = by_material(read_runs(options.data));
     for (MaterialCalibration& calibration : calibrations) calibration.input = fit_input(calibration.runs);
-    make_folder(options.out);
     StudyRun run(options.out, surroundings);
     const auto planned = run.plan(
         calibrations, [](const MaterialCalibration& c) { return "material " + c.material; },
@@ -133,7 +133,6 @@ void calibrate(const CalibrationOptions& options, const StudySurroundings& surro
 }
 
 void design_runs(const DesignOptions& options, const StudySurroundings& surroundings) {
-    make_folder(options.out);
     StudyRun run(options.out, surroundings);
     const auto planned =
         run.plan(std::vector{options}, [](const DesignOptions&) { return "design"; }, designed);

@@ -1,6 +1,7 @@
 #include "analysis/output/study_run.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "analysis/output/cases/part_file.h"
 #include "analysis/output/chart.h"
@@ -9,6 +10,11 @@
 #include "common/program/progress.h"
 
 namespace osteomill::study {
+
+StudyRun::StudyRun(std::filesystem::path out, const StudySurroundings& surroundings)
+    : out_(std::move(out)), surroundings_(surroundings) {
+    make_folder(out_);
+}
 
 StudyRun::~StudyRun() {
     if (std::uncaught_exceptions() == failures_before_) forget_outcomes();

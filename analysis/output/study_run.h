@@ -52,10 +52,9 @@ class PlannedCases {
 
 class StudyRun {
   public:
-    /// `out` is there; `surroundings` outlive the run. What writes throws std::runtime_error in one line
-    /// naming what cannot be written.
-    StudyRun(std::filesystem::path out, const StudySurroundings& surroundings)
-        : out_(std::move(out)), surroundings_(surroundings) {}
+    /// Makes the folder `out` if it is not there; `surroundings` outlive the run. What writes throws
+    /// std::runtime_error in one line naming what cannot be written, this as well.
+    StudyRun(std::filesystem::path out, const StudySurroundings& surroundings);
     /// Outcomes that were kept in case the run is stopped are no longer needed where it was not.
     ~StudyRun();
     StudyRun(const StudyRun&) = delete;

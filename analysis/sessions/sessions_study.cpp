@@ -106,9 +106,8 @@ std::vector<std::filesystem::path> recordings_in(const std::vector<std::filesyst
 void run_sessions_study(const SessionsStudyOptions& options, const StudySurroundings& surroundings) {
     const auto files = recordings_in(options.from);
     const auto groups = groups_of(options);
-    make_folder(options.out);
-    SessionStore store(options.out / "sessions.sqlite", options.version);
     StudyRun run(options.out, surroundings);
+    SessionStore store(options.out / "sessions.sqlite", options.version);
     std::vector<std::string> skipped;
     const auto skip = [&](const std::string& why) {
         skipped.push_back(why);

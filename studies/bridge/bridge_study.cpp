@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
 #include "common/statistics/percentile.h"
 #include "studies/bridge/private_network.h"
@@ -59,7 +58,6 @@ RoundTrips trips_over(const Way& way, double seconds) {
 }  // namespace
 
 void run_bridge_study(const BridgeStudyOptions& options, const StudySurroundings& surroundings) {
-    make_folder(options.out);
     StudyRun run(options.out, surroundings);
     const std::vector<Way> all_ways = ways();
     const auto trips = run.plan(all_ways, &Way::name_of,

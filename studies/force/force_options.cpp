@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 
-#include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
 #include "common/program/option_checks.h"
 #include "studies/force/case_report.h"
@@ -40,8 +39,6 @@ void run_cases(const ForceOptions& options, const StudySurroundings& surrounding
 }
 
 void perform(const ForceOptions& options, const StudySurroundings& surroundings) {
-    if (options.cases.empty() && !options.random) require_charts_of(surroundings);
-    make_folder(options.out);
     if (!options.cases.empty())
         run_cases(options, surroundings);
     else if (options.random)

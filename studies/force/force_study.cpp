@@ -76,6 +76,7 @@ void run_random_motions(const RandomStudyOptions& options, const StudySurroundin
 }
 
 void run_force_study(const ForceStudyOptions& options, const StudySurroundings& surroundings) {
+    require_charts_of(surroundings);
     StudyRun run(options.out, surroundings);
     const RandomPart random({.out = options.out, .count = options.quick ? 60 : 500}, run);
     const auto plan_curve = [&](const std::vector<CurveCase>& curve) {

@@ -28,7 +28,7 @@ struct RandomStudyOptions {
 /// Runs random motions alone: writes random.json and random.csv into `options.out`. Throws as below.
 void run_random_motions(const RandomStudyOptions& options, const StudySurroundings& surroundings);
 
-/// Writes force.json, the tables (CSV) and the charts (SVG) into `options.out`, a folder that is there.
+/// Writes force.json, the tables (CSV) and the charts (SVG) into `options.out`.
 /// Throws std::runtime_error in one line naming what cannot be written.
 void run_force_study(const ForceStudyOptions& options, const StudySurroundings& surroundings);
 

@@ -2,8 +2,6 @@
 
 #include <memory>
 
-#include "analysis/output/output_files.h"
-#include "analysis/output/study_run.h"
 #include "studies/polishing/polishing_study.h"
 
 namespace osteomill::study {
@@ -17,11 +15,8 @@ StudyCommand add_polishing(CLI::App& app) {
     polishing->add_flag("--edge-forces", options.has_edge_forces,
                         "burrs whose edges rub, as in cortical bone; without, the published law");
     polishing->add_flag("--quick", options.quick, "fewer runs: under half a minute");
-    return {polishing, [shared](const StudySurroundings& surroundings) {
-                require_charts_of(surroundings);
-                make_folder(shared->out);
-                run_polishing_study(*shared, surroundings);
-            },
+    return {polishing,
+            [shared](const StudySurroundings& surroundings) { run_polishing_study(*shared, surroundings); },
             jobs_of_processors()};
 }
 

@@ -13,6 +13,7 @@
 namespace osteomill::study {
 
 void run_polishing_study(const PolishingStudyOptions& options, const StudySurroundings& surroundings) {
+    require_charts_of(surroundings);
     StudyRun run(options.out, surroundings);
     const std::filesystem::path logs = options.out / "runs";
     make_folder(logs);

@@ -13,7 +13,7 @@ struct PolishingStudyOptions {
     bool has_edge_forces = false;  ///< burrs whose edges rub with 0.3 N/mm; else the published law
 };
 
-/// Writes figures.csv, a table a run and charts (SVG) into `options.out`, a folder that is there, and the
+/// Writes figures.csv, a table a run and charts (SVG) into `options.out`, and the
 /// logs of the sessions into its folder `runs`. Throws std::runtime_error in one line naming what cannot be
 /// written.
 void run_polishing_study(const PolishingStudyOptions& options, const StudySurroundings& surroundings);

@@ -2,8 +2,6 @@
 
 #include <memory>
 
-#include "analysis/output/output_files.h"
-#include "analysis/output/study_run.h"
 #include "common/program/option_checks.h"
 #include "studies/realtime/realtime_study.h"
 
@@ -25,12 +23,10 @@ StudyCommand add_realtime(CLI::App& app) {
             ->check(within(10.0, 86'400.0));
     realtime->add_flag("--quick", options.quick, "9 s each: shows that it works, not how long the tail is")
         ->excludes(duration);
-    return {.subcommand = realtime, .run = [shared](const StudySurroundings& surroundings) {
-                require_charts_of(surroundings);
-                make_folder(shared->out);
-                run_realtime_study(*shared, surroundings);
-            },
-            .runs_one_by_one = true};
+    return {
+        .subcommand = realtime,
+        .run = [shared](const StudySurroundings& surroundings) { run_realtime_study(*shared, surroundings); },
+        .runs_one_by_one = true};
 }
 
 }  // namespace osteomill::study

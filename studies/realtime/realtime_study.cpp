@@ -204,6 +204,7 @@ class RealtimeStudy {
 }  // namespace
 
 void run_realtime_study(const RealtimeStudyOptions& options, const StudySurroundings& surroundings) {
+    require_charts_of(surroundings);
     RealtimeStudy(options, surroundings).run();
 }
 

@@ -18,7 +18,7 @@ struct RealtimeStudyOptions {
     double duration_s = 600.0;  ///< that each is measured, without load and again under it; whole slices
 };
 
-/// Writes realtime.json, latencies.csv and realtime.svg into `options.out`, a folder that is there. What is
+/// Writes realtime.json, latencies.csv and realtime.svg into `options.out`. What is
 /// not installed (cyclictest, stress-ng) is left out with a line that says so. Throws std::runtime_error in
 /// one line where haptic_server is not beside this program, something fails or cannot be written.
 void run_realtime_study(const RealtimeStudyOptions& options, const StudySurroundings& surroundings);

@@ -3,8 +3,6 @@
 #include <cstdlib>
 #include <memory>
 
-#include "analysis/output/output_files.h"
-#include "analysis/output/study_run.h"
 #include "render_client/ui/options.h"
 #include "studies/render/render_study.h"
 
@@ -51,12 +49,10 @@ StudyCommand add_render(CLI::App& app) {
             "rasteriser)")
         ->check(CLI::Range(0, 63));
     render->add_flag("--quick", options.quick, "fewer settings, smaller pictures: under a minute");
-    return {.subcommand = render, .run = [shared](const StudySurroundings& surroundings) {
-                require_charts_of(surroundings);
-                make_folder(shared->out);
-                run_render_study(*shared, surroundings);
-            },
-            .runs_one_by_one = true};
+    return {
+        .subcommand = render,
+        .run = [shared](const StudySurroundings& surroundings) { run_render_study(*shared, surroundings); },
+        .runs_one_by_one = true};
 }
 
 }  // namespace osteomill::study

@@ -56,6 +56,7 @@ ordered_json cut_wall_figures(double p95_deg, const std::vector<double>& found_d
 }  // namespace
 
 void run_render_study(const RenderStudyOptions& options, const StudySurroundings& surroundings) {
+    require_charts_of(surroundings);
     if (options.full_rate_only)
         return measure_full_rate(
             {.out = options.out, .size_px = options.size_px, .frames = options.frames, .gpu = options.gpu},

@@ -19,7 +19,7 @@ struct RenderStudyOptions {
     std::optional<std::filesystem::path> scans{};  ///< a folder of trial scans; none: the phantom alone
 };
 
-/// Writes render.json, accuracy.csv and its chart into `options.out`, a folder that is there. Throws
+/// Writes render.json, accuracy.csv and its chart into `options.out`. Throws
 /// std::runtime_error in one line naming what cannot be written or read, and gl::NoOpenGl.
 void run_render_study(const RenderStudyOptions& options, const StudySurroundings& surroundings);
 

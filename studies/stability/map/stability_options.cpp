@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/output/output_files.h"
-#include "analysis/output/study_run.h"
 #include "studies/stability/map/map_text.h"
 #include "studies/stability/map/stability_study.h"
 #include "studies/stability/rails/motion_on_rails.h"
@@ -63,8 +61,6 @@ void add_sites(CLI::App& stability, StabilityCommand& command) {
 void perform(const StabilityCommand& command, const StudySurroundings& surroundings) {
     const std::vector<std::string>& methods = command.selection.methods;
     const std::filesystem::path& out = command.out;
-    if (command.motions_on_rails == 0) require_charts_of(surroundings);
-    make_folder(out);
     if (command.motions_on_rails > 0)
         return run_rails_study({.count = command.motions_on_rails,
                                 .seed = command.sites.seed,

@@ -34,6 +34,7 @@ void write_results(const WholeMap& map, const StudyRun& run) {
 
 void run_stability_study(const MapSelection& selection, const RunCase& run_case,
                          const std::filesystem::path& out, const StudySurroundings& surroundings) {
+    require_charts_of(surroundings);
     WholeMap map{.selection = selection, .points = map_points(selection), .outcomes = {}};
     if (map.points.empty()) throw std::runtime_error("nothing of the map is selected");
     StudyRun run(out, surroundings);

@@ -13,8 +13,8 @@ namespace osteomill::study {
 /// Runs one case. Thread-safe, and the same case always gives the same outcome.
 using RunCase = std::function<MapOutcome(const MapCase&)>;
 
-/// Writes map.csv, map.json, the tables of the charts and the charts (SVG) into `out`, a folder that is
-/// there. Throws std::runtime_error in one line where nothing is selected, and as StudyRun does.
+/// Writes map.csv, map.json, the tables of the charts and the charts (SVG) into `out`. Throws
+/// std::runtime_error in one line where nothing is selected, and as StudyRun does.
 void run_stability_study(const MapSelection& selection, const RunCase& run_case,
                          const std::filesystem::path& out, const StudySurroundings& surroundings);
 

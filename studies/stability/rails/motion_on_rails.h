@@ -49,7 +49,7 @@ struct RailsStudyOptions {
     bool has_edge_forces = false;  ///< burrs whose edges rub with 0.3 N/mm
 };
 
-/// motions_on_rails() with each method: rails.json in `out`, a folder that is there. Throws as StudyRun does.
+/// motions_on_rails() with each method: rails.json in `out`. Throws as StudyRun does.
 void run_rails_study(const RailsStudyOptions& options, const std::filesystem::path& out,
                      const StudySurroundings& surroundings);
 

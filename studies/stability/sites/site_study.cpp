@@ -179,6 +179,7 @@ ordered_json site_summary(const std::vector<SiteResult>& results, const SiteStud
 }
 
 void run_site_study(const SiteStudyOptions& options, const StudySurroundings& surroundings) {
+    require_charts_of(surroundings);
     const std::vector<SiteCase> cases = site_cases(options);
     if (cases.empty()) throw std::runtime_error("no site is called '" + options.only + "'");
     StudyRun run(options.out, surroundings);

@@ -53,9 +53,8 @@ Table site_points_of(const std::vector<SiteResult>& results);
 /// By kind how many meet the bars and the worst of each number; the ten worst cases with the command of each.
 nlohmann::ordered_json site_summary(const std::vector<SiteResult>& results, const SiteStudyOptions& options);
 
-/// Runs the cases and writes sites.csv, sites.json, site_points.csv and sites.svg into options.out, a folder
-/// that is there. Throws std::runtime_error in one line where nothing is selected or a file cannot be
-/// written.
+/// Runs the cases and writes sites.csv, sites.json, site_points.csv and sites.svg into options.out. Throws
+/// std::runtime_error in one line where nothing is selected or a file cannot be written.
 void run_site_study(const SiteStudyOptions& options, const StudySurroundings& surroundings);
 
 }  // namespace osteomill::study

@@ -21,7 +21,6 @@ class StudyRunTest : public ::testing::Test {
     /// A study of squares and of one more case; empty where it was a part.
     std::vector<double> study(StudyParts parts, const std::string& out, int fails_at = 0) {
         const std::filesystem::path folder = folder_ / out;
-        std::filesystem::create_directories(folder);
         const StudySurroundings surroundings{
             .said = said_, .progress = progress_, .parts = std::move(parts)};
         StudyRun run(folder, surroundings);
