@@ -3,11 +3,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/child_process.h"
+#include "tests/support/file_text.h"
 #include "tests/support/slurm_cluster.h"
 #include "tests/support/temporary_folder.h"
 
@@ -17,12 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-std::string text_of(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
+using testing::text_of;
 
 /// A corner of the map: nine cases of a twentieth of a second.
 const std::vector<std::string> study{"stability", "--quick", "--methods",          "interpolate",

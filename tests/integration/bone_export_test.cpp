@@ -5,7 +5,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
@@ -14,6 +13,7 @@
 
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
+#include "tests/support/file_text.h"
 #include "tests/support/milling_motion.h"
 #include "tests/support/temporary_folder.h"
 
@@ -23,11 +23,7 @@ namespace {
 using testing::Finished;
 using ::testing::HasSubstr;
 using testing::run_program;
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
+using testing::text_of;
 
 class BoneExport : public ::testing::Test {
   protected:

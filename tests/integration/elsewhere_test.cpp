@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <set>
 #include <string>
 #include <tuple>
@@ -17,6 +16,7 @@
 #include "common/recording/playhead.h"
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
+#include "tests/support/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::testing {
@@ -30,11 +30,6 @@ using ::testing::Not;
 using Command = std::vector<std::string>;
 
 constexpr const char* cube_case = "name = \"x\"\n[bone]\nphantom = \"cube\"\n";
-
-std::string text_of(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 void write(const fs::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;

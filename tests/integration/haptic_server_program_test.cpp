@@ -11,8 +11,11 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/file_text.h"
+
 namespace {
 
+using osteomill::testing::text_of;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -35,12 +38,6 @@ class HapticServerProgram : public ::testing::Test {
     ~HapticServerProgram() override { std::filesystem::remove_all(folder_); }
 
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
-
-    static std::string text_of(const std::string& path) {
-        std::ostringstream text;
-        text << std::ifstream(path).rdbuf();
-        return text.str();
-    }
 
     Outcome run(const std::string& arguments) const {
         const std::string command =

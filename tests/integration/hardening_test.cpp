@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 
 #include "tests/support/child_process.h"
+#include "tests/support/file_text.h"
 
 namespace osteomill::testing {
 namespace {
@@ -16,11 +16,6 @@ namespace {
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::string bytes_of(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::size_t count(const std::string& text, const std::string& what) {
     std::size_t found = 0;
@@ -49,7 +44,7 @@ TEST_P(Hardening, IsInTheProgram) {
     EXPECT_THAT(symbols, ContainsRegex("__[a-z]+_chk@")) << "copies are checked";
     const std::string mark("\xf3\x0f\x1e\xfa", 4);  // endbr64; what the C library brings along has a handful
     if (run_program({"/bin/uname", "-m"}).out == "x86_64\n") {
-        EXPECT_GT(count(bytes_of(program), mark), 500U);
+        EXPECT_GT(count(text_of(program), mark), 500U);
     }
 }
 
@@ -69,7 +64,7 @@ TEST(Confinement, OfTheServiceIsWhatSystemdCallsOk) {
     EXPECT_THAT(judged.err, Not(HasSubstr("Unknown")))
         << "a directive that systemd does not know confines nothing";
     // And yet it may do what its loops and its arm need.
-    const std::string text = bytes_of(unit);
+    const std::string text = text_of(unit);
     for (const char* needed :
          {"DeviceAllow=char-hidraw rw", "LimitRTPRIO=50", "LimitMEMLOCK=infinity", "RestrictRealtime=no",
           "SupplementaryGroups=plugdev", "StateDirectory=osteomill", "RuntimeDirectory=osteomill",
@@ -78,7 +73,7 @@ TEST(Confinement, OfTheServiceIsWhatSystemdCallsOk) {
 }
 
 TEST(Confinement, OfTheContainersLeavesNoCapabilityAndNothingToWriteOn) {
-    const std::string compose = bytes_of(std::string(DOCKER_FOLDER) + "/compose.yaml");
+    const std::string compose = text_of(std::string(DOCKER_FOLDER) + "/compose.yaml");
     EXPECT_GE(count(compose, "    image: "), 4U);
     EXPECT_EQ(count(compose, "    <<: *confined"), count(compose, "    image: "))
         << "each service is confined";
@@ -86,11 +81,12 @@ TEST(Confinement, OfTheContainersLeavesNoCapabilityAndNothingToWriteOn) {
          {"  cap_drop: [ALL]", "  read_only: true", "  security_opt: [\"no-new-privileges:true\"]"})
         EXPECT_EQ(count(compose, line), 1U) << line;
     EXPECT_THAT(compose, HasSubstr("compose.realtime.yaml"));
-    for (const char* refused : {"cap_add:", "privileged:", "ulimits:", "devices:", "network_mode:", "cpu_rt_"})
+    for (const char* refused :
+         {"cap_add:", "privileged:", "ulimits:", "devices:", "network_mode:", "cpu_rt_"})
         EXPECT_EQ(count(compose, refused), 0U) << refused << " is what a host may refuse";
-    const std::string realtime = bytes_of(std::string(DOCKER_FOLDER) + "/compose.realtime.yaml");
+    const std::string realtime = text_of(std::string(DOCKER_FOLDER) + "/compose.realtime.yaml");
     EXPECT_EQ(count(realtime, "\n  server:\n    ulimits: {rtprio: 50, memlock: -1}\n"), 1U);
-    const std::string image = bytes_of(std::string(DOCKER_FOLDER) + "/server.Dockerfile");
+    const std::string image = text_of(std::string(DOCKER_FOLDER) + "/server.Dockerfile");
     std::smatch command;
     ASSERT_TRUE(std::regex_search(image, command, std::regex("\nCMD (.*)\n")));
     EXPECT_THAT(command.str(1), HasSubstr("127.0.0.1:"));

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <sstream>
 
 #include "tests/support/child_process.h"
+#include "tests/support/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -22,15 +22,10 @@ using ::testing::AnyOf;
 using testing::ChildProcess;
 using testing::Finished;
 using ::testing::HasSubstr;
+using testing::text_of;
 using Clock = std::chrono::steady_clock;
 
 constexpr bool is_optimised = IS_OPTIMISED;
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
 
 /// A NRRD of a block of bone in air, whose HU vary so that files of it do not shrink to nothing.
 void write_block(const std::filesystem::path& path, int edge_voxels, double spacing_mm,

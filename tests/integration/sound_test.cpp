@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "common/files/session_file.h"
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
+#include "tests/support/file_text.h"
 #include "tests/support/strongest_note.h"
 #include "tests/support/temporary_folder.h"
 
@@ -48,12 +48,6 @@ Sound sound_in(const std::string& file) {
     for (sf_count_t i = 0; i < read; ++i)
         sound.samples.push_back(all[static_cast<std::size_t>(i * info.channels)]);
     return sound;
-}
-
-std::string bytes_of(const std::string& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
 }
 
 /// A 2 mm burr with four edges at 21 000 rpm, 1400 Hz: into a block from 0.9 s on, out of it from 2.4 s on.
@@ -108,9 +102,9 @@ TEST_F(SoundProgram, OfARecordingHasItsPeakAtEdgesTimesRevolutionsAndRepeats) {
     EXPECT_GT(rms(sound.between(1.5, 2.4)), 3.0 * rms(sound.between(2.9, 3.2))) << "in bone and in air";
     EXPECT_GT(rms(sound.between(2.9, 3.2)), 0.001);
     EXPECT_EQ(rms(sound.between(5.5, 5.9)), 0.0) << "the spindle stands";
-    const std::string once = bytes_of(file("a.pcap.wav"));
+    const std::string once = text_of(file("a.pcap.wav"));
     sound_of("a.pcap");
-    EXPECT_EQ(bytes_of(file("a.pcap.wav")), once);
+    EXPECT_EQ(text_of(file("a.pcap.wav")), once);
 }
 
 TEST_F(SoundProgram, OfAMotorFallsUnderLoadAndNothingElseChanges) {
@@ -183,7 +177,7 @@ TEST_F(SoundProgram, WithoutASoundCardIsOneLineAndThePictureGoesOn) {
     EXPECT_EQ(played.status, 0) << played.err;
     EXPECT_THAT(played.err, HasSubstr("no sound: OpenAL finds no output"));
     EXPECT_EQ(std::count(played.err.begin(), played.err.end(), '\n'), 1) << played.err;
-    EXPECT_THAT(bytes_of(file("client.json")), HasSubstr("\"frames\""));
+    EXPECT_THAT(text_of(file("client.json")), HasSubstr("\"frames\""));
 }
 
 }  // namespace

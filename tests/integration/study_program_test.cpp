@@ -8,10 +8,10 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/support/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -20,6 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using namespace std::string_literals;
+using testing::text_of;
 
 constexpr const char* case_file = OSTEOMILL_TEST_DATA "/milling_forces.json";
 
@@ -28,12 +29,6 @@ struct Outcome {
     std::string out;
     std::string err;
 };
-
-std::string text_of(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
 
 class StudyProgram : public ::testing::Test {
   protected:

@@ -10,10 +10,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <span>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/support/file_text.h"
 #include "tests/support/force_log_file.h"
 #include "tests/support/spectrum.h"
 #include "tests/support/temporary_folder.h"
@@ -21,18 +21,14 @@
 namespace osteomill {
 namespace {
 
+using testing::text_of;
+
 struct Session {
     nlohmann::json measured;
     std::string log;
     std::string said;
     std::vector<glm::dvec3> force_n{};  // while it cuts
 };
-
-std::string text_of(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
 
 /// From two seconds on the simulated hand is in the bone.
 Session run(const std::string& options) {

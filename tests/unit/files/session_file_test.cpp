@@ -5,9 +5,9 @@
 #include <sys/stat.h>
 
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
+#include "tests/support/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -16,13 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using testing::TemporaryFolder;
+using testing::text_of;
 using ::testing::ThrowsMessage;
-
-std::string text_of(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
 
 void put(const fs::path& path, const std::string& text) {
     std::ofstream(path) << text;

@@ -13,6 +13,7 @@
 
 #include "simulation/safety/fault.h"
 #include "tests/support/file_size_limit.h"
+#include "tests/support/file_text.h"
 
 namespace osteomill {
 namespace {
@@ -20,16 +21,11 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using testing::text_of;
 
 std::filesystem::path scratch_file() {
     return std::filesystem::path(::testing::TempDir()) /
            (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
-}
-
-std::string text_of(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
 }
 
 TEST(ForceLog, WritesALineForEachSampleInOrder) {

@@ -7,16 +7,13 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/file_text.h"
+
 namespace osteomill {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::string text_of(const std::string& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
+using testing::text_of;
 
 std::set<std::string> named_in(const std::string& text) {
     const std::regex metric("osteomill_[a-z_]+");

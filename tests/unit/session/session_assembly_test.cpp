@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <iterator>
 #include <thread>
 #include <vector>
 
@@ -11,10 +10,13 @@
 #include "devices/simulated/prescribed_device.h"
 #include "haptic_server/session/device_table.h"
 #include "tests/support/block.h"
+#include "tests/support/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
 namespace {
+
+using testing::text_of;
 
 /// A block 8 mm wide whose top face is z = 0, and a 2 mm burr above it that mills a cavity.
 SessionScene block() {
@@ -35,11 +37,6 @@ std::unique_ptr<SessionAssembly> simulated(SessionOptions options) {
     SessionScene scene = block();
     DeviceParts device = simulated_hand(scene.scene, Grip::firm);
     return std::make_unique<SessionAssembly>(std::move(scene), std::move(device), std::move(options));
-}
-
-std::string text_of(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 class SessionAssemblyTest : public ::testing::Test {

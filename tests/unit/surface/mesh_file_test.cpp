@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "common/files/atomic_file.h"
+#include "tests/support/file_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -18,16 +19,12 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using testing::text_of;
 
 /// A tetrahedron with a corner at the origin and three along the axes.
 SurfaceMesh tetrahedron() {
     return {.points_mm = {{0, 0, 0}, {1.5F, 0, 0}, {0, 2.25F, 0}, {0, 0, -700.125F}},
             .triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
-}
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 template <typename Value>
