@@ -18,12 +18,12 @@
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/force_log_file.h"
 #include "tests/support/held_pedal.h"
 #include "tests/support/logged_removal.h"
 #include "tests/support/milling_motion.h"
 #include "tests/support/stopped_terminal.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/unread_pipe.h"
 
 namespace osteomill::testing {
@@ -53,7 +53,7 @@ class Output {
     UnreadPipe pipe_;
 };
 
-class HeldUp : public ::testing::Test {
+class HeldUp : public FolderTest {
   protected:
     HeldUp() {
         write_block(file("block.nrrd"));
@@ -62,11 +62,6 @@ class HeldUp : public ::testing::Test {
             << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,0,0,20,0,0,1,0\n";
     }
 
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    nlohmann::json json(const std::string& name) const {
-        std::ifstream in(file(name));
-        return nlohmann::json::parse(in);
-    }
     Command server(const Command& options) const {
         Command command{HAPTIC_SERVER,     "--bone",      file("block.nrrd"), "--json",
                         file("out.json"),  "--save-bone", file("saved.nrrd"), "--log-csv",
@@ -85,8 +80,6 @@ class HeldUp : public ::testing::Test {
         ASSERT_EQ(read.status, 0) << read.err;
         EXPECT_EQ(json("read.json").at("bone_checksum"), json("out.json").at("bone_checksum"));
     }
-
-    TemporaryFolder folder_;
 };
 
 class HeldUpLog : public HeldUp, public ::testing::WithParamInterface<std::string> {};

@@ -19,10 +19,10 @@
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/link_proxy.h"
 #include "tests/support/milling_motion.h"
 #include "tests/support/stranger.h"
-#include "tests/support/temporary_folder.h"
 
 namespace osteomill::testing {
 namespace {
@@ -33,15 +33,9 @@ using ::testing::HasSubstr;
 using Command = std::vector<std::string>;
 using Links = std::vector<std::unique_ptr<BoneLink>>;
 
-class LinkFaults : public ::testing::Test {
+class LinkFaults : public FolderTest {
   protected:
     LinkFaults() { write_block(file("block.nrrd"), 300); }
-
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    nlohmann::json json(const std::string& name) const {
-        std::ifstream in(file(name));
-        return nlohmann::json::parse(in);
-    }
 
     /// Mills slowly for minutes, until it is told to end; leaves server.json.
     void start_server(const Command& options = {"--listen", "127.0.0.1:0"}) {
@@ -87,8 +81,6 @@ class LinkFaults : public ::testing::Test {
             EXPECT_EQ(link->poll().rejected_frames, 0U);
         }
     }
-
-    TemporaryFolder folder_;
     std::unique_ptr<ChildProcess> server_;
     std::uint16_t port_ = 0;
 };

@@ -9,15 +9,14 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/force_log_file.h"
-#include "tests/support/temporary_folder.h"
 
 namespace osteomill::testing {
 namespace {
@@ -28,16 +27,10 @@ using Command = std::vector<std::string>;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-class OutputFiles : public ::testing::Test {
+class OutputFiles : public FolderTest {
   protected:
     OutputFiles() { write_block(file("block.nrrd")); }
 
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    std::string text_of(const std::string& name) const {
-        std::ostringstream text;
-        text << std::ifstream(file(name)).rdbuf();
-        return text.str();
-    }
     void put(const std::string& name, const std::string& text = "old") const {
         std::ofstream(file(name)) << text;
     }
@@ -58,8 +51,6 @@ class OutputFiles : public ::testing::Test {
         EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
         EXPECT_THAT(run.err, AllOf(HasSubstr(one), HasSubstr(other)));
     }
-
-    TemporaryFolder folder_;
 };
 
 TEST_F(OutputFiles, OfAKilledSessionLeaveTheOldOnesAsTheyWere) {
@@ -75,7 +66,7 @@ TEST_F(OutputFiles, OfAKilledSessionLeaveTheOldOnesAsTheyWere) {
         session.send_signal(SIGKILL);
         ASSERT_EQ(session.wait(60s), 128 + SIGKILL);
     }
-    for (const std::string& name : names) EXPECT_EQ(text_of(name), "old") << name;
+    for (const std::string& name : names) EXPECT_EQ(text(name), "old") << name;
     EXPECT_EQ(run_program({PACKET_REPLAY, file("a.part.pcap"), "--info"}).status, 0);
     const auto torn_bytes = fs::file_size(file("force.part.csv"));
 
@@ -98,8 +89,8 @@ TEST_F(OutputFiles, OnAFullDiskLeaveTheOldOnesAsTheyWere) {
     EXPECT_EQ(session.status, 1);
     EXPECT_THAT(session.err, AllOf(HasSubstr("force.csv: the log is not complete: File too large"),
                                    HasSubstr("force.part.csv\n")));
-    EXPECT_EQ(text_of("a.json"), "old");
-    EXPECT_EQ(text_of("force.csv"), "old");
+    EXPECT_EQ(text("a.json"), "old");
+    EXPECT_EQ(text("force.csv"), "old");
     EXPECT_EQ(fs::file_size(file("force.part.csv")), 1024U);
 
     ASSERT_EQ(
@@ -111,8 +102,8 @@ TEST_F(OutputFiles, OnAFullDiskLeaveTheOldOnesAsTheyWere) {
             run_on_disk_of(1, {PACKET_REPLAY, file("a.pcap"), output.front(), output.back()});
         EXPECT_EQ(replay.status, 1) << replay.err;
     }
-    EXPECT_EQ(text_of("b.json"), "old");
-    EXPECT_EQ(text_of("b.csv"), "old");
+    EXPECT_EQ(text("b.json"), "old");
+    EXPECT_EQ(text("b.csv"), "old");
     EXPECT_FALSE(fs::exists(file("b.part.csv")));
 }
 
@@ -141,7 +132,7 @@ TEST_F(OutputFiles, AreRefusedAtTheStartWhereTwoAreOne) {
     expect_refused(
         server({"--duration-s", "0.2", "--json", file("new.nrrd"), "--save-bone", file("new.nrrd")}),
         "--json", "--save-bone");
-    EXPECT_EQ(text_of("a.csv"), "old");
+    EXPECT_EQ(text("a.csv"), "old");
     EXPECT_EQ(run_program(server({"--clock", "virtual", "--duration-s", "0.1", "--json", "/dev/null",
                                   "--log-csv", "/dev/null"}))
                   .status,
@@ -188,7 +179,7 @@ TEST_F(OutputFiles, AreRefusedWhereTheyWouldDestroyAKeyOrACertificate) {
         expect_refused(with({PACKET_REPLAY, file("a.pcap")}, {"--csv", path}), option, "--csv");
         expect_refused(with({RENDER_CLIENT, "--offscreen"}, {"--record", path}), option, "--record");
     }
-    EXPECT_EQ(text_of("key.pem"), "old");
+    EXPECT_EQ(text("key.pem"), "old");
 }
 
 }  // namespace

@@ -20,7 +20,7 @@
 #include "common/recording/playhead.h"
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/folder_test.h"
 
 namespace osteomill::testing {
 namespace {
@@ -29,7 +29,7 @@ using namespace std::chrono_literals;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-class Recording : public ::testing::Test {
+class Recording : public FolderTest {
   protected:
     Recording() {
         std::ofstream(file("tooth.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n"
@@ -42,17 +42,6 @@ class Recording : public ::testing::Test {
                                             "1.4,-1,0,1.0,0,0,1,1\n"
                                             "2.4,1,0,1.0,0,0,1,1\n";
         write_block(file("block.nrrd"));
-    }
-
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-
-    std::string text_of(const std::string& name) const {
-        std::ifstream in(file(name));
-        return {std::istreambuf_iterator<char>(in), {}};
-    }
-    nlohmann::json json(const std::string& name) const {
-        std::ifstream in(file(name));
-        return nlohmann::json::parse(in);
     }
 
     std::vector<std::string> server(const std::string& scene, const std::string& report) const {
@@ -90,8 +79,6 @@ class Recording : public ::testing::Test {
         command.insert(command.end(), source.begin(), source.end());
         return command;
     }
-
-    TemporaryFolder folder_;
 };
 
 TEST_F(Recording, LeavesEveryoneWithTheServersBone) {
@@ -185,7 +172,7 @@ TEST_F(Recording, GivesTheMotionForASessionThatMakesItAgain) {
 
 TEST_F(Recording, GivesTheMotionOfOneSessionOnly) {
     record("a.pcap");
-    std::ofstream(file("both.pcap"), std::ios::binary) << text_of("a.pcap") << text_of("a.pcap").substr(24);
+    std::ofstream(file("both.pcap"), std::ios::binary) << text("a.pcap") << text("a.pcap").substr(24);
     const Finished finished =
         run_program({PACKET_REPLAY, file("both.pcap"), "--trajectory", file("again.csv")});
     EXPECT_EQ(finished.status, 1);
@@ -261,12 +248,12 @@ position_mm = [0.0, 0.0, 4.5]
         ASSERT_EQ(served.status, 0) << served.err;
         const Finished read = run_program({PACKET_REPLAY, recording, "--csv", file("read.csv")});
         ASSERT_EQ(read.status, 0) << read.err;
-        EXPECT_EQ(text_of("read.csv"), text_of(session.name + ".log.csv")) << session.name;
+        EXPECT_EQ(text("read.csv"), text(session.name + ".log.csv")) << session.name;
         EXPECT_GT(info(session.name + ".pcap").at("ticks"), 1500);
         EXPECT_EQ(info(session.name + ".pcap").at("missed_ticks"), 0);
     }
     // There was something to get wrong.
-    const std::string shanks = text_of("shanks.log.csv");
+    const std::string shanks = text("shanks.log.csv");
     EXPECT_THAT(shanks, HasSubstr("shank_torque_z_n_mm\n"));
     EXPECT_THAT(shanks, HasSubstr(",8,")) << "no fault";
     std::size_t rubbing = 0;
@@ -284,7 +271,7 @@ position_mm = [0.0, 0.0, 4.5]
 TEST_F(Recording, ThatIsTornLosesTheTicksOfItsLastSecondAtMost) {
     record("a.pcap");
     ASSERT_EQ(run_program({PACKET_REPLAY, file("a.pcap"), "--csv", file("a.csv")}).status, 0);
-    const std::string whole = text_of("a.csv");
+    const std::string whole = text("a.csv");
     std::vector<std::pair<std::uint64_t, double>> packets;  // end, time since the recording began
     PacketReader reader(file("a.pcap"));
     std::optional<Stamp> began;
@@ -300,7 +287,7 @@ TEST_F(Recording, ThatIsTornLosesTheTicksOfItsLastSecondAtMost) {
                                    std::filesystem::copy_options::overwrite_existing);
         std::filesystem::resize_file(file("torn.pcap"), end + 11);
         ASSERT_EQ(run_program({PACKET_REPLAY, file("torn.pcap"), "--csv", file("torn.csv")}).status, 0);
-        const std::string torn = text_of("torn.csv");
+        const std::string torn = text("torn.csv");
         EXPECT_EQ(torn, whole.substr(0, torn.size()));
         EXPECT_TRUE(torn.ends_with('\n'));
         const std::size_t last_line = torn.rfind('\n', torn.size() - 2) + 1;
@@ -320,10 +307,10 @@ TEST_F(Recording, HoldsOnlyStatesWhereNoTicksAreAskedFor) {
                                file(std::string(recording) + option)})
                       .status,
                   0);
-        EXPECT_THAT(text_of(std::string(recording) + option),
+        EXPECT_THAT(text(std::string(recording) + option),
                     ::testing::StartsWith("time_s,session_time_s,burr_x_mm,"));
     }
-    EXPECT_EQ(text_of("a--csv"), text_of("a--states-csv"));
+    EXPECT_EQ(text("a--csv"), text("a--states-csv"));
     command.back() = "100";
     EXPECT_EQ(run_program(command).status, 2);
 }

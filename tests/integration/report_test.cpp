@@ -3,33 +3,25 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "tests/support/child_process.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/folder_test.h"
 
 namespace osteomill::testing {
 namespace {
 
 using ::testing::HasSubstr;
 
-class ReportProgram : public ::testing::Test {
+class ReportProgram : public FolderTest {
   protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    std::string text(const std::string& name) const {
-        std::ifstream in(file(name), std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
-    }
     Finished serve(std::vector<std::string> more) const {
         std::vector<std::string> command{HAPTIC_SERVER, "--clock", "virtual", "--duration-s", "4"};
         command.insert(command.end(), more.begin(), more.end());
         return run_program(command);
     }
-
-    TemporaryFolder folder_;
 };
 
 TEST_F(ReportProgram, OfTheLiveSessionIsThatOfItsRecording) {

@@ -12,12 +12,12 @@
 #include "common/recording/playhead.h"
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/folder_test.h"
 
 namespace osteomill::testing {
 namespace {
 
-class SessionControlsProgram : public ::testing::Test {
+class SessionControlsProgram : public FolderTest {
   protected:
     SessionControlsProgram() {
         // Two strokes: down at x = -1, up, and down at x = 1.
@@ -33,11 +33,6 @@ class SessionControlsProgram : public ::testing::Test {
                                              "5.0,1,0,6,0,0,1,0\n";
         write_block(file("block.nrrd"));
     }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    nlohmann::json json(const std::string& name) const {
-        std::ifstream in(file(name));
-        return nlohmann::json::parse(in);
-    }
     /// What the session measured.
     nlohmann::json run(const std::string& script, std::vector<std::string> more = {}) const {
         std::ofstream(file("script.csv")) << "t_s,action,text\n" << script;
@@ -49,8 +44,6 @@ class SessionControlsProgram : public ::testing::Test {
         EXPECT_EQ(finished.status, 0) << finished.err;
         return json("server.json");
     }
-
-    TemporaryFolder folder_;
 };
 
 TEST_F(SessionControlsProgram, UndoesAndRedoesStrokesToTheBit) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,7 +13,7 @@
 #include "common/recording/playhead.h"
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/folder_test.h"
 
 namespace osteomill::testing {
 namespace {
@@ -29,7 +28,7 @@ constexpr double tube_radius_mm = 1.2;
 constexpr double burr_radius_mm = 1.0;
 constexpr double spacing_mm = 0.2;
 
-class StructuresProgram : public ::testing::Test {
+class StructuresProgram : public FolderTest {
   protected:
     StructuresProgram() {
         write_volume("bone.nrrd", "int16", "", [](double, double, double z_mm) {
@@ -78,11 +77,6 @@ class StructuresProgram : public ::testing::Test {
                "\"nerve\"\nprotected = true\n"
             << nerve_keys << "\n[[burrs]]\nname = \"2 mm\"\ndiameter_mm = 2.0\nrpm = 40000\n";
     }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    std::string text(const std::string& name) const {
-        std::ifstream in(file(name), std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
-    }
     Finished serve(std::vector<std::string> more) const {
         std::vector<std::string> command{HAPTIC_SERVER,      "--clock",          "virtual",
                                          "--scene",          file("scene.toml"), "--trajectory",
@@ -90,8 +84,6 @@ class StructuresProgram : public ::testing::Test {
         command.insert(command.end(), more.begin(), more.end());
         return run_program(command);
     }
-
-    TemporaryFolder folder_;
 };
 
 TEST_F(StructuresProgram, LoseAsMuchInEveryTable) {

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <csignal>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "tests/support/folder_test.h"
 #include "tests/support/lab_certificates.h"
 #include "tests/support/logged_removal.h"
 
@@ -28,15 +28,10 @@ Command with(Command command, const TlsFiles& files) {
     return command;
 }
 
-class TlsPrograms : public ::testing::Test {
+class TlsPrograms : public FolderTest {
   protected:
     void SetUp() override {
         if (!has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
-    }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    nlohmann::json json(const std::string& name) const {
-        std::ifstream in(file(name));
-        return nlohmann::json::parse(in);
     }
     /// Draws until the session at `address` (0.0.0.0:PORT, as the server says it) is over.
     Command client(const std::string& address, const std::string& json) const {
@@ -54,8 +49,6 @@ class TlsPrograms : public ::testing::Test {
                 "--json",
                 file(json)};
     }
-
-    TemporaryFolder folder_;
 };
 
 TEST_F(TlsPrograms, ServeTheLabOnAllAddressesAndTheBonesAreEqual) {
