@@ -4,8 +4,6 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <thread>
@@ -13,9 +11,8 @@
 
 #include "tests/support/block_file.h"
 #include "tests/support/child_process.h"
-#include "tests/support/file_text.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/milling_motion.h"
-#include "tests/support/temporary_folder.h"
 
 namespace osteomill {
 namespace {
@@ -23,9 +20,8 @@ namespace {
 using testing::Finished;
 using ::testing::HasSubstr;
 using testing::run_program;
-using testing::text_of;
 
-class BoneExport : public ::testing::Test {
+class BoneExport : public testing::FolderTest {
   protected:
     /// A block, drilled for a while.
     Finished drill(const std::string& duration_s, const std::vector<std::string>& more) const {
@@ -37,12 +33,7 @@ class BoneExport : public ::testing::Test {
         command.insert(command.end(), more.begin(), more.end());
         return run_program(command);
     }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    double removed_mm3() const {
-        return nlohmann::json::parse(text_of(file("a.json"))).at("removed_mm3").at("total");
-    }
-
-    const testing::TemporaryFolder folder_;
+    double removed_mm3() const { return json("a.json").at("removed_mm3").at("total"); }
 };
 
 TEST_F(BoneExport, GivesTheSameSurfaceOfTheSavedBoneAndOfTheRecording) {
@@ -55,7 +46,7 @@ TEST_F(BoneExport, GivesTheSameSurfaceOfTheSavedBoneAndOfTheRecording) {
     const Finished replayed = run_program({PACKET_REPLAY, file("a.pcap"), "--surface", file("b.stl"),
                                            "--difference", file("gone.nrrd"), "--json", file("b.json")});
     EXPECT_EQ(replayed.status, 0) << replayed.err;
-    EXPECT_EQ(text_of(file("a.stl")), text_of(file("b.stl")));
+    EXPECT_EQ(text("a.stl"), text("b.stl"));
     EXPECT_TRUE(std::filesystem::exists(file("b.json")));
 
     // A bone saved at once is the one that was drilled.
@@ -64,7 +55,7 @@ TEST_F(BoneExport, GivesTheSameSurfaceOfTheSavedBoneAndOfTheRecording) {
     const Finished gone =
         run_program({BONE_EXPORT, file("carved.nrrd"), file("gone2.nrrd"), "--removed", file("whole.nrrd")});
     EXPECT_EQ(gone.status, 0) << gone.err;
-    EXPECT_EQ(text_of(file("gone.nrrd")), text_of(file("gone2.nrrd")));
+    EXPECT_EQ(text("gone.nrrd"), text("gone2.nrrd"));
     std::smatch volume;
     ASSERT_TRUE(std::regex_search(gone.err, volume, std::regex("([0-9.]+) mm\\^3 removed"))) << gone.err;
     EXPECT_NEAR(std::stod(volume[1]), removed_mm3(), 1e-3);

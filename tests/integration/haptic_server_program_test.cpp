@@ -11,11 +11,11 @@
 #include <sstream>
 #include <string>
 
-#include "tests/support/file_text.h"
+#include "tests/support/folder_test.h"
 
+namespace osteomill::testing {
 namespace {
 
-using osteomill::testing::text_of;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -27,50 +27,33 @@ struct Outcome {
     std::string err;
 };
 
-class HapticServerProgram : public ::testing::Test {
+class HapticServerProgram : public FolderTest {
   protected:
-    HapticServerProgram() {
-        folder_ = std::filesystem::path(::testing::TempDir()) /
-                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    ~HapticServerProgram() override { std::filesystem::remove_all(folder_); }
-
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-
     Outcome run(const std::string& arguments) const {
         const std::string command =
             HAPTIC_SERVER " " + arguments + " >" + file("out") + " 2>" + file("err") + " </dev/null";
         const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(file("out")), text_of(file("err"))};
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("out"), text("err")};
     }
-
-    nlohmann::json measured(const std::string& name) const {
-        return nlohmann::json::parse(text_of(file(name)));
-    }
-
-  private:
-    std::filesystem::path folder_;
 };
 
 TEST_F(HapticServerProgram, MillsOnTheVirtualClockAndWritesWhatItMeasured) {
     const Outcome outcome =
         run("--clock virtual --duration-s 3 --json " + file("a.json") + " --log-csv " + file("forces.csv"));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const nlohmann::json json = measured("a.json");
-    EXPECT_EQ(json.at("ticks"), 3001);
-    EXPECT_EQ(json.at("missed_deadlines"), 0);
+    const nlohmann::json measured = json("a.json");
+    EXPECT_EQ(measured.at("ticks"), 3001);
+    EXPECT_EQ(measured.at("missed_deadlines"), 0);
     for (const char* key : {"p50", "p99", "p999", "max"}) {
-        EXPECT_TRUE(json.at("wakeup_latency_us").contains(key));
-        EXPECT_GT(json.at("milling_step_us").at(key).get<double>(), 0.0);
+        EXPECT_TRUE(measured.at("wakeup_latency_us").contains(key));
+        EXPECT_GT(measured.at("milling_step_us").at(key).get<double>(), 0.0);
     }
-    EXPECT_GT(json.at("removed_mm3").at("total").get<double>(), 0.0);
-    EXPECT_TRUE(json.at("removed_mm3").contains("carious lesion"));
-    EXPECT_GT(json.at("peak_force_n").get<double>(), 0.0);
-    EXPECT_EQ(json.at("bone_checksum").get<std::string>().size(), 16u);
+    EXPECT_GT(measured.at("removed_mm3").at("total").get<double>(), 0.0);
+    EXPECT_TRUE(measured.at("removed_mm3").contains("carious lesion"));
+    EXPECT_GT(measured.at("peak_force_n").get<double>(), 0.0);
+    EXPECT_EQ(measured.at("bone_checksum").get<std::string>().size(), 16u);
 
-    std::istringstream lines(text_of(file("forces.csv")));
+    std::istringstream lines(text("forces.csv"));
     long count = 0;
     for (std::string line; std::getline(lines, line);) ++count;
     EXPECT_EQ(count, 1 + 3001);
@@ -100,9 +83,9 @@ file = "motion.csv"
                 file(name + ".json") + " --log-csv " + file(name + ".csv"));
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     }
-    EXPECT_EQ(text_of(file("a.csv")), text_of(file("b.csv")));
-    EXPECT_EQ(measured("a.json").at("bone_checksum"), measured("b.json").at("bone_checksum"));
-    std::istringstream lines(text_of(file("a.csv")));
+    EXPECT_EQ(text("a.csv"), text("b.csv"));
+    EXPECT_EQ(json("a.json").at("bone_checksum"), json("b.json").at("bone_checksum"));
+    std::istringstream lines(text("a.csv"));
     std::string line;
     std::getline(lines, line);
     EXPECT_THAT(line, HasSubstr(",fault,shank_torque_x_n_mm"));
@@ -116,8 +99,8 @@ TEST_F(HapticServerProgram, TakesUpACarvedBoneWhereItWasLeft) {
                               file("carved.nrrd") + " --json " + file("a.json"));
     ASSERT_EQ(first.exit_code, 0) << first.err;
     std::ofstream(file("rest.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,0,0,20,0,0,1,0\n";
-    EXPECT_FALSE(measured("a.json").contains("removed_before_mm3"));
-    const double first_mm3 = measured("a.json").at("removed_mm3").at("total");
+    EXPECT_FALSE(json("a.json").contains("removed_before_mm3"));
+    const double first_mm3 = json("a.json").at("removed_mm3").at("total");
     // And once more, of what was saved over.
     for (int generation = 0; generation < 2; ++generation) {
         const Outcome second = run("--bone " + file("carved.nrrd") + " --trajectory " + file("rest.csv") +
@@ -125,9 +108,9 @@ TEST_F(HapticServerProgram, TakesUpACarvedBoneWhereItWasLeft) {
                                    " --json " + file("b.json"));
         ASSERT_EQ(second.exit_code, 0) << second.err;
         EXPECT_THAT(second.err, HasSubstr("mm^3 were removed before; the count goes on from there"));
-        EXPECT_EQ(measured("b.json").at("bone_checksum"), measured("a.json").at("bone_checksum"));
-        EXPECT_NEAR(measured("b.json").at("removed_mm3").at("total"), first_mm3, 1e-6);
-        EXPECT_EQ(measured("b.json").at("removed_before_mm3"), measured("b.json").at("removed_mm3"));
+        EXPECT_EQ(json("b.json").at("bone_checksum"), json("a.json").at("bone_checksum"));
+        EXPECT_NEAR(json("b.json").at("removed_mm3").at("total"), first_mm3, 1e-6);
+        EXPECT_EQ(json("b.json").at("removed_before_mm3"), json("b.json").at("removed_mm3"));
     }
 }
 
@@ -136,11 +119,11 @@ TEST_F(HapticServerProgram, DrillsTheCariesOutOfTheJawAndLeavesThePulpClosed) {
     const Outcome outcome = run("--case jaw --clock virtual --duration-s 40 --json " + file("a.json") +
                                 " --report " + file("report"));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const nlohmann::json removed = measured("a.json").at("removed_mm3");
+    const nlohmann::json removed = json("a.json").at("removed_mm3");
     EXPECT_EQ(removed.at("pulp"), 0.0);
     EXPECT_EQ(removed.at("nerve canal"), 0.0);
     EXPECT_EQ(removed.at("gum"), 0.0);
-    const nlohmann::json metrics = measured("report/metrics.json").at("metrics");
+    const nlohmann::json metrics = json("report/metrics.json").at("metrics");
     EXPECT_GT(metrics.at("plan_removed_share").get<double>(), 0.8);
     EXPECT_LT(metrics.at("plan_excess_mm3").get<double>(), 0.5) << "sound tissue beyond the margin of 0.5 mm";
 }
@@ -151,17 +134,17 @@ TEST_F(HapticServerProgram, MillsAHeadInMemoryThatFollowsItsBone) {
     const std::string session = "--scene head --clock virtual --duration-s 4 --json ";
     const Outcome alone = run(session + file("alone.json"));
     ASSERT_EQ(alone.exit_code, 0) << alone.err;
-    const nlohmann::json bone = measured("alone.json").at("bone");
+    const nlohmann::json bone = json("alone.json").at("bone");
     EXPECT_NEAR(bone.at("bone_mm3").get<double>(), 0.02 * 204.8 * 204.8 * 204.8, 5000.0);
     EXPECT_LT(bone.at("peak_resident_bytes").get<double>(), 1.3 * bone.at("memory_bytes").get<double>())
         << "nothing is copied while it is built";
-    EXPECT_GT(measured("alone.json").at("removed_mm3").at("total").get<double>(), 0.1);
+    EXPECT_GT(json("alone.json").at("removed_mm3").at("total").get<double>(), 0.1);
 
     const Outcome shown = run(session + file("shown.json") + " --listen 127.0.0.1:0");
     ASSERT_EQ(shown.exit_code, 0) << shown.err;
-    EXPECT_LT(measured("shown.json").at("bone").at("peak_resident_bytes").get<double>(), gibibyte)
+    EXPECT_LT(json("shown.json").at("bone").at("peak_resident_bytes").get<double>(), gibibyte)
         << "with the copy for clients";
-    EXPECT_EQ(measured("shown.json").at("bone_checksum"), measured("alone.json").at("bone_checksum"));
+    EXPECT_EQ(json("shown.json").at("bone_checksum"), json("alone.json").at("bone_checksum"));
 }
 
 TEST_F(HapticServerProgram, EndsWithTheTrajectory) {
@@ -169,7 +152,7 @@ TEST_F(HapticServerProgram, EndsWithTheTrajectory) {
                                         "0,0,0,20,0,0,1,0\n0.4,1,0,20,0,0,1,0\n";
     ASSERT_EQ(
         run("--clock virtual --trajectory " + file("short.csv") + " --json " + file("a.json")).exit_code, 0);
-    EXPECT_NEAR(measured("a.json").at("duration_s").get<double>(), 0.4, 0.1);
+    EXPECT_NEAR(json("a.json").at("duration_s").get<double>(), 0.4, 0.1);
 }
 
 TEST_F(HapticServerProgram, ReturnsTwoForWrongUsageAndOneForAFailureWithOneLine) {
@@ -202,7 +185,8 @@ TEST_F(HapticServerProgram, ReportsAFullDiskInOneLineAndStillWritesTheRest) {
         run("--clock virtual --duration-s 1 --log-csv /dev/full --json " + file("a.json"));
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_THAT(outcome.err, HasSubstr("haptic_server: /dev/full: "));
-    EXPECT_EQ(measured("a.json").at("ticks"), 1001);
+    EXPECT_EQ(json("a.json").at("ticks"), 1001);
 }
 
 }  // namespace
+}  // namespace osteomill::testing

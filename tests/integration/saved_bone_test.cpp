@@ -7,12 +7,10 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "tests/support/child_process.h"
-#include "tests/support/file_text.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/folder_test.h"
 
 namespace osteomill {
 namespace {
@@ -22,7 +20,6 @@ using ::testing::AnyOf;
 using testing::ChildProcess;
 using testing::Finished;
 using ::testing::HasSubstr;
-using testing::text_of;
 using Clock = std::chrono::steady_clock;
 
 constexpr bool is_optimised = IS_OPTIMISED;
@@ -56,24 +53,19 @@ std::uint64_t peak_of_children() {
     return static_cast<std::uint64_t>(used.ru_maxrss) * 1024;
 }
 
-class SavedBone : public ::testing::Test {
+class SavedBone : public testing::FolderTest {
   protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
     std::vector<std::string> server(const std::vector<std::string>& options) const {
         std::vector<std::string> command{HAPTIC_SERVER, "--clock", "virtual"};
         command.insert(command.end(), options.begin(), options.end());
         return command;
     }
-    nlohmann::json measured(const std::string& name) const {
-        return nlohmann::json::parse(text_of(file(name)));
-    }
-
     /// The checksum of a bone as the server loads it; what it says where it refuses.
     std::string loaded(const std::string& bone) const {
         std::filesystem::remove(file("loaded.json"));
         const Finished run = testing::run_program(
             server({"--duration-s", "0.01", "--bone", bone, "--json", file("loaded.json")}));
-        if (run.status == 0) return measured("loaded.json").at("bone_checksum");
+        if (run.status == 0) return json("loaded.json").at("bone_checksum");
         EXPECT_EQ(run.status, 1) << run.err;
         EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
         EXPECT_THAT(run.err, HasSubstr(std::filesystem::path(bone).stem().string()));
@@ -84,9 +76,8 @@ class SavedBone : public ::testing::Test {
         const Finished run = testing::run_program(server(
             {"--duration-s", duration_s, "--bone", from, "--save-bone", to, "--json", file("saved.json")}));
         EXPECT_EQ(run.status, 0) << run.err;
-        return measured("saved.json").at("bone_checksum");
+        return json("saved.json").at("bone_checksum");
     }
-    testing::TemporaryFolder folder_;
 };
 
 TEST_F(SavedBone, KilledAtAnyMomentIsTheOldOrTheNewOne) {
@@ -100,7 +91,7 @@ TEST_F(SavedBone, KilledAtAnyMomentIsTheOldOrTheNewOne) {
         server({"--duration-s", "2", "--bone", file("block.nrrd"), "--save-bone", file("carved.nrrd"),
                 "--json", file("new.json")});
     ASSERT_EQ(testing::run_program(save_again).status, 0);
-    const std::string fresh = measured("new.json").at("bone_checksum");
+    const std::string fresh = json("new.json").at("bone_checksum");
     ASSERT_NE(fresh, old);
     ASSERT_EQ(loaded(file("carved.nrrd")), fresh);
     const std::uintmax_t whole_bytes = std::filesystem::file_size(file("carved.nrrd"));

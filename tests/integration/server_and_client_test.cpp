@@ -1,15 +1,14 @@
 // haptic_server and render_client as a lab runs them: two processes, joined by TCP over loopback.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/support/child_process.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/logged_removal.h"
 
 namespace osteomill::testing {
@@ -18,37 +17,27 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-nlohmann::json json_of(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return nlohmann::json::parse(file);
-}
-
-class Programs : public ::testing::Test {
+class Programs : public FolderTest {
   protected:
-    void SetUp() override { std::filesystem::create_directories(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
-    std::string in_folder(const std::string& name) const { return (folder_ / name).string(); }
-
     /// A motion that drills the tooth at once, down into the crown, across, out again, until it is told to
     /// end: a machine so busy that a tick is late by 20 ms ends the milling until the burr is lifted, and
     /// takes its time before a client has joined.
     std::string long_drilling() const {
-        const std::string path = in_folder("drilling.csv");
-        std::ofstream file(path);
-        file << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n";
+        const std::string path = file("drilling.csv");
+        std::ofstream csv(path);
+        csv << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n";
         for (int i = 0; i < 1000; ++i)
             for (const auto& [at_s, place] :
                  {std::pair(0.0, "0.5,0.2,5.5,0,0,1,0"), std::pair(0.4, "0.5,0.2,4.5,0,0,1,1"),
                   std::pair(2.0, "0.5,0.2,2.5,0,0,1,1"), std::pair(3.0, "2.0,0.2,2.5,0,0,1,1"),
                   std::pair(3.4, "2.0,0.2,5.5,0,0,1,0")})
-                file << 4.0 * i + at_s << ',' << place << '\n';
+                csv << 4.0 * i + at_s << ',' << place << '\n';
         return path;
     }
     /// Without a log of its ticks: on a machine that busy lines are missing, which is status 1.
     std::vector<std::string> drilling_server() const {
-        return {HAPTIC_SERVER,   "--listen", "127.0.0.1:0",           "--trajectory",
-                long_drilling(), "--json",   in_folder("server.json")};
+        return {HAPTIC_SERVER,   "--listen", "127.0.0.1:0",      "--trajectory",
+                long_drilling(), "--json",   file("server.json")};
     }
 
     std::vector<std::string> client(const std::string& address, const std::string& json) const {
@@ -64,15 +53,12 @@ class Programs : public ::testing::Test {
                 "--frames",
                 "100000",
                 "--screenshots",
-                in_folder("frames-" + json),
+                file("frames-" + json),
                 "--screenshot-every",
                 "1000",
                 "--json",
-                in_folder(json)};
+                file(json)};
     }
-
-    std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() / ("osteomill-programs-" + std::to_string(::getpid()));
 };
 
 TEST_F(Programs, AfterASessionTheClientsBoneIsTheServersBitForBit) {
@@ -89,9 +75,9 @@ TEST_F(Programs, AfterASessionTheClientsBoneIsTheServersBitForBit) {
     ASSERT_EQ(early.wait(), 0) << early.err();
     ASSERT_EQ(late.wait(), 0) << late.err();
 
-    const auto served = json_of(in_folder("server.json"));
+    const auto served = json("server.json");
     for (const char* name : {"early.json", "late.json"}) {
-        const auto seen = json_of(in_folder(name));
+        const auto seen = json(name);
         EXPECT_EQ(seen.at("bone_checksum"), served.at("bone_checksum")) << name;
         EXPECT_EQ(seen.at("checksum_mismatches"), 0) << name;
         EXPECT_GT(seen.at("frames"), 0) << name;
@@ -105,7 +91,7 @@ TEST_F(Programs, AfterASessionTheClientsBoneIsTheServersBitForBit) {
         EXPECT_TRUE(served.at("wakeup_latency_us").contains(key));
         EXPECT_TRUE(served.at("milling_step_us").contains(key));
     }
-    EXPECT_TRUE(std::filesystem::exists(in_folder("frames-early.json") + "/final.png"));
+    EXPECT_TRUE(std::filesystem::exists(file("frames-early.json") + "/final.png"));
 }
 
 TEST_F(Programs, AClientThatIsKilledDisturbsNobody) {
@@ -121,12 +107,11 @@ TEST_F(Programs, AClientThatIsKilledDisturbsNobody) {
     server.send_signal(SIGINT);
     ASSERT_EQ(server.wait(), 0) << server.err();
     ASSERT_EQ(steady.wait(), 0) << steady.err();
-    EXPECT_EQ(json_of(in_folder("steady.json")).at("bone_checksum"),
-              json_of(in_folder("server.json")).at("bone_checksum"));
+    EXPECT_EQ(json("steady.json").at("bone_checksum"), json("server.json").at("bone_checksum"));
 }
 
 TEST_F(Programs, StopOnSigintCleanlyAndStillReport) {
-    ChildProcess server({HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--json", in_folder("server.json")});
+    ChildProcess server({HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--json", file("server.json")});
     const auto address = server.line_after("listening on ");
     ASSERT_TRUE(address) << server.err();
     ChildProcess viewer(client(*address, "client.json"));
@@ -135,8 +120,8 @@ TEST_F(Programs, StopOnSigintCleanlyAndStillReport) {
     EXPECT_EQ(viewer.wait(), 0) << viewer.err();
     server.send_signal(SIGINT);
     EXPECT_EQ(server.wait(), 0) << server.err();
-    EXPECT_TRUE(json_of(in_folder("server.json")).contains("bone_checksum"));
-    EXPECT_TRUE(json_of(in_folder("client.json")).contains("gl_renderer"));
+    EXPECT_TRUE(json("server.json").contains("bone_checksum"));
+    EXPECT_TRUE(json("client.json").contains("gl_renderer"));
 }
 
 TEST_F(Programs, AnOffscreenClientSaysThatItWaitsForAServer) {
