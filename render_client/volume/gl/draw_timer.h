@@ -3,23 +3,17 @@
 // that its threads were at it.
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <algorithm>
 #include <chrono>
 
+#include "render_client/volume/gl/name.h"
 #include "render_client/volume/passes/stopwatch.h"
 
 namespace osteomill::gl {
 
+/// Every call needs a current OpenGL context, and so does its making.
 class DrawTimer final : public Stopwatch {
   public:
-    /// Needs a current OpenGL context, as do all calls.
-    DrawTimer() { glGenQueries(1, &query_); }
-    DrawTimer(const DrawTimer&) = delete;
-    DrawTimer& operator=(const DrawTimer&) = delete;
-    ~DrawTimer() override { glDeleteQueries(1, &query_); }
-
     void start() override {
         glBeginQuery(GL_TIME_ELAPSED, query_);
         started_ = Clock::now();
@@ -45,7 +39,7 @@ class DrawTimer final : public Stopwatch {
     using Clock = std::chrono::steady_clock;
 
     Clock::time_point started_;
-    GLuint query_ = 0;
+    QueryName query_;
     bool pending_ = false;
 };
 

@@ -2,63 +2,32 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 namespace osteomill::gl {
 
 namespace {
 
-GLuint make_attachment(const glm::ivec2& size_px, GLint internal_format, GLenum format, GLenum type,
-                       GLint filter) {
-    GLuint id = 0;
-    glGenTextures(1, &id);
-    glBindTexture(GL_TEXTURE_2D, id);
+void store(GLuint texture, const glm::ivec2& size_px, GLint internal_format, GLenum format, GLenum type,
+           GLint filter) {
+    glBindTexture(GL_TEXTURE_2D, texture);
     glTexImage2D(GL_TEXTURE_2D, 0, internal_format, size_px.x, size_px.y, 0, format, type, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    return id;
 }
 
 }  // namespace
 
 Framebuffer::Framebuffer(const glm::ivec2& size_px) : size_px_(size_px) {
-    colour_ = make_attachment(size_px, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_LINEAR);
-    depth_ = make_attachment(size_px, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, GL_NEAREST);
-    glGenFramebuffers(1, &id_);
+    store(colour_, size_px, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_LINEAR);
+    store(depth_, size_px, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, id_);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_, 0);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_, 0);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
-    release();
     throw std::runtime_error("the OpenGL driver cannot draw into a picture of " + std::to_string(size_px.x) +
                              " x " + std::to_string(size_px.y) + " pixels");
-}
-
-Framebuffer::Framebuffer(Framebuffer&& other) noexcept
-    : size_px_(other.size_px_),
-      id_(std::exchange(other.id_, 0)),
-      colour_(std::exchange(other.colour_, 0)),
-      depth_(std::exchange(other.depth_, 0)) {}
-
-Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
-    std::swap(size_px_, other.size_px_);
-    std::swap(id_, other.id_);
-    std::swap(colour_, other.colour_);
-    std::swap(depth_, other.depth_);
-    return *this;
-}
-
-Framebuffer::~Framebuffer() {
-    release();
-}
-
-void Framebuffer::release() {
-    if (id_ != 0) glDeleteFramebuffers(1, &id_);
-    if (colour_ != 0) glDeleteTextures(1, &colour_);
-    if (depth_ != 0) glDeleteTextures(1, &depth_);
-    id_ = colour_ = depth_ = 0;
 }
 
 void Framebuffer::bind() const {

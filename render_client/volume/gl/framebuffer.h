@@ -1,10 +1,9 @@
 // A picture to draw into: RGBA8 colour and 32-bit float depth, with a texture each. A move-only value.
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <glm/vec2.hpp>
 
+#include "render_client/volume/gl/name.h"
 #include "render_client/volume/passes/pixel_box.h"
 #include "render_client/volume/picture.h"
 
@@ -14,9 +13,6 @@ class Framebuffer {
   public:
     /// Throws std::runtime_error where the driver cannot draw into such a picture.
     explicit Framebuffer(const glm::ivec2& size_px);
-    Framebuffer(Framebuffer&& other) noexcept;
-    Framebuffer& operator=(Framebuffer&& other) noexcept;
-    ~Framebuffer();
 
     /// Draw calls that follow land here; the viewport becomes the whole picture.
     void bind() const;
@@ -40,12 +36,10 @@ class Framebuffer {
     const glm::ivec2& size_px() const { return size_px_; }
 
   private:
-    void release();
-
     glm::ivec2 size_px_;
-    GLuint id_ = 0;
-    GLuint colour_ = 0;
-    GLuint depth_ = 0;
+    FramebufferName id_;
+    TextureName colour_;
+    TextureName depth_;
 };
 
 }  // namespace osteomill::gl

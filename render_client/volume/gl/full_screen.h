@@ -2,21 +2,16 @@
 // The vertex shader makes one large triangle from gl_VertexID.
 #pragma once
 
-#include <epoxy/gl.h>
+#include "render_client/volume/gl/name.h"
 
 namespace osteomill::gl {
 
 class FullScreen {
   public:
-    FullScreen();
-    FullScreen(FullScreen&& other) noexcept;
-    FullScreen& operator=(FullScreen&& other) noexcept;
-    ~FullScreen();
-
     void draw() const;
 
   private:
-    GLuint array_ = 0;
+    VertexArrayName array_;
 };
 
 }  // namespace osteomill::gl

@@ -2,9 +2,9 @@
 // would drown in the steps of eight bits. A move-only value.
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <glm/vec2.hpp>
+
+#include "render_client/volume/gl/name.h"
 
 namespace osteomill::gl {
 
@@ -12,9 +12,6 @@ class LightLayer {
   public:
     /// Throws std::runtime_error where the driver cannot draw into such a picture.
     explicit LightLayer(const glm::ivec2& size_px);
-    LightLayer(LightLayer&& other) noexcept;
-    LightLayer& operator=(LightLayer&& other) noexcept;
-    ~LightLayer();
 
     /// Draw calls that follow land here, each behind those before it; the layer is cleared (both within
     /// glScissor's part). Depth is neither tested nor written.
@@ -28,8 +25,8 @@ class LightLayer {
 
   private:
     glm::ivec2 size_px_;
-    GLuint id_ = 0;
-    GLuint colour_ = 0;
+    FramebufferName id_;
+    TextureName colour_;
     GLint previous_ = 0;
 };
 

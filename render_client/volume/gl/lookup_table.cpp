@@ -1,26 +1,12 @@
 #include "render_client/volume/gl/lookup_table.h"
 
-#include <utility>
-
 namespace osteomill::gl {
 
 LookupTable::LookupTable(const std::array<glm::vec4, 256>& look_by_code) {
-    glGenTextures(1, &id_);
     glBindTexture(GL_TEXTURE_2D, id_);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 256, 1, 0, GL_RGBA, GL_FLOAT, look_by_code.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-}
-
-LookupTable::LookupTable(LookupTable&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
-
-LookupTable& LookupTable::operator=(LookupTable&& other) noexcept {
-    std::swap(id_, other.id_);
-    return *this;
-}
-
-LookupTable::~LookupTable() {
-    if (id_ != 0) glDeleteTextures(1, &id_);
 }
 
 void LookupTable::bind(int unit) const {

@@ -2,10 +2,10 @@
 // move-only value.
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <array>
 #include <glm/vec4.hpp>
+
+#include "render_client/volume/gl/name.h"
 
 namespace osteomill::gl {
 
@@ -14,14 +14,11 @@ class LookupTable {
     /// Linear RGB and opacity by code, stored as GL_RGBA32F; read by texelFetch(sampler2D, ivec2(code, 0),
     /// 0).
     explicit LookupTable(const std::array<glm::vec4, 256>& look_by_code);
-    LookupTable(LookupTable&& other) noexcept;
-    LookupTable& operator=(LookupTable&& other) noexcept;
-    ~LookupTable();
 
     void bind(int unit) const;
 
   private:
-    GLuint id_ = 0;
+    TextureName id_;
 };
 
 }  // namespace osteomill::gl

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <glm/common.hpp>
-#include <utility>
 
 namespace osteomill::gl {
 
@@ -23,9 +22,6 @@ Mesh::Mesh(const Triangles& triangles) : index_count_(static_cast<GLsizei>(trian
         low_ = glm::min(low_, vertex.position);
         high_ = glm::max(high_, vertex.position);
     }
-    glGenVertexArrays(1, &array_);
-    glGenBuffers(1, &vertices_);
-    glGenBuffers(1, &indices_);
     glBindVertexArray(array_);
     glBindBuffer(GL_ARRAY_BUFFER, vertices_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.vertices.size() * sizeof(Vertex)),
@@ -38,31 +34,6 @@ Mesh::Mesh(const Triangles& triangles) : index_count_(static_cast<GLsizei>(trian
     set_attribute(1, offsetof(Vertex, normal));
     set_attribute(2, offsetof(Vertex, colour));
     glBindVertexArray(0);
-}
-
-Mesh::Mesh(Mesh&& other) noexcept
-    : array_(std::exchange(other.array_, 0)),
-      vertices_(std::exchange(other.vertices_, 0)),
-      indices_(std::exchange(other.indices_, 0)),
-      index_count_(other.index_count_),
-      low_(other.low_),
-      high_(other.high_) {}
-
-Mesh& Mesh::operator=(Mesh&& other) noexcept {
-    std::swap(array_, other.array_);
-    std::swap(vertices_, other.vertices_);
-    std::swap(indices_, other.indices_);
-    std::swap(index_count_, other.index_count_);
-    std::swap(low_, other.low_);
-    std::swap(high_, other.high_);
-    return *this;
-}
-
-Mesh::~Mesh() {
-    if (array_ == 0) return;
-    glDeleteVertexArrays(1, &array_);
-    glDeleteBuffers(1, &vertices_);
-    glDeleteBuffers(1, &indices_);
 }
 
 void Mesh::draw() const {

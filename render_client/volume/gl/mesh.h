@@ -1,8 +1,7 @@
 // Triangles on the graphics card: a vertex array with its buffers, a move-only value.
 #pragma once
 
-#include <epoxy/gl.h>
-
+#include "render_client/volume/gl/name.h"
 #include "render_client/volume/tool/triangles.h"
 
 namespace osteomill::gl {
@@ -11,9 +10,6 @@ class Mesh {
   public:
     /// Attributes: 0 position, 1 normal, 2 colour (linear RGB).
     explicit Mesh(const Triangles& triangles);
-    Mesh(Mesh&& other) noexcept;
-    Mesh& operator=(Mesh&& other) noexcept;
-    ~Mesh();
 
     void draw() const;
     /// Opposite corners of the box round all vertices.
@@ -21,9 +17,9 @@ class Mesh {
     const glm::vec3& high() const { return high_; }
 
   private:
-    GLuint array_ = 0;
-    GLuint vertices_ = 0;
-    GLuint indices_ = 0;
+    VertexArrayName array_;
+    BufferName vertices_;
+    BufferName indices_;
     GLsizei index_count_ = 0;
     glm::vec3 low_{0.0f};
     glm::vec3 high_{0.0f};

@@ -1,23 +1,6 @@
 #include "render_client/volume/gl/picture_texture.h"
 
-#include <utility>
-
 namespace osteomill::gl {
-
-PictureTexture::PictureTexture() {
-    glGenTextures(1, &id_);
-}
-
-PictureTexture::PictureTexture(PictureTexture&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
-
-PictureTexture& PictureTexture::operator=(PictureTexture&& other) noexcept {
-    std::swap(id_, other.id_);
-    return *this;
-}
-
-PictureTexture::~PictureTexture() {
-    if (id_ != 0) glDeleteTextures(1, &id_);
-}
 
 void PictureTexture::upload(const glm::ivec2& size_px, std::span<const std::uint8_t> rgba) {
     store(size_px, GL_RGBA, rgba.data());

@@ -2,11 +2,19 @@
 
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
-#include <utility>
 
 namespace osteomill::gl {
 
 namespace {
+
+template <auto& read>
+std::string log_of(GLuint id) {
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    read(id, static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    return log;
+}
 
 class Shader {
   public:
@@ -17,11 +25,8 @@ class Shader {
         GLint compiled = 0;
         glGetShaderiv(id_, GL_COMPILE_STATUS, &compiled);
         if (compiled) return;
-        std::string log(4096, '\0');
-        GLsizei length = 0;
-        glGetShaderInfoLog(id_, static_cast<GLsizei>(log.size()), &length, log.data());
+        const std::string log = log_of<glGetShaderInfoLog>(id_);
         glDeleteShader(id_);
-        log.resize(static_cast<std::size_t>(length));
         throw std::runtime_error("the OpenGL driver refused a shader: " + log);
     }
     Shader(const Shader&) = delete;
@@ -38,34 +43,14 @@ class Shader {
 Program::Program(const std::string& vertex_source, const std::string& fragment_source) {
     const Shader vertex(GL_VERTEX_SHADER, vertex_source);
     const Shader fragment(GL_FRAGMENT_SHADER, fragment_source);
-    id_ = glCreateProgram();
     glAttachShader(id_, vertex.id());
     glAttachShader(id_, fragment.id());
     glLinkProgram(id_);
     GLint linked = 0;
     glGetProgramiv(id_, GL_LINK_STATUS, &linked);
     if (linked) return;
-    std::string log(4096, '\0');
-    GLsizei length = 0;
-    glGetProgramInfoLog(id_, static_cast<GLsizei>(log.size()), &length, log.data());
-    glDeleteProgram(id_);
-    log.resize(static_cast<std::size_t>(length));
-    throw std::runtime_error("the OpenGL driver could not link a shader program: " + log);
-}
-
-Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
-
-Program& Program::operator=(Program&& other) noexcept {
-    std::swap(id_, other.id_);
-    return *this;
-}
-
-Program::~Program() {
-    if (id_ == 0) return;
-    // NVIDIA's driver gives the name of one that is current away: the next of that name would draw with its
-    // uniforms.
-    glUseProgram(0);
-    glDeleteProgram(id_);
+    throw std::runtime_error("the OpenGL driver could not link a shader program: " +
+                             log_of<glGetProgramInfoLog>(id_));
 }
 
 void Program::use() const {

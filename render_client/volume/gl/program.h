@@ -1,8 +1,6 @@
 // A linked shader program: a move-only value.
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -10,15 +8,14 @@
 #include <glm/vec4.hpp>
 #include <string>
 
+#include "render_client/volume/gl/name.h"
+
 namespace osteomill::gl {
 
 class Program {
   public:
     /// Compiles and links GLSL 3.30. Throws std::runtime_error with the compiler's log.
     Program(const std::string& vertex_source, const std::string& fragment_source);
-    Program(Program&& other) noexcept;
-    Program& operator=(Program&& other) noexcept;
-    ~Program();
 
     /// glUseProgram; the setters below need it.
     void use() const;
@@ -32,7 +29,15 @@ class Program {
     void set(const char* name, const glm::mat4& value) const;
 
   private:
-    GLuint id_ = 0;
+    static void create(GLsizei, GLuint* id) { *id = glCreateProgram(); }
+    static void remove(GLsizei, const GLuint* id) {
+        // NVIDIA's driver gives the name of one that is current away: the next of that name would draw with
+        // its uniforms.
+        glUseProgram(0);
+        glDeleteProgram(*id);
+    }
+
+    Name<create, remove> id_;
 };
 
 }  // namespace osteomill::gl

@@ -1,7 +1,6 @@
 #include "render_client/volume/gl/texture3d.h"
 
 #include <stdexcept>
-#include <utility>
 
 #include "render_client/volume/gl/gl_error.h"
 
@@ -40,7 +39,6 @@ std::size_t byte_count(const glm::ivec3& size, VoxelFormat format) {
 
 Texture3D::Texture3D(VoxelFormat format, const glm::ivec3& size) : format_(format), size_(size) {
     const TexelFormat texels = texel_format(format);
-    glGenTextures(1, &id_);
     glBindTexture(GL_TEXTURE_3D, id_);
     // While memory is made the other way, Mesa lets no context of the program touch a texture.
     if (epoxy_gl_version() >= 42 || epoxy_has_gl_extension("GL_ARB_texture_storage"))
@@ -57,23 +55,8 @@ Texture3D::Texture3D(VoxelFormat format, const glm::ivec3& size) : format_(forma
         require_no_gl_error("making a 3D texture of " + std::to_string(size.x) + " x " +
                             std::to_string(size.y) + " x " + std::to_string(size.z) + " texels");
     } catch (const std::runtime_error& error) {
-        glDeleteTextures(1, &id_);
         throw NoTextureMemory(error.what());
     }
-}
-
-Texture3D::Texture3D(Texture3D&& other) noexcept
-    : id_(std::exchange(other.id_, 0)), format_(other.format_), size_(other.size_) {}
-
-Texture3D& Texture3D::operator=(Texture3D&& other) noexcept {
-    std::swap(id_, other.id_);
-    std::swap(format_, other.format_);
-    std::swap(size_, other.size_);
-    return *this;
-}
-
-Texture3D::~Texture3D() {
-    if (id_ != 0) glDeleteTextures(1, &id_);
 }
 
 void Texture3D::upload(const glm::ivec3& first, const glm::ivec3& size,

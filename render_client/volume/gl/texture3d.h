@@ -1,12 +1,12 @@
 // A 3D texture: a move-only value. Every call needs the OpenGL context in which it was made to be current.
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <stdexcept>
+
+#include "render_client/volume/gl/name.h"
 
 namespace osteomill::gl {
 
@@ -28,9 +28,6 @@ class Texture3D {
   public:
     /// Storage for `size` texels, contents undefined. Throws NoTextureMemory.
     Texture3D(VoxelFormat format, const glm::ivec3& size);
-    Texture3D(Texture3D&& other) noexcept;
-    Texture3D& operator=(Texture3D&& other) noexcept;
-    ~Texture3D();
 
     /// glTexSubImage3D: the bytes of each texel, x fastest. The box must lie within the texture.
     void upload(const glm::ivec3& first, const glm::ivec3& size, std::span<const std::uint8_t> texels);
@@ -48,7 +45,7 @@ class Texture3D {
     std::size_t bytes() const;
 
   private:
-    GLuint id_ = 0;
+    TextureName id_;
     VoxelFormat format_;
     glm::ivec3 size_;
 };

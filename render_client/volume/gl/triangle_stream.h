@@ -1,19 +1,16 @@
 // Triangles that are other ones in every frame: positions only, a move-only value.
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <glm/vec3.hpp>
 #include <span>
+
+#include "render_client/volume/gl/name.h"
 
 namespace osteomill::gl {
 
 class TriangleStream {
   public:
     TriangleStream();
-    TriangleStream(TriangleStream&& other) noexcept;
-    TriangleStream& operator=(TriangleStream&& other) noexcept;
-    ~TriangleStream();
 
     /// Replaces all of them; three corners each, attribute 0.
     void upload(std::span<const glm::vec3> corners);
@@ -21,8 +18,8 @@ class TriangleStream {
     void draw() const;
 
   private:
-    GLuint array_ = 0;
-    GLuint buffer_ = 0;
+    VertexArrayName array_;
+    BufferName buffer_;
     GLsizei corner_count_ = 0;
 };
 

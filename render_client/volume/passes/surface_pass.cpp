@@ -16,13 +16,10 @@ namespace osteomill {
 
 namespace {
 
-GLuint make_buffer(GLenum format, const glm::ivec2& size_px, GLenum attachment) {
-    GLuint id = 0;
-    glGenRenderbuffers(1, &id);
-    glBindRenderbuffer(GL_RENDERBUFFER, id);
+void attach(GLuint buffer, GLenum format, const glm::ivec2& size_px, GLenum attachment) {
+    glBindRenderbuffer(GL_RENDERBUFFER, buffer);
     glRenderbufferStorage(GL_RENDERBUFFER, format, size_px.x, size_px.y);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, id);
-    return id;
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
 }
 
 /// Patient axes to the camera's.
@@ -46,22 +43,15 @@ SurfacePass::SurfacePass(const glm::ivec2& size_px)
       head_(burr_head(burr_shape_)),
       shank_(burr_shank(burr_shape_)),
       covered_(size_px) {
-    glGenFramebuffers(1, &framebuffer_);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    surface_ = make_buffer(GL_RGBA32F, size_px, GL_COLOR_ATTACHMENT0);
-    thing_ = make_buffer(GL_R8UI, size_px, GL_COLOR_ATTACHMENT1);
-    depth_ = make_buffer(GL_DEPTH_COMPONENT32F, size_px, GL_DEPTH_ATTACHMENT);
+    attach(surface_, GL_RGBA32F, size_px, GL_COLOR_ATTACHMENT0);
+    attach(thing_, GL_R8UI, size_px, GL_COLOR_ATTACHMENT1);
+    attach(depth_, GL_DEPTH_COMPONENT32F, size_px, GL_DEPTH_ATTACHMENT);
     constexpr GLenum both[]{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     glDrawBuffers(2, both);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         throw std::runtime_error("the OpenGL driver cannot draw depths and labels of " +
                                  std::to_string(size_px.x) + " x " + std::to_string(size_px.y) + " pixels");
-}
-
-SurfacePass::~SurfacePass() {
-    const GLuint buffers[]{surface_, thing_, depth_};
-    glDeleteRenderbuffers(3, buffers);
-    glDeleteFramebuffers(1, &framebuffer_);
 }
 
 void SurfacePass::add_structure(const StructureSurface& surface, std::uint8_t thing) {

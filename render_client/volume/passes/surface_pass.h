@@ -7,8 +7,6 @@
 // translucent one has its first surface.
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -19,6 +17,7 @@
 
 #include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/mesh.h"
+#include "render_client/volume/gl/name.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/structures/structure_surface.h"
 #include "render_client/volume/tool/tool_renderer.h"
@@ -40,9 +39,6 @@ class SurfacePass {
   public:
     /// Throws std::runtime_error where the driver cannot draw into such a picture.
     explicit SurfacePass(const glm::ivec2& size_px);
-    ~SurfacePass();
-    SurfacePass(const SurfacePass&) = delete;
-    SurfacePass& operator=(const SurfacePass&) = delete;
 
     /// Another soft structure, with the number that it has in pictures, above those of SurfaceImage.
     void add_structure(const StructureSurface& surface, std::uint8_t thing);
@@ -67,10 +63,10 @@ class SurfacePass {
     SurfaceImage read_back() const;
 
     glm::ivec2 size_px_;
-    GLuint framebuffer_ = 0;
-    GLuint surface_ = 0;
-    GLuint thing_ = 0;
-    GLuint depth_ = 0;
+    gl::FramebufferName framebuffer_;
+    gl::RenderbufferName surface_;
+    gl::RenderbufferName thing_;
+    gl::RenderbufferName depth_;
     BoneProgram bone_program_;
     gl::Program mesh_program_;
     gl::FullScreen full_screen_;
