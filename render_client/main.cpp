@@ -13,6 +13,8 @@
 #include "common/program/stop_signals.h"
 #include "common/text/plain_text.h"
 #include "render_client/dataset/dataset_run.h"
+#include "render_client/link/bone_link.h"
+#include "render_client/link/recording_player.h"
 #include "render_client/sound/quiet_sound_libraries.h"
 #include "render_client/ui/film_run.h"
 #include "render_client/ui/offscreen_run.h"
@@ -25,8 +27,8 @@ namespace {
 
 std::unique_ptr<osteomill::SessionSource> make_session(const osteomill::RenderOptions& options) {
     if (options.replay)
-        return std::make_unique<osteomill::ReplayedSession>(*options.replay, options.speed, options.from_s);
-    return std::make_unique<osteomill::LinkedSession>(options.host, options.port, options.record,
+        return std::make_unique<osteomill::RecordingPlayer>(*options.replay, options.speed, options.from_s);
+    return std::make_unique<osteomill::BoneLink>(options.host, options.port, options.record,
                                                       options.tls);
 }
 

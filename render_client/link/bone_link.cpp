@@ -18,39 +18,27 @@ class BoneLink::Impl {
   public:
     Impl(std::string host, std::uint16_t port, const std::optional<std::filesystem::path>& record,
          const std::optional<TlsFiles>& tls)
-        : connection_(std::move(host), port, record, tls) {}
+        : connection(std::move(host), port, record, tls) {}
 
     LinkUpdate poll() {
         LinkUpdate update;
         std::size_t taken = 0;
         for (; taken < LinkQueue::capacity; ++taken) {
-            std::optional<LinkEvent> event = connection_.events().pop();
+            std::optional<LinkEvent> event = connection.events().pop();
             if (!event) break;
             std::visit([&](auto& what) { take(std::move(what), update); }, *event);
         }
-        if (taken > 0) connection_.resume();
+        if (taken > 0) connection.resume();
         complete(update);
         return update;
     }
 
-    const Bone* bone() const { return replica_.bone(); }
-    const SessionInfo* session() const { return replica_.session(); }
-
-    void send(const OperatorCommand& command) { connection_.send(command); }
-    void ask_for_ct() { connection_.ask_for_ct(); }
-    void connect_to(std::string host, std::uint16_t port) { connection_.connect_to(std::move(host), port); }
-    void send(const SessionControl& control) { connection_.send(control); }
-    void send(const Viewpoint& view) { connection_.send(view); }
-    std::optional<ToolState> newest_tool() const { return connection_.newest_tool(); }
-
-    std::string finish_recording() {
-        connection_.finish_recording();
-        return connection_.recording_error();
-    }
+    ServerConnection connection;
+    VerifiedReplica replica;
 
   private:
     void take(SessionBegan began, LinkUpdate&) {
-        replica_.begin(std::move(began.info));
+        replica.begin(std::move(began.info));
         session_number_ = began.number;
         controls_ = {};
         distances_.clear();
@@ -59,8 +47,8 @@ class BoneLink::Impl {
     }
 
     void take(BoneArrived arrived, LinkUpdate& update) {
-        if (auto before = replica_.take(std::move(arrived)))
-            connection_.discard(std::make_shared<BoneReplica>(*std::move(before)));
+        if (auto before = replica.take(std::move(arrived)))
+            connection.discard(std::make_shared<BoneReplica>(*std::move(before)));
         update.bone_replaced = true;
         update.structures.clear();
     }
@@ -85,12 +73,12 @@ class BoneLink::Impl {
     }
 
     void take(StateArrived arrived, LinkUpdate& update) {
-        const auto outcome = replica_.take(arrived);
+        const auto outcome = replica.take(arrived);
         if (const auto* error = std::get_if<WireError>(&outcome)) {
             status_ = LinkStatus::lost;
             line_ = trf("{}; asking for the bone afresh", error->line);
-            connection_.events().disown();
-            connection_.reconnect();
+            connection.events().disown();
+            connection.reconnect();
             return;
         }
         SessionState& state = arrived.state;
@@ -98,12 +86,12 @@ class BoneLink::Impl {
         update.events.insert(update.events.end(), state.events.begin(), state.events.end());
         controls_ = state.status;
         distances_ = std::move(state.distances);
-        if (const auto& question = std::get<0>(outcome)) connection_.send(*question, session_number_);
+        if (const auto& question = std::get<0>(outcome)) connection.send(*question, session_number_);
     }
 
     void complete(LinkUpdate& update) {
-        const LinkCounters& counters = connection_.counters();
-        update.changes = replica_.take_changes();
+        const LinkCounters& counters = connection.counters();
+        update.changes = replica.take_changes();
         if (update.bone_replaced) update.changes.clear();
         if (update.tool && update.tool->taken_unix_ns != 0)
             delay_ = delay_meter_.update(update.tool->taken_unix_ns, std::chrono::system_clock::now());
@@ -111,15 +99,15 @@ class BoneLink::Impl {
         update.status = status_;
         if (status_ == LinkStatus::live) update.controls = controls_;
         update.distances = distances_;
-        update.status_line = replica_.is_being_repaired()
+        update.status_line = replica.is_being_repaired()
                                  ? "the bone differs from the server's; asking for the bricks that differ"
                                  : line_;
-        update.recording_error = connection_.recording_error();
+        update.recording_error = connection.recording_error();
         if (status_ == LinkStatus::receiving_snapshot) {
             update.snapshot_bricks = counters.snapshot_bricks;
             update.snapshot_bricks_total = counters.snapshot_bricks_total;
         }
-        const VerifiedReplica::Counters& copied = replica_.counters();
+        const VerifiedReplica::Counters& copied = replica.counters();
         update.frames = copied.frames;
         update.checksums_verified = copied.verified;
         update.checksum_mismatches = copied.mismatches;
@@ -132,13 +120,11 @@ class BoneLink::Impl {
         update.bytes_per_s = byte_rate_.update(counters.bytes, now);
     }
 
-    ServerConnection connection_;
     LinkStatus status_ = LinkStatus::connecting;
     std::string line_;
     SessionStatus controls_;
     std::vector<StructureDistance> distances_;
     CtAssembler ct_;
-    VerifiedReplica replica_;
     std::uint64_t session_number_ = 0;
     DelayMeter delay_meter_;
     std::optional<DelayMeter::Delay> delay_;
@@ -154,31 +140,32 @@ LinkUpdate BoneLink::poll() {
     return impl_->poll();
 }
 const Bone* BoneLink::bone() const {
-    return impl_->bone();
+    return impl_->replica.bone();
 }
 const SessionInfo* BoneLink::session() const {
-    return impl_->session();
+    return impl_->replica.session();
 }
 void BoneLink::send_operator(const OperatorCommand& command) {
-    impl_->send(command);
+    impl_->connection.send(command);
 }
 void BoneLink::ask_for_ct() {
-    impl_->ask_for_ct();
+    impl_->connection.ask_for_ct();
 }
-void BoneLink::connect_to(std::string host, std::uint16_t port) {
-    impl_->connect_to(std::move(host), port);
+void BoneLink::connect_to(const ListenAddress& server) {
+    impl_->connection.connect_to(server.address, server.port);
 }
 void BoneLink::send_control(const SessionControl& control) {
-    impl_->send(control);
+    impl_->connection.send(control);
 }
 void BoneLink::send_view(const Viewpoint& view) {
-    impl_->send(view);
+    impl_->connection.send(view);
 }
 std::optional<ToolState> BoneLink::newest_tool() const {
-    return impl_->newest_tool();
+    return impl_->connection.newest_tool();
 }
-std::string BoneLink::finish_recording() {
-    return impl_->finish_recording();
+std::string BoneLink::finish() {
+    impl_->connection.finish_recording();
+    return impl_->connection.recording_error();
 }
 
 }  // namespace osteomill

@@ -34,7 +34,6 @@ class KeyFrames {
     /// it differs from what it was there.
     void wind_back(Playhead& playhead, double time_s) const;
 
-    std::size_t count() const { return marks_.size(); }
     std::size_t memory_bytes() const { return memory_bytes_; }
 
   private:

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "common/wire/session_receiver.h"
-#include "render_client/link/bone_link.h"
+#include "render_client/link/session_source.h"
 
 namespace osteomill {
 

@@ -17,9 +17,13 @@ constexpr int most_frames_a_poll = 1000;
 
 }  // namespace
 
-RecordingPlayer::RecordingPlayer(std::filesystem::path file, double speed)
+RecordingPlayer::RecordingPlayer(std::filesystem::path file, double speed, double from_s)
     : file_(std::move(file)), speed_(std::clamp(speed, slowest, fastest)), outline_(outline_of(file_)) {
     open();
+    if (from_s > outline_.duration_s)
+        throw RecordingError(
+            fmt::format("--from-s {}: the recording lasts {:.3f} s", from_s, outline_.duration_s));
+    seek(from_s);
 }
 
 void RecordingPlayer::open() {

@@ -12,28 +12,33 @@
 
 #include "common/recording/playhead.h"
 #include "common/recording/recording_outline.h"
-#include "render_client/link/bone_link.h"
 #include "render_client/link/key_frames.h"
 #include "render_client/link/rate_meter.h"
+#include "render_client/link/session_source.h"
 
 namespace osteomill {
 
-class RecordingPlayer {
+/// Nobody can drive it.
+class RecordingPlayer final : public SessionSource {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
     static constexpr double slowest = 0.1;
     static constexpr double fastest = 100.0;
 
-    /// Reads the first bone. Throws RecordingError. `speed`: recorded seconds a second.
-    explicit RecordingPlayer(std::filesystem::path file, double speed = 1.0);
+    /// Reads the first bone and begins at `from_s`. Throws RecordingError. `speed`: recorded seconds a
+    /// second.
+    explicit RecordingPlayer(std::filesystem::path file, double speed = 1.0, double from_s = 0.0);
 
     /// Once a frame: goes on to where it should be by now. The first poll brings the bone as it first was.
     /// What cannot be read ends the recording there, as LinkStatus::refused with the reason.
     LinkUpdate poll(Time now);
+    LinkUpdate poll() override { return poll(std::chrono::steady_clock::now()); }
 
-    const Bone* bone() const { return &playhead_->bone(); }
-    const SessionInfo* session() const { return &playhead_->session(); }
+    const Bone* bone() const override { return &playhead_->bone(); }
+    const SessionInfo* session() const override { return &playhead_->session(); }
+    RecordingPlayer* player() override { return this; }
+    std::string finish() override { return error_; }
 
     bool is_playing() const { return is_playing_; }
     /// At the end, from the beginning.

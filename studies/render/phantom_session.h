@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/bone/brick_change.h"
-#include "render_client/ui/session_source.h"
+#include "render_client/link/session_source.h"
 
 namespace osteomill {
 
@@ -28,7 +28,6 @@ class PhantomSession final : public SessionSource {
     LinkUpdate poll() override;
     const Bone* bone() const override { return &bone_; }
     const SessionInfo* session() const override { return &info_; }
-    void send_operator(const OperatorCommand&) override {}
 
   private:
     Bone bone_;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "render_client/link/recording_player.h"
 #include "render_client/volume/magnification.h"
 #include "render_client/volume/surface_pick.h"
 #include "render_client/words/translation.h"

@@ -8,7 +8,7 @@
 
 #include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/tool_history.h"
-#include "render_client/ui/session_source.h"
+#include "render_client/link/session_source.h"
 #include "render_client/ui/view/slices_view.h"
 #include "render_client/ui/view/view_settings.h"
 #include "render_client/volume/camera.h"

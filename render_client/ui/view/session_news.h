@@ -5,7 +5,7 @@
 
 #include "common/scene/operator_command.h"
 #include "common/scene/tool_state.h"
-#include "render_client/ui/session_source.h"
+#include "render_client/link/session_source.h"
 
 namespace osteomill {
 

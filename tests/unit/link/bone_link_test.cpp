@@ -161,7 +161,7 @@ TEST(BoneLink, MovesToAnotherServer) {
     BoneLink link("127.0.0.1", here.port());
     ASSERT_TRUE(reaches(link, LinkStatus::live));
     EXPECT_FALSE(link.session()->accepts_operator);
-    link.connect_to("127.0.0.1", there.port());
+    link.connect_to({"127.0.0.1", there.port()});
     ASSERT_TRUE(eventually([&] { return link.poll().connections == 2; }));
     ASSERT_TRUE(reaches(link, LinkStatus::live));
     EXPECT_TRUE(link.session()->accepts_operator);
@@ -236,7 +236,7 @@ TEST(BoneLink, RecordsWhatItReceivesOverSeveralSessions) {
         ASSERT_TRUE(verifies(link, 4));
         expect_equal_at_the_end(second, {&link});
         left = second.mirror_checksum();
-        EXPECT_EQ(link.finish_recording(), "");
+        EXPECT_EQ(link.finish(), "");
     }
     const Playhead end = at_its_end(folder / "a.pcap");
     EXPECT_EQ(end.bone_checksum(), left);
@@ -254,7 +254,7 @@ TEST(BoneLink, SaysThatItsRecordingEndedAndGoesOnWithoutIt) {
         EXPECT_TRUE(eventually([&] { return !link->poll().recording_error.empty(); }));
     }
     EXPECT_TRUE(verifies(*link, 2));
-    EXPECT_THAT(link->finish_recording(), ::testing::HasSubstr("a.part.pcap: no more than "));
+    EXPECT_THAT(link->finish(), ::testing::HasSubstr("a.part.pcap: no more than "));
     EXPECT_THROW(BoneLink("127.0.0.1", served.port(), "/nowhere/a.pcap"), RecordingError);
 }
 

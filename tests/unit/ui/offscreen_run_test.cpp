@@ -53,7 +53,6 @@ class StillSession final : public SessionSource {
     }
     const Bone* bone() const override { return session_.bone(); }
     const SessionInfo* session() const override { return session_.session(); }
-    void send_operator(const OperatorCommand&) override {}
 
   private:
     int polls_left_;

@@ -1,7 +1,7 @@
 // A session by script in place of a server: a ball of bone into which a burr sinks, a bit deeper every poll.
 #pragma once
 
-#include "render_client/ui/session_source.h"
+#include "render_client/link/session_source.h"
 #include "studies/render/made_bone.h"
 
 namespace osteomill {

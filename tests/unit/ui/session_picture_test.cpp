@@ -22,7 +22,6 @@ class ToldSession final : public SessionSource {
     }
     const Bone* bone() const override { return session_->bone(); }
     const SessionInfo* session() const override { return session_->session(); }
-    void send_operator(const OperatorCommand&) override {}
     /// Another session comes, from its beginning.
     void begin_anew() {
         session_.emplace(100'000);
