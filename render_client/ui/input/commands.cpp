@@ -199,6 +199,7 @@ void Commands::ask_to_end() {
 }
 
 void Commands::take(const SessionRequests& requests) {
+    for (const Action action : requests.actions) take(action);
     for (const SessionControl& control : requests.controls) source_.send_control(control);
     if (requests.burr) desk_.choose_burr(*requests.burr);
     if (requests.switches_pedal) desk_.switch_pedal();

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "common/scene/session_control.h"
+#include "render_client/ui/input/key_bindings.h"
 
 namespace osteomill {
 
 struct SessionRequests {
+    std::vector<Action> actions;           ///< as keys would request them
     std::vector<SessionControl> controls;  ///< for the server
     std::optional<std::size_t> burr;
     bool switches_pedal = false;

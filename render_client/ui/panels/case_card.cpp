@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <exception>
 
+#include "render_client/ui/panels/panel_painter.h"
 #include "render_client/ui/start/case_pictures.h"
 #include "render_client/volume/png_file.h"
 #include "render_client/words/translation.h"
@@ -58,8 +59,8 @@ void draw_case_card(StartPage& page, CardPictures& pictures, std::size_t index, 
     const ImVec2 picture_size{1.4f * (size.y - 2.0f * gap), 1.4f / 1.5f * (size.y - 2.0f * gap)};
     const ImVec2 inner{first.x + gap, first.y + gap};
     if (const gl::PictureTexture* picture = pictures.of(shelved))
-        canvas.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(picture->id())),
-                               inner, {inner.x + picture_size.x, inner.y + picture_size.y}, {0, 0}, {1, 1},
+        canvas.AddImageRounded(texture_of(picture->id()), inner,
+                               {inner.x + picture_size.x, inner.y + picture_size.y}, {0, 0}, {1, 1},
                                IM_COL32_WHITE, 3.0f);
     const float left = inner.x + picture_size.x + gap;
     const float width = first.x + size.x - gap - left;

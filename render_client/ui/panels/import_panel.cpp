@@ -13,6 +13,7 @@
 #include "common/scene/material.h"
 #include "common/scene/tissue_tables.h"
 #include "render_client/ui/panels/page_widgets.h"
+#include "render_client/ui/panels/panel_painter.h"
 #include "render_client/words/translation.h"
 
 namespace osteomill {
@@ -77,8 +78,7 @@ void draw_slices(StartPage& page, StartPicture& picture, const ImVec2& room) {
     const ImVec2 size{static_cast<float>(scale * size_px.x), static_cast<float>(scale * size_px.y)};
     ImGui::InvisibleButton("slices", size);
     ImDrawList& canvas = *ImGui::GetWindowDrawList();
-    canvas.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(picture.texture->id())), first,
-                    {first.x + size.x, first.y + size.y});
+    canvas.AddImage(texture_of(picture.texture->id()), first, {first.x + size.x, first.y + size.y});
     const ScanBox& covers = page.look()->covers;
     for (const PreviewSlice& slice : preview_slices(covers, preview_mm_per_px)) {
         const auto corners = box_in_slice(covers, page.form.region, preview_mm_per_px, slice);

@@ -1,7 +1,6 @@
 #include "render_client/ui/panels/inset_panel.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #include "render_client/words/translation.h"
 
@@ -27,9 +26,8 @@ void draw_inset(const PanelPainter& painter, const gl::Framebuffer& inset, Inset
     const glm::vec2 end = place.first + place.size;
     const bool is_axial = kind == InsetKind::axial;
     // OpenGL counts rows from below; see axial_camera for the mirror.
-    painter.canvas().AddImage(
-        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(inset.colour_texture())),
-        to_imgui(place.first), to_imgui(end), {is_axial ? 1.0f : 0.0f, 1.0f}, {is_axial ? 0.0f : 1.0f, 0.0f});
+    painter.canvas().AddImage(texture_of(inset.colour_texture()), to_imgui(place.first), to_imgui(end),
+                              {is_axial ? 1.0f : 0.0f, 1.0f}, {is_axial ? 0.0f : 1.0f, 0.0f});
     painter.canvas().AddRect(to_imgui(place.first), to_imgui(end), colour_of(painter.theme().on_picture));
     const float padding = painter.padding();
     painter.draw_on_picture(place.first + padding, is_axial ? tr("axial") : tr("endoscope"));

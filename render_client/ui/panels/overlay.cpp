@@ -85,8 +85,8 @@ void add_plot(PanelList& panels, const OverlayContent& content, const PanelPaint
 
 void add_inset(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                const glm::ivec2& size_px) {
-    const bool is_known = content.session && content.tool->burr < content.session->burrs.size();
-    const double diameter_mm = is_known ? content.session->burrs[content.tool->burr].diameter_mm : 0.0;
+    const Burr* burr = content.burr_in_tool();
+    const double diameter_mm = burr ? burr->diameter_mm : 0.0;
     const glm::dvec2 burr_px = pixel_of(*content.camera, content.tool->burr_position_mm, size_px);
     panels.add(inset_anchor(burr_px, glm::vec2(size_px)), {glm::vec2(content.inset->size_px())},
                [&, diameter_mm](const PanelPlace& place) {
@@ -161,20 +161,19 @@ void add_readings(PanelList& panels, const OverlayContent& content, const PanelP
 }
 
 double burr_radius_mm(const OverlayContent& content) {
-    const bool is_known = content.session != nullptr && content.tool->burr < content.session->burrs.size();
-    return is_known ? content.session->burrs[content.tool->burr].radius_mm() : 0.0;
+    const Burr* burr = content.burr_in_tool();
+    return burr ? burr->radius_mm() : 0.0;
 }
 
 /// What the burr takes of the picture; none where it is not in it.
 std::optional<PanelPlace> burr_in(const OverlayContent& content, const glm::ivec2& size_px) {
-    if (!content.tool || !content.has_bone || content.session == nullptr ||
-        content.tool->burr >= content.session->burrs.size())
-        return std::nullopt;
+    const Burr* burr = content.burr_in_tool();
+    if (burr == nullptr || !content.has_bone) return std::nullopt;
     const glm::dvec3& burr_mm = content.tool->burr_position_mm;
     if (glm::dot(burr_mm - content.camera->eye_mm(), content.camera->forward()) < content.camera->near_mm)
         return std::nullopt;
-    const auto radius = static_cast<float>(content.session->burrs[content.tool->burr].radius_mm() /
-                                           mm_per_px_at(*content.camera, burr_mm, size_px));
+    const auto radius =
+        static_cast<float>(burr->radius_mm() / mm_per_px_at(*content.camera, burr_mm, size_px));
     return PanelPlace{glm::vec2(pixel_of(*content.camera, burr_mm, size_px)) - radius,
                       glm::vec2(2.0f * radius), 0};
 }

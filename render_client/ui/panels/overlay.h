@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "render_client/link/session_source.h"
 #include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/tool_history.h"
-#include "render_client/link/session_source.h"
 #include "render_client/ui/view/slices_view.h"
 #include "render_client/ui/view/view_settings.h"
 #include "render_client/volume/camera.h"
@@ -46,6 +46,11 @@ struct OverlayContent {
     /// Progress of the preparation of a new bone or appearance; nothing when all is shown.
     std::optional<int> preparation_percent{};
     bool has_bone = false;
+
+    /// Null where there is no tool, or the server has announced no such burr.
+    const Burr* burr_in_tool() const {
+        return session && tool && tool->burr < session->burrs.size() ? &session->burrs[tool->burr] : nullptr;
+    }
 };
 
 void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px);

@@ -2,7 +2,10 @@
 // be open. Lengths are pixels of the picture.
 #pragma once
 
+#include <epoxy/gl.h>
 #include <imgui.h>
+
+#include <cstdint>
 
 #include "render_client/ui/panels/layout.h"
 #include "render_client/ui/panels/panel_text.h"
@@ -14,6 +17,11 @@ inline ImU32 colour_of(const Rgba& colour) {
 }
 inline ImVec2 to_imgui(const glm::vec2& point) {
     return {point.x, point.y};
+}
+
+/// A texture by OpenGL's name.
+inline ImTextureID texture_of(GLuint name) {
+    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name));
 }
 
 class PanelPainter {

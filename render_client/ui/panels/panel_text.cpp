@@ -65,8 +65,8 @@ PanelText session_text(const OverlayContent& content) {
 PanelText tool_text(const OverlayContent& content) {
     const ToolState& tool = *content.tool;
     PanelText text;
-    if (content.session && tool.burr < content.session->burrs.size()) {
-        const Burr& burr = content.session->burrs[tool.burr];
+    if (const Burr* in_tool = content.burr_in_tool()) {
+        const Burr& burr = *in_tool;
         const std::string head =
             burr.is_ball() ? tr("burr")
                            : tr(std::string(head_shape_names[static_cast<std::size_t>(burr.head.shape)]));

@@ -60,8 +60,8 @@ void draw_marks(const OverlayContent& content, const SliceView& view, const ImVe
     canvas.PushClipRect(first, {first.x + edge, first.y + edge}, true);
     canvas.AddLine({first.x, first.y + middle.y}, {first.x + edge, first.y + middle.y}, cross);
     canvas.AddLine({first.x + middle.x, first.y}, {first.x + middle.x, first.y + edge}, cross);
-    if (content.tool && content.session && content.tool->burr < content.session->burrs.size()) {
-        const double radius_mm = content.session->burrs[content.tool->burr].radius_mm();
+    if (const Burr* in_tool = content.burr_in_tool()) {
+        const double radius_mm = in_tool->radius_mm();
         const double away_mm = glm::dot(content.tool->burr_position_mm - view.centre_mm, view.across());
         const glm::vec2 burr(view.pixel(content.tool->burr_position_mm));
         const ImU32 ink = IM_COL32(120, 255, 140, 255);
@@ -164,8 +164,7 @@ void draw_slices_panel(const OverlayContent& content, const PanelPlace& place) {
         const ImVec2 first = ImGui::GetCursorScreenPos();
         const GLuint id = slices.picture(plane, edge, content.bone, content.bone_version).id();
         ImGui::GetWindowDrawList()->AddImage(
-            reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(id)), first,
-            {first.x + static_cast<float>(edge), first.y + static_cast<float>(edge)});
+            texture_of(id), first, {first.x + static_cast<float>(edge), first.y + static_cast<float>(edge)});
         ImGui::InvisibleButton(name_of(plane), {static_cast<float>(edge), static_cast<float>(edge)});
         draw_marks(content, view, first);
         take_mouse(slices, view, first);

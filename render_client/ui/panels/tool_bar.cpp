@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/scene/burr_profile.h"
+#include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/words/translation.h"
 
@@ -18,25 +19,9 @@ namespace osteomill {
 
 namespace {
 
-enum class Tool {
-    pedal,
-    burr,
-    tilt,
-    place,
-    bone,
-    slices,
-    undo,
-    redo,
-    reset,
-    pause,
-    mark,
-    save,
-    surface,
-    finish
-};
-
 struct ToolButton {
-    Tool tool;
+    Action action = Action::none;                    ///< as its key does it
+    void (*press)(const OverlayContent&) = nullptr;  ///< in its place
     std::string sign;
     std::string word;
     std::string tip;
@@ -67,7 +52,7 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
     std::vector<ToolButton> buttons;
     if (content.operator_command) {
         const OperatorCommand& command = *content.operator_command;
-        buttons.push_back({.tool = Tool::pedal,
+        buttons.push_back({.press = [](const OverlayContent& its) { its.requests->switches_pedal = true; },
                            .sign = "\u25CF",
                            .word = tr("Pedal"),
                            .tip = tr("the spindle turns until you press again, or while SPACE is held"),
@@ -75,13 +60,13 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
                            .is_on = command.pedal});
     }
     if (const std::optional<std::size_t> burr = burr_in_use(content))
-        buttons.push_back({.tool = Tool::burr,
+        buttons.push_back({.press = [](const OverlayContent&) { ImGui::OpenPopup("burrs"); },
                            .sign = "\u25CE",
                            .word = burr_words(content.session->burrs[*burr]),
                            .tip = tr("choose a burr (1 to 9, [ ]) and the spindle's speed (, .)"),
                            .is_enabled = may});
     if (content.operator_command) {
-        buttons.push_back({.tool = Tool::tilt,
+        buttons.push_back({.action = Action::tilt,
                            .sign = "\u2197",
                            .word = tr("Tilt"),
                            .tip = tr("left drag tilts the handpiece (T); the arrow keys do, too"),
@@ -89,14 +74,14 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
                            .is_on = content.view->drag_tilts});
     }
     buttons.push_back(
-        {.tool = Tool::place,
+        {.action = Action::place,
          .sign = "\u25C9",
          .word = tr("Place"),
          .tip = tr("then click on bone: there the tool goes; with shift the handpiece is upright on it (L)"),
          .is_enabled = may,
          .is_on = content.view->click_places});
     buttons.push_back(
-        {.tool = Tool::bone,
+        {.action = Action::move_bone,
          .sign = "\u21C4",
          .word = content.view->moves_bone ? tr("Let go") : tr("Move bone"),
          .tip = tr("left drag turns the bone under the tool, with shift it moves it, the wheel brings it "
@@ -104,7 +89,7 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
          .is_enabled = may,
          .is_on = content.view->moves_bone});
     if (content.session != nullptr && content.session->has_ct)
-        buttons.push_back({.tool = Tool::slices,
+        buttons.push_back({.action = Action::slices,
                            .sign = "\u25A6",
                            .word = "CT",
                            .tip = tr("slices of the CT (F7)"),
@@ -112,43 +97,44 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
     const auto counted = [](const char* word, std::uint32_t count) {
         return count > 0 ? fmt::format("{} {}", word, count) : std::string(word);
     };
-    buttons.push_back({.tool = Tool::undo,
+    buttons.push_back({.action = Action::undo,
                        .sign = "\u21B6",
                        .word = counted(tr("Undo"), can.undo_steps),
                        .tip = tr("gives back what the last stroke took (U)"),
                        .is_enabled = may && can.undo_steps > 0});
-    buttons.push_back({.tool = Tool::redo,
+    buttons.push_back({.action = Action::redo,
                        .sign = "\u21B7",
                        .word = counted(tr("Redo"), can.redo_steps),
                        .tip = tr("the stroke that was undone last (R)"),
                        .is_enabled = may && can.redo_steps > 0});
-    buttons.push_back({.tool = Tool::reset,
-                       .sign = "\u21BA",
-                       .word = tr("Reset"),
-                       .tip = tr("undoes all strokes"),
-                       .is_enabled = may && can.undo_steps > 0});
-    buttons.push_back({.tool = Tool::pause,
+    buttons.push_back(
+        {.press = [](const OverlayContent& its) { its.view->question = SessionQuestion::reset; },
+         .sign = "\u21BA",
+         .word = tr("Reset"),
+         .tip = tr("undoes all strokes"),
+         .is_enabled = may && can.undo_steps > 0});
+    buttons.push_back({.action = Action::hold,
                        .sign = can.is_paused ? "\u25B6" : "\u275A\u275A",
                        .word = can.is_paused ? tr("Go on") : tr("Pause"),
                        .tip = tr("force and spindle off (H)"),
                        .is_enabled = may,
                        .is_on = can.is_paused});
-    buttons.push_back({.tool = Tool::mark,
+    buttons.push_back({.action = Action::mark,
                        .sign = "\u2691",
                        .word = tr("Mark"),
                        .tip = tr("this moment, with a note, for the report (M)"),
                        .is_enabled = may});
-    buttons.push_back({.tool = Tool::save,
+    buttons.push_back({.action = Action::save,
                        .sign = "\u21E9",
                        .word = tr("Save"),
                        .tip = tr("the bone as it is, where the server saves it (F6)"),
                        .is_enabled = may});
-    buttons.push_back({.tool = Tool::surface,
+    buttons.push_back({.action = Action::save_surface,
                        .sign = "\u25B3",
                        .word = tr("Surface"),
                        .tip = tr("the bone's surface as it is, as STL, PLY or OBJ (F8)"),
                        .is_enabled = may});
-    buttons.push_back({.tool = Tool::finish,
+    buttons.push_back({.action = Action::finish,
                        .sign = "\u25A0",
                        .word = tr("Finish"),
                        .tip = tr("ends the session for everybody; all is saved (F10)"),
@@ -162,8 +148,9 @@ std::string text_of(const ToolButton& button, bool has_words) {
 
 /// For a small picture: the least used are left to their keys.
 std::vector<ToolButton> without_least_used(std::vector<ToolButton> buttons) {
-    std::erase_if(buttons,
-                  [](const ToolButton& b) { return b.tool == Tool::bone || b.tool == Tool::surface; });
+    std::erase_if(buttons, [](const ToolButton& b) {
+        return b.action == Action::move_bone || b.action == Action::save_surface;
+    });
     return buttons;
 }
 
@@ -176,53 +163,8 @@ glm::vec2 size_of(const std::vector<ToolButton>& buttons, bool has_words) {
     return {std::ceil(width), ImGui::GetFrameHeight() + 2.0f * style.WindowPadding.y};
 }
 
-void press(Tool tool, const OverlayContent& content) {
-    SessionRequests& requests = *content.requests;
-    switch (tool) {
-        case Tool::pedal:
-            requests.switches_pedal = true;
-            break;
-        case Tool::burr:
-            ImGui::OpenPopup("burrs");
-            break;
-        case Tool::tilt:
-            content.view->drag_tilts = !content.view->drag_tilts;
-            break;
-        case Tool::place:
-            content.view->click_places = !content.view->click_places;
-            break;
-        case Tool::bone:
-            content.view->moves_bone = !content.view->moves_bone;
-            break;
-        case Tool::slices:
-            content.view->slices_shown = !content.view->slices_shown;
-            break;
-        case Tool::undo:
-            requests.controls.push_back({SessionAction::undo});
-            break;
-        case Tool::redo:
-            requests.controls.push_back({SessionAction::redo});
-            break;
-        case Tool::reset:
-            content.view->question = SessionQuestion::reset;
-            break;
-        case Tool::pause:
-            requests.controls.push_back(
-                {content.link.controls.is_paused ? SessionAction::resume : SessionAction::pause});
-            break;
-        case Tool::mark:
-            content.view->question = SessionQuestion::mark;
-            break;
-        case Tool::save:
-            requests.controls.push_back({SessionAction::save});
-            break;
-        case Tool::surface:
-            content.view->question = SessionQuestion::surface;
-            break;
-        case Tool::finish:
-            content.view->question = SessionQuestion::finish;
-            break;
-    }
+void press(const ToolButton& button, const OverlayContent& content) {
+    button.press ? button.press(content) : content.requests->actions.push_back(button.action);
 }
 
 /// The head's section through the spindle, tip down, with its shank, to the scale of the largest of a set: a
@@ -280,17 +222,17 @@ float largest_mm(const std::vector<Burr>& burrs) {
 
 /// Sends the speed when the slider is let go, not on its way.
 void draw_speed(const OverlayContent& content) {
-    if (!content.tool || content.tool->burr >= content.session->burrs.size()) return;
+    const Burr* in_tool = content.burr_in_tool();
+    if (in_tool == nullptr) return;
     constexpr float slowest_rpm = 1000.0f;
     constexpr float fastest_rpm = 100'000.0f;
-    const Burr& burr = content.session->burrs[content.tool->burr];
-    const double own_rpm = 60.0 * burr.spindle_rev_per_s;
+    const double own_rpm = 60.0 * in_tool->spindle_rev_per_s;
     ImGui::Separator();
     // While it is dragged the slider has a value of its own.
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     const ImGuiID dragged = ImGui::GetID("dragged rpm");
     float rpm = storage.GetFloat(dragged, 0.0f);
-    if (rpm == 0.0f) rpm = static_cast<float>(spindle_rpm(*content.tool, burr));
+    if (rpm == 0.0f) rpm = static_cast<float>(spindle_rpm(*content.tool, *in_tool));
     ImGui::SetNextItemWidth(14.0f * ImGui::GetFontSize());
     ImGui::SliderFloat("##rpm", &rpm, std::min(slowest_rpm, static_cast<float>(own_rpm)),
                        std::max(fastest_rpm, static_cast<float>(own_rpm)), trf("{:.0f} rpm", rpm).c_str(),
@@ -349,9 +291,7 @@ void draw_tool_bar(const OverlayContent& content, const PanelPlace& place) {
         ImGui::BeginDisabled(!button.is_enabled);
         if (button.is_on)
             ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        const std::string label =
-            fmt::format("{}##{}", text_of(button, has_words), static_cast<int>(button.tool));
-        if (ImGui::Button(label.c_str())) press(button.tool, content);
+        if (ImGui::Button(text_of(button, has_words).c_str())) press(button, content);
         if (button.is_on) ImGui::PopStyleColor();
         ImGui::EndDisabled();
         if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
