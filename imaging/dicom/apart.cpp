@@ -8,8 +8,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <exception>
 #include <system_error>
+
+#include "imaging/dicom/quiet_libraries.h"
 
 namespace osteomill {
 
@@ -24,12 +25,7 @@ namespace {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit none{};
     ::setrlimit(RLIMIT_CORE, &none);
-    bool succeeded = false;
-    try {
-        succeeded = step();
-    } catch (const std::exception&) {
-    }
-    ::_exit(succeeded ? 0 : 1);
+    ::_exit(quietly(step) ? 0 : 1);
 }
 
 }  // namespace

@@ -177,7 +177,7 @@ class DicomFrames::AtomicFile : public Source {
             std::memcpy(shared_.bytes().data(), &decoded, sizeof decoded);
             return decoded.bytes > pixels.size() || image.GetBuffer(pixels.data());
         };
-        require(file, [&] { return succeeds_apart(decode); });
+        if (!succeeds_apart(decode)) throw undecodable(file);
         std::memcpy(&decoded_, shared_.bytes().data(), sizeof decoded_);
         if (std::size_t{decoded_.columns} * decoded_.rows != pixels_of_frame(file) ||
             decoded_.bytes > pixels.size() || decoded_.frames == 0)

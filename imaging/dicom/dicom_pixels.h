@@ -20,7 +20,7 @@ void require_sound_pixels(const DicomScan& scan);
 std::size_t frame_count(const DicomScan& scan);
 
 /// Of each frame of compressed pixels, in turn: which fragments hold it; never an empty one. Throws
-/// std::invalid_argument where that cannot be told, by their number, their table or the marks of their ends.
+/// std::invalid_argument where that is not clear by their number, their table or the marks of their ends.
 std::vector<std::vector<std::size_t>> fragments_of_frames(const DicomScan& scan);
 
 /// Whether an object is labels that are read: a segmentation (SEG), or one as a label map.

@@ -107,18 +107,16 @@ std::vector<PlacedVoxels> AtlasLayout::all(const BoneContent& content) const {
     }
     // No voxel lies before the grid: the empty tile comes out empty, and so do those to spare, which a
     // driver leaves as it finds them.
-    const auto add_empty = [&](std::int32_t slot) {
+    const auto add_empty = [&](std::size_t tile) {
         all.push_back({{glm::ivec3(-tile_edge_texels), glm::ivec3(tile_edge_texels)},
-                       tile_of_slot(slot) * tile_edge_texels});
+                       brick_position(size_tiles_, static_cast<BrickIndex>(tile)) * tile_edge_texels});
     };
-    add_empty(-1);
-    const auto stored = static_cast<std::int32_t>(content.brick_of_slot.size());
-    for (std::int32_t slot = 0; slot < stored; ++slot)
-        all.push_back(of_brick(
-            brick_position(content.size_bricks, content.brick_of_slot[static_cast<std::size_t>(slot)]),
-            slot));
-    const std::int32_t tiles = size_tiles_.x * size_tiles_.y * size_tiles_.z;
-    for (std::int32_t spare = stored; spare < tiles - 1; ++spare) add_empty(spare);
+    add_empty(0);
+    const std::size_t stored = content.brick_of_slot.size();
+    for (std::size_t slot = 0; slot < stored; ++slot)
+        all.push_back(of_brick(brick_position(content.size_bricks, content.brick_of_slot[slot]),
+                               static_cast<std::int32_t>(slot)));
+    for (std::size_t tile = stored + 1; tile < VoxelBox{{}, size_tiles_}.count(); ++tile) add_empty(tile);
     return all;
 }
 
