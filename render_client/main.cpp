@@ -28,8 +28,7 @@ namespace {
 std::unique_ptr<osteomill::SessionSource> make_session(const osteomill::RenderOptions& options) {
     if (options.replay)
         return std::make_unique<osteomill::RecordingPlayer>(*options.replay, options.speed, options.from_s);
-    return std::make_unique<osteomill::BoneLink>(options.host, options.port, options.record,
-                                                      options.tls);
+    return std::make_unique<osteomill::BoneLink>(options.host, options.port, options.record, options.tls);
 }
 
 /// A recording is finished whatever else goes wrong.

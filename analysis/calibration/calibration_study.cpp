@@ -134,8 +134,8 @@ void calibrate(const CalibrationOptions& options, const StudySurroundings& surro
 
 void design_runs(const DesignOptions& options, const StudySurroundings& surroundings) {
     StudyRun run(options.out, surroundings);
-    const auto planned =
-        run.plan(std::vector{options}, [](const DesignOptions&) { return "design"; }, designed);
+    const auto planned = run.plan(
+        std::vector{options}, [](const DesignOptions&) { return "design"; }, designed);
     if (!run.perform()) return;
     const auto [table, summary] = planned.outcomes().front();
     write_text(table, options.out / "design.csv");

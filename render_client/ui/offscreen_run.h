@@ -3,9 +3,9 @@
 
 #include <functional>
 
+#include "render_client/link/session_source.h"
 #include "render_client/ui/options.h"
 #include "render_client/ui/report.h"
-#include "render_client/link/session_source.h"
 
 namespace osteomill {
 

@@ -60,10 +60,10 @@ RoundTrips trips_over(const Way& way, double seconds) {
 void run_bridge_study(const BridgeStudyOptions& options, const StudySurroundings& surroundings) {
     StudyRun run(options.out, surroundings);
     const std::vector<Way> all_ways = ways();
-    const auto trips = run.plan(all_ways, &Way::name_of,
-                                [seconds = options.quick ? 2.0 : options.seconds](const Way& way) {
-                                    return trips_over(way, seconds);
-                                });
+    const auto trips =
+        run.plan(all_ways, &Way::name_of, [seconds = options.quick ? 2.0 : options.seconds](const Way& way) {
+            return trips_over(way, seconds);
+        });
     if (!run.perform()) return;
 
     nlohmann::ordered_json found;

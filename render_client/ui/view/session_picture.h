@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "render_client/link/session_source.h"
 #include "render_client/ui/panels/overlay.h"
 #include "render_client/ui/panels/panels.h"
 #include "render_client/ui/report.h"
-#include "render_client/link/session_source.h"
 #include "render_client/ui/view/bone_on_screen.h"
 #include "render_client/ui/view/session_news.h"
 #include "render_client/ui/view/shown_tool.h"

@@ -91,8 +91,7 @@ StudyCommand add_stability(CLI::App& app) {
     add_out(*stability, command.out);
     stability->add_flag("--quick", selection.quick, "a coarser map: a minute on two cores");
     stability
-        ->add_option("--methods", selection.methods,
-                     "only these couplings of the map, with commas between")
+        ->add_option("--methods", selection.methods, "only these couplings of the map, with commas between")
         ->delimiter(',')
         ->check(CLI::IsMember(map_methods()));
     stability
@@ -109,10 +108,9 @@ StudyCommand add_stability(CLI::App& app) {
     stability->add_option("--delays", selection.delays_ticks, "only these delays, in haptic ticks")
         ->delimiter(',')
         ->check(CLI::IsMember(map_delays_ticks()));
-    stability->add_flag(
-        "--edge-forces", selection.has_edge_forces,
-        "of the map: cutting alone, by burrs whose edges rub; of sites: the same burrs, "
-        "and what holds a hand that presses and does not cut counts as stuck");
+    stability->add_flag("--edge-forces", selection.has_edge_forces,
+                        "of the map: cutting alone, by burrs whose edges rub; of sites: the same burrs, "
+                        "and what holds a hand that presses and does not cut counts as stuck");
     add_sites(*stability, command);
     return {stability, [shared](const StudySurroundings& surroundings) { perform(*shared, surroundings); },
             jobs_of_processors()};

@@ -26,8 +26,7 @@ void write_results(const WholeMap& map, const StudyRun& run) {
     run.draw({"map_cutting"});
     // With edges that rub there is no wall, which the others compare with.
     if (!map.selection.has_edge_forces) run.draw({"map_wall", "map_pareto", "map_errors"});
-    run.say("{}map.json, tables (CSV) and charts (SVG) are in {}", summary_text_of(map),
-            run.out().string());
+    run.say("{}map.json, tables (CSV) and charts (SVG) are in {}", summary_text_of(map), run.out().string());
 }
 
 }  // namespace

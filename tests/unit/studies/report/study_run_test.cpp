@@ -21,8 +21,7 @@ class StudyRunTest : public ::testing::Test {
     /// A study of squares and of one more case; empty where it was a part.
     std::vector<double> study(StudyParts parts, const std::string& out, int fails_at = 0) {
         const std::filesystem::path folder = folder_ / out;
-        const StudySurroundings surroundings{
-            .said = said_, .progress = progress_, .parts = std::move(parts)};
+        const StudySurroundings surroundings{.said = said_, .progress = progress_, .parts = std::move(parts)};
         StudyRun run(folder, surroundings);
         const auto squares = run.plan(
             numbers, [](int n) { return "number " + std::to_string(n); },
@@ -51,8 +50,8 @@ class StudyRunTest : public ::testing::Test {
 };
 
 TEST_F(StudyRunTest, GivesOutcomesInOrderAndLeavesNothingBehind) {
-    EXPECT_THAT(study({.jobs = 3}, "whole"), ElementsAre(1.0 / 1, 1.0 / 4, 1.0 / 9, 1.0 / 16, 1.0 / 25,
-                                                         1.0 / 36, 1.0 / 49, 1.5));
+    EXPECT_THAT(study({.jobs = 3}, "whole"),
+                ElementsAre(1.0 / 1, 1.0 / 4, 1.0 / 9, 1.0 / 16, 1.0 / 25, 1.0 / 36, 1.0 / 49, 1.5));
     EXPECT_EQ(files_in("whole"), 0U);
     EXPECT_THAT(progress_.str(), HasSubstr("cases 100 %\n"));
 }
