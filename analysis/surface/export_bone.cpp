@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 #include "analysis/surface/mesh_file.h"
 #include "analysis/surface/surface_mesh.h"
 #include "common/files/distinct_files.h"
+#include "common/program/option_checks.h"
 #include "imaging/bone_file/bone_of_file.h"
 #include "imaging/bone_file/removed_bone.h"
 #include "imaging/imaging_error.h"

@@ -118,35 +118,27 @@ void add_quad(const openvdb::Vec4I& q, SurfaceMesh& mesh) {
 
 SurfaceMesh surface_of(const Bone& bone, int voxels_a_cell) {
     if (voxels_a_cell < 1) throw std::invalid_argument("a cell of a surface has at least one voxel");
-    openvdb::tools::VolumeToMesh mesher(half);
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec4I> quads;
     {
         const FloatGrid::Ptr field =
             voxels_a_cell == 1 ? field_of(bone) : coarse_field_of(bone, voxels_a_cell);
-        mesher(*field);
+        // As OpenVDB's library has it compiled, which its class VolumeToMesh is not.
+        openvdb::tools::volumeToMesh(*field, points, quads, half);
     }
-    if (mesher.pointListSize() > std::numeric_limits<std::uint32_t>::max())
+    if (points.size() > std::numeric_limits<std::uint32_t>::max())
         throw std::runtime_error("the surface has more points than a file can number");
 
     SurfaceMesh mesh;
     const Grid& grid = bone.grid();
     const double cell_mm = grid.spacing_mm * voxels_a_cell;
     const glm::dvec3 first_cell_mm = grid.origin_mm + 0.5 * (cell_mm - grid.spacing_mm);
-    mesh.points_mm.reserve(mesher.pointListSize());
-    for (std::size_t i = 0; i < mesher.pointListSize(); ++i) {
-        const openvdb::Vec3s& voxel = mesher.pointList()[i];
+    mesh.points_mm.reserve(points.size());
+    for (const openvdb::Vec3s& voxel : points)
         mesh.points_mm.emplace_back(first_cell_mm + cell_mm * glm::dvec3(voxel.x(), voxel.y(), voxel.z()));
-    }
-    mesher.pointList().reset();
-    for (std::size_t pool = 0; pool < mesher.polygonPoolListSize(); ++pool) {
-        openvdb::tools::PolygonPool& polygons = mesher.polygonPoolList()[pool];
-        for (std::size_t i = 0; i < polygons.numQuads(); ++i) add_quad(polygons.quad(i), mesh);
-        for (std::size_t i = 0; i < polygons.numTriangles(); ++i) {
-            const openvdb::Vec3I& t = polygons.triangle(i);
-            mesh.triangles.push_back({t[2], t[1], t[0]});
-        }
-        polygons.clearQuads();
-        polygons.clearTriangles();
-    }
+    points = {};
+    mesh.triangles.reserve(2 * quads.size());
+    for (const openvdb::Vec4I& quad : quads) add_quad(quad, mesh);
     return mesh;
 }
 
