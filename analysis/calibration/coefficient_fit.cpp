@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -31,19 +29,37 @@ Design whitened(const FitInput& input) {
 }
 
 /// The design with columns of length 1 (coefficients differ by a factor of a hundred and more), and how far
-/// its directions are seen.
-struct ScaledDesign {
+/// its directions are seen: the eigenvalues of the normal equations, which up to the largest condition that
+/// is accepted are as good as a decomposition of the design (30^2 of 10^16).
+class ScaledDesign {
+  public:
     explicit ScaledDesign(const Design& design)
-        : lengths(design.colwise().norm().transpose()),
-          columns(design * lengths.cwiseInverse().asDiagonal()),
-          svd(columns, Eigen::ComputeThinV) {}
+        : lengths_(design.colwise().norm().transpose()),
+          columns_(design * lengths_.cwiseInverse().asDiagonal()),
+          normal_(columns_.transpose() * columns_) {}
 
-    double condition() const { return svd.singularValues()(0) / svd.singularValues()(coefficient_count - 1); }
-    Coefficients least_seen() const { return svd.matrixV().col(coefficient_count - 1); }
+    double condition() const {
+        const double least = normal_.eigenvalues()(0);
+        return least > 0.0 ? std::sqrt(normal_.eigenvalues()(coefficient_count - 1) / least)
+                           : std::numeric_limits<double>::infinity();
+    }
+    Coefficients least_seen() const { return normal_.eigenvectors().col(0); }
+    /// Of the coefficients times `lengths`.
+    Square covariance() const {
+        const Square& v = normal_.eigenvectors();
+        return v * normal_.eigenvalues().cwiseInverse().asDiagonal() * v.transpose();
+    }
+    const Coefficients& lengths() const { return lengths_; }
+    Coefficients least_squares(const FitInput& input) const {
+        const Coefficients scaled =
+            covariance() * (columns_.transpose() * input.force_n.cwiseQuotient(input.spread_n));
+        return scaled.cwiseQuotient(lengths_);
+    }
 
-    Coefficients lengths;
-    Eigen::MatrixXd columns;
-    Eigen::JacobiSVD<Eigen::MatrixXd> svd;
+  private:
+    Coefficients lengths_;
+    Design columns_;
+    Eigen::SelfAdjointEigenSolver<Square> normal_;
 };
 
 bool sees_all(const Design& design) {
@@ -102,10 +118,6 @@ void refuse_what_tells_nothing(const FitInput& input, const CoefficientFit& fit)
                         "it would tell nothing; measure more often, or larger forces",
                         name.symbol, fit.value(i), fit.half_width(i), name.unit, stands_for_n, largest_n));
     }
-}
-
-Coefficients least_squares(const Design& design, const FitInput& input) {
-    return design.colPivHouseholderQr().solve(input.force_n.cwiseQuotient(input.spread_n));
 }
 
 void judge_scatter(const Design& design, const FitInput& input, CoefficientFit& fit) {
@@ -185,13 +197,13 @@ CoefficientFit fit_coefficients(const FitInput& input) {
     refuse_inseparable_coefficients(scaled);
     CoefficientFit fit;
     fit.condition = scaled.condition();
-    fit.value = least_squares(design, input);
+    fit.value = scaled.least_squares(input);
     judge_scatter(design, input, fit);
-    const Square covariance = (scaled.columns.transpose() * scaled.columns).inverse();
+    const Square covariance = scaled.covariance();
     const Coefficients deviation = covariance.diagonal().cwiseSqrt();
     fit.correlation =
         deviation.cwiseInverse().asDiagonal() * covariance * deviation.cwiseInverse().asDiagonal();
-    fit.uncertainty = fit.widened_by * deviation.cwiseQuotient(scaled.lengths);
+    fit.uncertainty = fit.widened_by * deviation.cwiseQuotient(scaled.lengths());
     fit.half_width = coverage_factor(fit) * fit.uncertainty;
     refuse_what_tells_nothing(input, fit);
     return fit;
@@ -206,7 +218,7 @@ std::vector<std::optional<Eigen::Vector3d>> predictions_without_each_run(const F
             continue;
         }
         predictions.emplace_back(input.regressors.middleRows<forces_of_a_run>(forces_of_a_run * run) *
-                                 least_squares(whitened(rest), rest));
+                                 ScaledDesign(whitened(rest)).least_squares(rest));
     }
     return predictions;
 }
