@@ -2,7 +2,7 @@
 # Installs, builds and runs the tests: optimised, then under AddressSanitizer and UBSan; those of code with threads under
 # ThreadSanitizer, too. With AddressSanitizer, a minute of hostile input under libFuzzer.
 #   ./test.sh             what continuous integration runs: all of these, without the tests of the label `nightly`
-#   ./test.sh all         those, too, and the benchmarks are built
+#   ./test.sh all         those, too, more programs under the sanitizers and longer fuzzing; and the benchmarks are built
 #   ./test.sh release     one (or several) of: release debug asan tsan; `all` before them as above
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -10,9 +10,13 @@ source scripts/prepare.sh
 
 left_out=(-LE nightly)
 more=()
+configure=()
+fuzzing_s=6  # each of the eleven targets
 if [ "${1:-}" = all ]; then
     left_out=()
     more=(all benchmarks)
+    configure=(-DOSTEOMILL_NIGHTLY=ON)
+    fuzzing_s=60
     shift
 fi
 presets=("$@")
@@ -36,6 +40,6 @@ for preset in "${presets[@]}"; do
     # Many tests wait more than they compute: twice as many as there are cores.
     ctest --preset "$preset" "${left_out[@]}" -j "$(($(nproc) * 2))"
     if [ "$preset" = asan ]; then
-        tests/fuzz/run.sh 15  # seconds for each of the eleven targets
+        tests/fuzz/run.sh "$fuzzing_s"
     fi
 done

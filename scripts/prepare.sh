@@ -25,12 +25,12 @@ install_packages() {
         >/dev/null
 }
 
-# build PRESET [TARGET...]
+# build PRESET [TARGET...], configured with the array `configure`, too, where there is one.
 build() {
     local preset=$1
     shift
     say "building: $preset"
-    cmake --preset "$preset" >"build-$preset.log" 2>&1 || { cat "build-$preset.log"; rm "build-$preset.log"; exit 1; }
+    cmake --preset "$preset" "${configure[@]}" >"build-$preset.log" 2>&1 || { cat "build-$preset.log"; rm "build-$preset.log"; exit 1; }
     rm "build-$preset.log"
     cmake --build --preset "$preset" ${1:+--target "$@"}
 }
