@@ -1,5 +1,6 @@
 #include "analysis/calibration/calibration_options.h"
 
+#include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
 

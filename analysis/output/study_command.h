@@ -1,7 +1,6 @@
 // A study as a subcommand of its program.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -9,6 +8,10 @@
 #include <thread>
 
 #include "analysis/output/surroundings.h"
+
+namespace CLI {
+class App;
+}
 
 namespace osteomill::study {
 
@@ -27,10 +30,7 @@ inline int jobs_of_processors() {
     return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-/// The folder that every study writes into.
-inline CLI::Option* add_out(CLI::App& subcommand, std::filesystem::path& out) {
-    return subcommand.add_option("--out", out, "folder for what the study writes; made if it is not there")
-        ->capture_default_str();
-}
+/// The folder that every study writes into, as its option --out.
+void add_out(CLI::App& subcommand, std::filesystem::path& out);
 
 }  // namespace osteomill::study

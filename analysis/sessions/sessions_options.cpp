@@ -1,5 +1,6 @@
 #include "analysis/sessions/sessions_options.h"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "analysis/sessions/department_database.h"

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <stdexcept>
+
+#include "common/program/option_checks.h"
 
 namespace osteomill {
 

@@ -1,11 +1,12 @@
 // Outcome of parsing a command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
-#include "common/program/option_checks.h"
+namespace CLI {
+class App;
+}
 
 namespace osteomill {
 

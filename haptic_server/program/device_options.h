@@ -1,13 +1,16 @@
 // Options of haptic_server for the device that moves the tool.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "common/files/distinct_files.h"
 #include "haptic_server/session/device_table.h"
+
+namespace CLI {
+class App;
+}
 
 namespace osteomill {
 

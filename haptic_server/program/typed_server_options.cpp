@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <stdexcept>
 
 #include "common/program/command_line.h"
+#include "common/program/option_checks.h"
 #include "common/scene/phantom_names.h"
 #include "common/scene/session_control.h"
 #include "haptic_server/session/session_defaults.h"

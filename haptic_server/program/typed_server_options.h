@@ -1,13 +1,16 @@
 // Options of haptic_server as typed, before they are checked against each other (server_options.h).
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "haptic_server/program/device_options.h"
 #include "simulation/force_models/force_models.h"
+
+namespace CLI {
+class App;
+}
 
 namespace osteomill {
 

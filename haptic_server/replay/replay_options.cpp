@@ -9,6 +9,7 @@
 
 #include "analysis/surface/mesh_file.h"
 #include "common/files/distinct_files.h"
+#include "common/program/option_checks.h"
 
 namespace osteomill {
 

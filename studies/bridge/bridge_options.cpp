@@ -1,5 +1,6 @@
 #include "studies/bridge/bridge_options.h"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "studies/bridge/bridge_study.h"

@@ -1,5 +1,6 @@
 #include "studies/force/force_options.h"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 

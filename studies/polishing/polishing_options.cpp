@@ -1,5 +1,6 @@
 #include "studies/polishing/polishing_options.h"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "studies/polishing/polishing_study.h"

@@ -1,5 +1,6 @@
 #include "studies/realtime/realtime_options.h"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "common/program/option_checks.h"

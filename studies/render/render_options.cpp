@@ -1,5 +1,6 @@
 #include "studies/render/render_options.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <memory>
 

@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 #include <stdlib.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <filesystem>

@@ -1,11 +1,14 @@
 // A study that is run again from its folder's manifest, and what differs.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace osteomill::study {
 

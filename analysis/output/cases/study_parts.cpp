@@ -1,5 +1,6 @@
 #include "analysis/output/cases/study_parts.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <stdexcept>
 

@@ -2,7 +2,6 @@
 // before.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +9,10 @@
 
 #include "analysis/output/cases/joined_parts.h"
 #include "analysis/output/cases/shard.h"
+
+namespace CLI {
+class App;
+}
 
 namespace osteomill::study {
 

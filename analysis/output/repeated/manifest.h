@@ -1,10 +1,13 @@
 // Manifest of a folder of results: what was run, with which program, on which machine.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace osteomill::study {
 

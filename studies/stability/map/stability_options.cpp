@@ -1,5 +1,6 @@
 #include "studies/stability/map/stability_options.h"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
