@@ -58,9 +58,8 @@ TEST_F(BoneImport, MakesABoneFileOfADicomSeries) {
     ASSERT_EQ(outcome.exit_status, 0) << outcome.last();
     EXPECT_THAT(outcome.lines.front(), HasSubstr("GiB of memory")) << "the estimate comes first";
     EXPECT_THAT(outcome.lines, ::testing::Contains("refining 100 %"));
-    EXPECT_EQ(outcome.last(), "bone: " + output_.string() +
-                                  "; next: haptic_server --device client --bone '" + output_.string() +
-                                  "'");
+    EXPECT_EQ(outcome.last(), "bone: " + output_.string() + "; next: haptic_server --device client --bone '" +
+                                  output_.string() + "'");
     const DenseBoneFile file = read_bone_file(output_);
     EXPECT_EQ(file.threshold_hu, 250.0);
     EXPECT_EQ(file.volume.grid,

@@ -23,8 +23,6 @@ using ::testing::HasSubstr;
 
 using Command = std::vector<std::string>;
 
-constexpr const char* lost = "the haptic device does not answer: force off";
-
 class BridgePrograms : public ::testing::Test {
   protected:
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
@@ -89,18 +87,19 @@ TEST_F(BridgePrograms, AnArmThatIsKilledTurnsAllOffAndItsSuccessorGoesOn) {
         killed.send_signal(SIGKILL);
         killed.wait();
     }
-    ASSERT_TRUE(has_logged(running, lost)) << running.err();
+    ASSERT_TRUE(has_logged(running, device_lost)) << running.err();
     const double before_mm3 = removed_mm3();
     ChildProcess hand(arm("600"));
     EXPECT_TRUE(has_removed(before_mm3 + 0.5)) << running.err();
     hand.send_signal(SIGINT);
     EXPECT_EQ(hand.wait(), 0) << hand.err();
-    EXPECT_TRUE(has_logged(running, lost, 2)) << running.err();
+    EXPECT_TRUE(has_logged(running, device_lost, 2)) << running.err();
     running.send_signal(SIGINT);
     ASSERT_EQ(running.wait(), 0) << running.err();
     expect_no_jump(hand.out());
     EXPECT_GT(told(hand.out(), "largest force"), 0.05) << "it feels again";
-    EXPECT_EQ(count(running.err(), lost), measured().at("faults").at("device_lost")) << "each is told once";
+    EXPECT_EQ(count(running.err(), device_lost), measured().at("faults").at("device_lost"))
+        << "each is told once";
 }
 
 TEST_F(BridgePrograms, AServerThatStandsStillTakesTheForceAwayWithoutAJump) {

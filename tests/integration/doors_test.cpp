@@ -40,17 +40,6 @@ using ::testing::Not;
 
 using Command = std::vector<std::string>;
 
-Command with(Command command, const TlsFiles& files) {
-    for (const auto& [option, file] :
-         {std::pair("--tls-cert", files.certificate), std::pair("--tls-key", files.key),
-          std::pair("--tls-ca", files.ca), std::pair("--tls-crl", files.crl)}) {
-        if (file.empty()) continue;
-        command.emplace_back(option);
-        command.push_back(file.string());
-    }
-    return command;
-}
-
 /// OpenGL drivers leak and are unloaded before the leak checker of an instrumented client looks.
 Command drawing_client(const std::string& where) {
     return {"/usr/bin/env",  "ASAN_OPTIONS=detect_leaks=0",

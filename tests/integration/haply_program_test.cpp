@@ -99,8 +99,6 @@ class HaplyPrograms : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-constexpr const char* lost = "the haptic device does not answer: force off";
-
 TEST_F(HaplyPrograms, AnArmMillsAndFeels) {
     ChildProcess running(server("600"));
     ASSERT_TRUE(running.line_after("waiting for an Inverse3 of the Haply service at 127.0.0.1:", 60s));
@@ -146,7 +144,7 @@ TEST_F(HaplyPrograms, WhateverBefallsTheServiceTurnsAllOffAndTheArmComesBack) {
         const bool is_dead = i == 2;
         faults[i].first();
         EXPECT_TRUE(is_dead || feels_nothing()) << i;
-        ASSERT_TRUE(has_logged(running, lost, static_cast<int>(i) + 1)) << i << ": " << running.err();
+        ASSERT_TRUE(has_logged(running, device_lost, static_cast<int>(i) + 1)) << i << ": " << running.err();
         ASSERT_TRUE(has_logged(running, faults[i].second, 1)) << i << ": " << running.err();
         recovery(is_dead);
     }

@@ -9,6 +9,7 @@
 
 #include "tests/support/child_process.h"
 #include "tests/support/file_text.h"
+#include "tests/support/logged_removal.h"
 
 namespace osteomill::testing {
 namespace {
@@ -16,13 +17,6 @@ namespace {
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::size_t count(const std::string& text, const std::string& what) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size()))
-        ++found;
-    return found;
-}
 
 bool is_there(const std::string& program) {
     return run_program({"/bin/sh", "-c", "command -v " + program}).status == 0;
@@ -44,7 +38,7 @@ TEST_P(Hardening, IsInTheProgram) {
     EXPECT_THAT(symbols, ContainsRegex("__[a-z]+_chk@")) << "copies are checked";
     const std::string mark("\xf3\x0f\x1e\xfa", 4);  // endbr64; what the C library brings along has a handful
     if (run_program({"/bin/uname", "-m"}).out == "x86_64\n") {
-        EXPECT_GT(count(text_of(program), mark), 500U);
+        EXPECT_GT(count(text_of(program), mark), 500);
     }
 }
 
@@ -74,18 +68,18 @@ TEST(Confinement, OfTheServiceIsWhatSystemdCallsOk) {
 
 TEST(Confinement, OfTheContainersLeavesNoCapabilityAndNothingToWriteOn) {
     const std::string compose = text_of(std::string(DOCKER_FOLDER) + "/compose.yaml");
-    EXPECT_GE(count(compose, "    image: "), 4U);
+    EXPECT_GE(count(compose, "    image: "), 4);
     EXPECT_EQ(count(compose, "    <<: *confined"), count(compose, "    image: "))
         << "each service is confined";
     for (const char* line :
          {"  cap_drop: [ALL]", "  read_only: true", "  security_opt: [\"no-new-privileges:true\"]"})
-        EXPECT_EQ(count(compose, line), 1U) << line;
+        EXPECT_EQ(count(compose, line), 1) << line;
     EXPECT_THAT(compose, HasSubstr("compose.realtime.yaml"));
     for (const char* refused :
          {"cap_add:", "privileged:", "ulimits:", "devices:", "network_mode:", "cpu_rt_"})
-        EXPECT_EQ(count(compose, refused), 0U) << refused << " is what a host may refuse";
+        EXPECT_EQ(count(compose, refused), 0) << refused << " is what a host may refuse";
     const std::string realtime = text_of(std::string(DOCKER_FOLDER) + "/compose.realtime.yaml");
-    EXPECT_EQ(count(realtime, "\n  server:\n    ulimits: {rtprio: 50, memlock: -1}\n"), 1U);
+    EXPECT_EQ(count(realtime, "\n  server:\n    ulimits: {rtprio: 50, memlock: -1}\n"), 1);
     const std::string image = text_of(std::string(DOCKER_FOLDER) + "/server.Dockerfile");
     std::smatch command;
     ASSERT_TRUE(std::regex_search(image, command, std::regex("\nCMD (.*)\n")));

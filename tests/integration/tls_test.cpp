@@ -19,15 +19,6 @@ using ::testing::HasSubstr;
 
 using Command = std::vector<std::string>;
 
-Command with(Command command, const TlsFiles& files) {
-    for (const auto& [option, file] : {std::pair("--tls-cert", files.certificate),
-                                       std::pair("--tls-key", files.key), std::pair("--tls-ca", files.ca)}) {
-        command.emplace_back(option);
-        command.push_back(file.string());
-    }
-    return command;
-}
-
 class TlsPrograms : public FolderTest {
   protected:
     void SetUp() override {

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/net/tls_files.h"
 #include "tests/support/temporary_folder.h"
@@ -15,6 +17,18 @@ namespace osteomill::testing {
 /// For GTEST_SKIP.
 inline bool has_openssl() {
     return std::system("command -v openssl > /dev/null") == 0;
+}
+
+/// The command with the options of these files.
+inline std::vector<std::string> with(std::vector<std::string> command, const TlsFiles& files) {
+    for (const auto& [option, file] :
+         {std::pair("--tls-cert", files.certificate), std::pair("--tls-key", files.key),
+          std::pair("--tls-ca", files.ca), std::pair("--tls-crl", files.crl)}) {
+        if (file.empty()) continue;
+        command.emplace_back(option);
+        command.push_back(file.string());
+    }
+    return command;
 }
 
 class LabCertificates {

@@ -9,14 +9,15 @@
 namespace osteomill::study {
 namespace {
 
-constexpr double tick_s = 0.001;
+constexpr double sample_s = 0.001;
 
 /// A record of `duration_s` whose force and depth are functions of time.
 template <typename Force, typename Depth>
 ForceRecord record_of(double duration_s, Force&& force, Depth&& depth) {
     ForceRecord record;
-    for (int i = 0; i * tick_s < duration_s; ++i)
-        record.push_back({.time_s = i * tick_s, .force_n = force(i * tick_s), .depth_mm = depth(i * tick_s)});
+    for (int i = 0; i * sample_s < duration_s; ++i)
+        record.push_back(
+            {.time_s = i * sample_s, .force_n = force(i * sample_s), .depth_mm = depth(i * sample_s)});
     return record;
 }
 
@@ -69,7 +70,7 @@ TEST(ForceMeasures, LeaveOutATenthOfTheWindowsWhereForceRightlyChangesFast) {
 TEST(ForceMeasures, AverageTheForcesLength) {
     const ForceRecord record{{.force_n = {0.0, 3.0, 4.0}}, {.force_n = {1.0, 0.0, 0.0}}};
     EXPECT_DOUBLE_EQ(mean_force_n(record), 3.0);
-    EXPECT_EQ(mean_force_n({}), 0.0);
+    EXPECT_EQ(mean_force_n(ForceRecord()), 0.0);
 }
 
 }  // namespace
