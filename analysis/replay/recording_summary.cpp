@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <iterator>
-#include <limits>
 #include <numeric>
 
 #include "analysis/replay/removal_count.h"
@@ -27,35 +26,6 @@ void begin_session(RecordingSummary& summary, const Playhead& playhead) {
     summary.has_goodbye = false;
 }
 
-void read_through(RecordingSummary& summary, Playhead& playhead, RemovalCount& removal,
-                  const std::function<void(const Playhead&)>& on_state) {
-    for (;;) {
-        const double before_s = playhead.time_s();
-        if (const StateArrived* next = playhead.next_state()) removal.before(playhead.bone(), next->changes);
-        switch (playhead.step(std::numeric_limits<double>::infinity())) {
-            case Playhead::Step::state: {
-                removal.after(playhead.bone());
-                const ToolState& tool = *playhead.tool();
-                if (tool.spindle_on)
-                    summary.milled_s[summary.session.burrs[tool.burr].name] += playhead.time_s() - before_s;
-                on_state(playhead);
-                break;
-            }
-            case Playhead::Step::new_bone:
-                add_removed(summary, removal);
-                removal = {};
-                begin_session(summary, playhead);
-                break;
-            case Playhead::Step::goodbye:
-                summary.has_goodbye = true;
-                break;
-            case Playhead::Step::nothing_due:
-            case Playhead::Step::end:
-                return;
-        }
-    }
-}
-
 double per_s(std::uint64_t count, double duration_s) {
     return duration_s > 0.0 ? static_cast<double>(count) / duration_s : 0.0;
 }
@@ -72,22 +42,33 @@ RecordingSummary summarise(const std::filesystem::path& file,
     Playhead playhead(file);
     RemovalCount removal;
     begin_session(summary, playhead);
-    try {
-        read_through(summary, playhead, removal, on_state);
-    } catch (const RecordingError& error) {
-        summary.error = error.what();
-        removal.after(playhead.bone());  // the frame may have been applied in part
-    }
+    double before_s = 0.0;
+    summary.error = play_to_end(
+        playhead,
+        [&](double) {
+            before_s = playhead.time_s();
+            if (const StateArrived* next = playhead.next_state())
+                removal.before(playhead.bone(), next->changes);
+        },
+        [&](Playhead::Step step) {
+            if (step == Playhead::Step::state) {
+                removal.after(playhead.bone());
+                const ToolState& tool = *playhead.tool();
+                if (tool.spindle_on)
+                    summary.milled_s[summary.session.burrs[tool.burr].name] += playhead.time_s() - before_s;
+                on_state(playhead);
+            }
+            if (step == Playhead::Step::new_bone) {
+                add_removed(summary, removal);
+                removal = {};
+                begin_session(summary, playhead);
+            }
+            if (step == Playhead::Step::goodbye) summary.has_goodbye = true;
+        });
+    removal.after(playhead.bone());  // the frame may have been applied in part
     add_removed(summary, removal);
+    static_cast<RecordingCounts&>(summary) = playhead.counts();
     summary.duration_s = playhead.time_s();
-    summary.frames = playhead.frames();
-    summary.states = playhead.states();
-    summary.bytes = playhead.bytes();
-    summary.state_bytes = playhead.state_bytes();
-    summary.ticks = playhead.tick_count();
-    summary.missed_ticks = playhead.missed_ticks();
-    summary.tick_bytes = playhead.tick_bytes();
-    summary.checksums_verified = playhead.checksums_verified();
     summary.bone_checksum = playhead.bone_checksum();
     summary.is_truncated = playhead.is_truncated();
     return summary;
