@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "common/program/option_checks.h"
@@ -15,6 +16,16 @@ struct ParseResult {
     std::optional<Options> options;
     std::string text;
 };
+
+/// What `read` makes of an option. What it refuses with std::invalid_argument is said with the option's name.
+template <typename Read>
+auto said_of_option(const char* option, Read&& read) {
+    try {
+        return read();
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(fmt::format("{}: {}", option, error.what()));
+    }
+}
 
 /// Fills in what `app` has declared; returns the text where help or the version is requested. Throws
 /// std::invalid_argument with one line for wrong usage.

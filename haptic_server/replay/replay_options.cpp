@@ -142,11 +142,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
                 "{} is for showing a recording; --info, --json, --csv, --states-csv, "
                 "--trajectory, --surface, --difference, --sound, --hdf5 and --report read all of it",
                 serving->get_name()));
-    try {
-        options.listen = parse_listen_address(listen);
-    } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(fmt::format("--listen: {}", error.what()));
-    }
+    options.listen = said_of_option("--listen", [&] { return parse_listen_address(listen); });
     options.access = access.access_to(options.listen);
     return {options, {}};
 }
