@@ -8,12 +8,12 @@ namespace osteomill {
 
 namespace {
 
-struct Mark {
+struct Escape {
     char letter;
     const char* written;
 };
-constexpr std::array marks{Mark{'&', "&amp;"}, Mark{'<', "&lt;"}, Mark{'>', "&gt;"}, Mark{'"', "&quot;"},
-                           Mark{'\'', "&#39;"}};
+constexpr std::array escapes{Escape{'&', "&amp;"}, Escape{'<', "&lt;"}, Escape{'>', "&gt;"},
+                             Escape{'"', "&quot;"}, Escape{'\'', "&#39;"}};
 
 /// By the library that checks every byte of it anyway.
 std::string valid_utf8(std::string_view text) {
@@ -27,8 +27,8 @@ std::string valid_utf8(std::string_view text) {
 std::string html_text(std::string_view text) {
     std::string escaped;
     for (const char letter : valid_utf8(text)) {
-        const auto mark = std::ranges::find(marks, letter, &Mark::letter);
-        if (mark != marks.end())
+        const auto mark = std::ranges::find(escapes, letter, &Escape::letter);
+        if (mark != escapes.end())
             escaped += mark->written;
         else
             escaped += static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f ? ' ' : letter;
