@@ -65,10 +65,10 @@ LinkUpdate RecordingPlayer::poll(Time now) {
                                     : LinkStatus::live;
     update.status_line = status_line();
     update.frames = playhead_->counts().states;
-    update.checksums_verified = playhead_->checksums_verified();
+    update.checksums_verified = playhead_->counts().checksums_verified;
     update.connections = 1;
     update.frames_per_s = frame_rate_.update(playhead_->counts().states, now);
-    update.bytes_per_s = byte_rate_.update(playhead_->bytes(), now);
+    update.bytes_per_s = byte_rate_.update(playhead_->counts().bytes, now);
     return update;
 }
 
