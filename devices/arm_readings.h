@@ -2,10 +2,7 @@
 // valid while it is fresh.
 #pragma once
 
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <glm/vec3.hpp>
+#include <functional>
 
 #include "simulation/device/haptic_device.h"
 #include "simulation/device/permission.h"
@@ -13,24 +10,20 @@
 
 namespace osteomill {
 
-/// Where the tool is and what the arm's buttons say. Device space.
+/// What the driver's thread knows.
 struct ArmReading {
-    glm::dvec3 tool_mm{0.0};
-    glm::dvec3 velocity_mm_per_s{0.0};
-    glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
-    bool pedal = false;
-    bool knows_pedal = false;  ///< false: nothing is known of it
-    /// Changes with the arm, grip or connection that reports the pedal.
-    std::uint64_t speaker = 0;
-    std::size_t burr = 0;
-    bool is_ready = false;                         ///< the arm is there, and the other members are current
-    std::chrono::steady_clock::time_point said{};  ///< no later than the reading was true
+    DeviceState state{.connected = false};  ///< with a pedal of no date
+    bool knows_pedal = false;               ///< false: nothing is known of it
+    double said_s = 0.0;                    ///< by the arm's clock: no later than the reading was true
 };
 
 class ArmReadings {
   public:
-    /// Session time without a new reading after which the arm counts as lost.
+    /// Session time without a new reading after which the arm counts as lost, whatever its thread does.
     static constexpr double longest_age_s = 0.03;
+
+    /// `clock_s`: the arm's, seconds that never decrease; the loop asks it.
+    explicit ArmReadings(std::function<double()> clock_s) : clock_s_(std::move(clock_s)) {}
 
     /// The thread's. Real-time safe.
     void publish(const ArmReading& reading) noexcept {
@@ -42,22 +35,18 @@ class ArmReadings {
     DeviceState read(double now_s) noexcept {
         const bool is_new = readings_.refresh();
         const ArmReading& newest = readings_.front();
-        if (is_new)
-            permission_.renew(said_at(
-                now_s,
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - newest.said).count()));
-        return {.position_mm = newest.tool_mm,
-                .velocity_mm_per_s = newest.velocity_mm_per_s,
-                .spindle_axis = newest.spindle_axis,
-                .pedal = newest.knows_pedal ? PedalStatement{.is_down = newest.pedal,
-                                                             .said_s = permission_.renewed_s(),
-                                                             .speaker = newest.speaker}
-                                            : PedalStatement{},
-                .burr = newest.burr,
-                .connected = permission_.holds(now_s) && newest.is_ready};
+        if (is_new) permission_.renew(said_at(now_s, clock_s_() - newest.said_s));
+        DeviceState state = newest.state;
+        if (newest.knows_pedal)
+            state.pedal.said_s = permission_.renewed_s();
+        else
+            state.pedal = {};
+        state.connected = state.connected && permission_.holds(now_s);
+        return state;
     }
 
   private:
+    std::function<double()> clock_s_;
     TripleBuffer<ArmReading> readings_;
     Permission permission_{longest_age_s};
 };

@@ -16,4 +16,14 @@ class ImagingError : public std::runtime_error {
         : ImagingError(file.string() + ": " + reason) {}
 };
 
+/// What `work` gives. What it refuses with std::invalid_argument, of whatever file, is said of this one.
+template <typename Work>
+auto said_of(const std::filesystem::path& file, Work&& work) {
+    try {
+        return work();
+    } catch (const std::invalid_argument& error) {
+        throw ImagingError(file, error.what());
+    }
+}
+
 }  // namespace osteomill

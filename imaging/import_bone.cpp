@@ -97,7 +97,7 @@ ImportPlan plan(const ImportOptions& options, const SourceImage& image,
                 const ImportSurroundings& surroundings) {
     const Region extent = extent_of(image);
     Region region = extent;
-    try {
+    return said_of(options.input, [&]() -> ImportPlan {
         if (options.region) {
             region = clip(*options.region, extent);
             if (region != *options.region)
@@ -110,9 +110,7 @@ ImportPlan plan(const ImportOptions& options, const SourceImage& image,
         return {.grid = grid,
                 .needed = needed,
                 .axis_of_shapes = followed_axis(options, part_of(image, needed).spacing_mm)};
-    } catch (const std::invalid_argument& error) {
-        throw ImagingError(options.input, error.what());
-    }
+    });
 }
 
 /// A bit a voxel: was it measured?

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -32,31 +31,28 @@ constexpr std::array<std::string_view, 17> columns{"run",           "material",
                                                    "spread_up_n"};
 
 /// The names of the columns, checked.
-std::vector<std::string> header_of(std::string_view line, const std::string& where) {
-    const std::vector<std::string> names = cells_of(line);
+std::vector<std::string> header_of(const TableLines& lines) {
+    const std::vector<std::string> names = cells_of(lines.line());
     for (auto name = names.begin(); name != names.end(); ++name) {
         if (std::find(columns.begin(), columns.end(), *name) == columns.end())
-            throw std::runtime_error(
-                fmt::format("{}: unknown column '{}'; there are {}", where, *name, fmt::join(columns, ", ")));
+            lines.fail(fmt::format("unknown column '{}'; there are {}", *name, fmt::join(columns, ", ")));
         if (std::find(names.begin(), name, *name) != name)
-            throw std::runtime_error(
-                fmt::format("{}: column '{}' is there twice; each must be there once", where, *name));
+            lines.fail(fmt::format("column '{}' is there twice; each must be there once", *name));
     }
     for (const std::string_view column : columns)
         if (column != groove_column && std::find(names.begin(), names.end(), column) == names.end())
-            throw std::runtime_error(
-                fmt::format("{}: column '{}' is missing; the first line must name it", where, column));
+            lines.fail(fmt::format("column '{}' is missing; the first line must name it", column));
     return names;
 }
 
 /// One line of the table, and how to complain about it.
 class Line {
   public:
-    Line(const std::vector<std::string>& header, std::string_view line, std::string where)
-        : header_(header), values_(cells_of(line)), where_(std::move(where)) {
+    Line(const std::vector<std::string>& header, const TableLines& lines)
+        : header_(header), values_(cells_of(lines.line())), lines_(lines) {
         if (values_.size() != header.size())
-            throw std::runtime_error(fmt::format("{}: {} values; there must be {}, one for each column",
-                                                 where_, values_.size(), header.size()));
+            lines.fail(fmt::format("{} values; there must be {}, one for each column", values_.size(),
+                                   header.size()));
     }
 
     const std::string& text(std::string_view column) const {
@@ -75,8 +71,7 @@ class Line {
     }
 
     [[noreturn]] void wrong(std::string_view column, std::string_view wanted) const {
-        throw std::runtime_error(
-            fmt::format("{}: {} is '{}'; it must be {}", where_, column, value(column), wanted));
+        lines_.fail(fmt::format("{} is '{}'; it must be {}", column, value(column), wanted));
     }
 
   private:
@@ -87,7 +82,7 @@ class Line {
 
     const std::vector<std::string>& header_;
     std::vector<std::string> values_;
-    std::string where_;
+    const TableLines& lines_;
 };
 
 glm::dvec3 vector_of(const Line& line, std::string_view what, std::string_view wanted,
@@ -131,27 +126,16 @@ RunSetting setting_of(const Line& line) {
 }  // namespace
 
 std::vector<MeasuredRun> read_runs(const std::filesystem::path& file) {
-    std::istringstream in(read_text(file, table_kind));
+    TableLines lines(read_text(file, table_kind), file.string());
     std::vector<std::string> header;
     std::vector<MeasuredRun> runs;
     std::set<std::string> names;
-    std::string text;
-    std::size_t number = 0;
-    const auto next = [&] {
-        try {
-            return next_table_line(in, text, number);
-        } catch (const std::runtime_error& error) {
-            throw std::runtime_error(fmt::format("{}:{}: {}", file.string(), number, error.what()));
-        }
-    };
-    while (next()) {
-        if (trimmed(text).empty() || text.starts_with('#')) continue;
-        const std::string where = fmt::format("{}:{}", file.string(), number);
+    while (lines.next()) {
         if (header.empty()) {
-            header = header_of(text, where);
+            header = header_of(lines);
             continue;
         }
-        const Line line(header, text, where);
+        const Line line(header, lines);
         MeasuredRun run{.name = line.text("run"),
                         .material = line.text("material"),
                         .setting = setting_of(line),

@@ -237,7 +237,7 @@ void AllOfRecording::add(const Playhead& playhead) {
     for (const StateVector& vector : state_vectors)
         numbers_.at(fmt::format("states/{}", vector.name)).add(row(vector.of(state.tool)));
     whole_numbers_.at("states/taken_unix_ns").add(state.tool.taken_unix_ns);
-    whole_numbers_.at("states/missed_ticks").add(static_cast<std::int64_t>(playhead.missed_ticks()));
+    whole_numbers_.at("states/missed_ticks").add(static_cast<std::int64_t>(playhead.counts().missed_ticks));
     faults_.emplace_back(state.tool.fault.text());
     notices_.emplace_back(state.tool.notice.text());
     for (const StructureDistance& distance : state.distances) {

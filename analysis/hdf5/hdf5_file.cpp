@@ -35,6 +35,10 @@ Hdf5Id scalar() {
     return {H5Screate(H5S_SCALAR), H5Sclose};
 }
 
+Hdf5Id row_of(hsize_t size) {
+    return {H5Screate_simple(1, &size, nullptr), H5Sclose};
+}
+
 }  // namespace
 
 hid_t stored_as(Hdf5Number number) {
@@ -84,36 +88,27 @@ void Hdf5File::add_group(const std::string& path) {
 }
 
 void Hdf5File::add_text(const std::string& path, const std::string& text) {
-    errno = 0;
-    const Hdf5Id type = text_type();
-    const Hdf5Id space = scalar();
-    const Hdf5Id dataset(check(H5Dcreate2(id(), path.c_str(), type.get(), space.get(), links_.get(),
-                                          dataset_properties().get(), H5P_DEFAULT)),
-                         H5Dclose);
     const char* bytes = text.c_str();
-    check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &bytes));
+    add_dataset(path, text_type().get(), scalar(), &bytes);
 }
 
 void Hdf5File::add_texts(const std::string& path, const std::vector<std::string>& texts) {
-    errno = 0;
-    const Hdf5Id type = text_type();
-    const hsize_t rows = texts.size();
-    const Hdf5Id space(check(H5Screate_simple(1, &rows, nullptr)), H5Sclose);
-    const Hdf5Id dataset(check(H5Dcreate2(id(), path.c_str(), type.get(), space.get(), links_.get(),
-                                          dataset_properties().get(), H5P_DEFAULT)),
-                         H5Dclose);
     std::vector<const char*> bytes;
     for (const std::string& text : texts) bytes.push_back(text.c_str());
-    if (rows > 0) check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()));
+    add_dataset(path, text_type().get(), row_of(texts.size()), bytes.data());
 }
 
 void Hdf5File::add_number(const std::string& path, double value) {
+    add_dataset(path, H5T_NATIVE_DOUBLE, scalar(), &value);
+}
+
+void Hdf5File::add_dataset(const std::string& path, hid_t type, const Hdf5Id& space, const void* values) {
     errno = 0;
-    const Hdf5Id space = scalar();
-    const Hdf5Id dataset(check(H5Dcreate2(id(), path.c_str(), H5T_IEEE_F64LE, space.get(), links_.get(),
+    const Hdf5Id dataset(check(H5Dcreate2(id(), path.c_str(), type, check(space.get()), links_.get(),
                                           dataset_properties().get(), H5P_DEFAULT)),
                          H5Dclose);
-    check(H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value));
+    if (H5Sget_simple_extent_npoints(space.get()) > 0)
+        check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
 }
 
 void Hdf5File::add_link(const std::string& path, const std::filesystem::path& file,
@@ -129,9 +124,7 @@ void Hdf5File::set_attribute(const std::string& path, const std::string& name, c
 
 void Hdf5File::set_attribute(const std::string& path, const std::string& name,
                              std::span<const double> numbers) {
-    const hsize_t size = numbers.size();
-    set_attribute(path, name, H5T_NATIVE_DOUBLE, Hdf5Id(H5Screate_simple(1, &size, nullptr), H5Sclose),
-                  numbers.data());
+    set_attribute(path, name, H5T_NATIVE_DOUBLE, row_of(numbers.size()), numbers.data());
 }
 
 void Hdf5File::set_attribute(const std::string& path, const std::string& name, double number) {

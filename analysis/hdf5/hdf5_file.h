@@ -27,7 +27,7 @@ class Hdf5Id {
   public:
     using Close = herr_t (*)(hid_t);
     Hdf5Id() = default;
-    Hdf5Id(hid_t id, Close close) : id_(id), close_(close) {}
+    Hdf5Id(hid_t id, Close how) : id_(id), close_(how) {}
     Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
     Hdf5Id& operator=(Hdf5Id&& other) noexcept {
         std::swap(id_, other.id_);
@@ -84,6 +84,7 @@ class Hdf5File {
   private:
     [[noreturn]] void fail() const;
     Hdf5Id text_type() const;
+    void add_dataset(const std::string& path, hid_t type, const Hdf5Id& space, const void* values);
     void set_attribute(const std::string& path, const std::string& name, hid_t type, const Hdf5Id& space,
                        const void* value);
 

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <iterator>
+#include <span>
 #include <stdexcept>
 
 #include "common/scene/trajectory_columns.h"
@@ -49,12 +48,6 @@ void append_state(fmt::memory_buffer& text, const Playhead& playhead) {
 
 }  // namespace
 
-RecordingCsv::RecordingCsv(const std::filesystem::path& file, CsvLines lines)
-    : file_(file), lines_(lines), out_(file_.part()) {
-    if (!out_)
-        throw std::runtime_error(fmt::format("{}: cannot write: {}", file.string(), std::strerror(errno)));
-}
-
 void RecordingCsv::add(const Playhead& playhead) {
     fmt::memory_buffer text;
     if (lines_ == CsvLines::trajectory) {
@@ -68,7 +61,7 @@ void RecordingCsv::add(const Playhead& playhead) {
         begin_columns(state_columns);
         append_state(text, playhead);
     }
-    out_.write(text.data(), static_cast<std::streamsize>(text.size()));
+    file_.write(std::as_bytes(std::span(text.data(), text.size())));
 }
 
 void RecordingCsv::add_waypoints(fmt::memory_buffer& text, const Playhead& playhead) {
@@ -101,15 +94,8 @@ void RecordingCsv::begin_columns(const std::string& header_line) {
             fmt::format("{}: the sessions that were joined in the recording have not the "
                         "same columns: cut them apart, with editcap for instance",
                         file_.path().string()));
-    out_ << (header_line_ = header_line);
-}
-
-void RecordingCsv::close() {
-    out_.close();
-    if (!out_)
-        throw std::runtime_error(
-            fmt::format("{}: cannot write: {}", file_.path().string(), std::strerror(errno)));
-    file_.commit();
+    header_line_ = header_line;
+    file_.write(std::as_bytes(std::span(header_line_)));
 }
 
 }  // namespace osteomill

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 
@@ -32,13 +31,12 @@ enum class CsvLines {
 class RecordingCsv {
   public:
     /// Throws std::runtime_error where the file cannot be written.
-    RecordingCsv(const std::filesystem::path& file, CsvLines lines);
+    RecordingCsv(const std::filesystem::path& file, CsvLines lines) : file_(file), lines_(lines) {}
     /// Throws std::runtime_error where a session that was joined to another has other columns, or would
-    /// follow it in a trajectory.
+    /// follow it in a trajectory, and where it cannot be written.
     void add(const Playhead& playhead);
-    /// Makes it the file, which is as it was until then. Throws std::runtime_error where a line could not be
-    /// written.
-    void close();
+    /// Makes it the file, which is as it was until then. Throws std::runtime_error where that fails.
+    void close() { file_.commit(); }
 
   private:
     void add_waypoints(fmt::memory_buffer& text, const Playhead& playhead);
@@ -49,7 +47,6 @@ class RecordingCsv {
     std::string header_line_;  // empty before the first line
     std::optional<double> trajectory_begins_s_{};
     double waypoint_s_ = 0.0;  // of the last
-    std::ofstream out_;
 };
 
 }  // namespace osteomill

@@ -2,22 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <iterator>
-#include <limits>
-#include <numeric>
-
-#include "analysis/replay/removal_count.h"
+#include <utility>
 
 namespace osteomill {
 
 namespace {
 
-void add_removed(RecordingSummary& summary, const RemovalCount& removal) {
-    const auto removed_mm3 = removal.removed_mm3(summary.grid);
-    summary.removed_mm3 += std::accumulate(removed_mm3.begin(), removed_mm3.end(), 0.0);
+/// In whole levels of fraction, so nothing is lost to rounding. Index: tissue label; 0 holds what has none.
+using Levels = std::array<std::int64_t, 256>;
+
+Levels levels_of(const Bone& bone) {
+    Levels levels{};
+    for (std::int32_t slot = 0; slot < static_cast<std::int32_t>(bone.stored_bricks()); ++slot) {
+        const BrickFractions fractions = bone.fractions(slot);
+        for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel)
+            levels[bone.content().tissue_in(slot, voxel)] += fractions[voxel];
+    }
+    return levels;
+}
+
+/// Of the session that ends with this bone, which had `levels`; these become what it has.
+void add_removed(RecordingSummary& summary, const Bone& bone, Levels& levels) {
+    const Levels before = std::exchange(levels, levels_of(bone));
+    const auto removed_mm3 = [&](std::size_t label) {
+        return static_cast<double>(before[label] - levels[label]) / 255.0 * voxel_volume_mm3(summary.grid);
+    };
+    double sum_mm3 = 0.0;
+    for (std::size_t label = 0; label < levels.size(); ++label) sum_mm3 += removed_mm3(label);
+    summary.removed_mm3 += sum_mm3;
     const std::vector<Tissue>& tissues = summary.session.tissues;
-    for (const Tissue& tissue : tissues) summary.by_tissue_mm3[tissue.name] += removed_mm3[tissue.label];
-    if (!tissues.empty() && removed_mm3[0] > 0.0) summary.by_tissue_mm3["unlabelled"] += removed_mm3[0];
+    for (const Tissue& tissue : tissues) summary.by_tissue_mm3[tissue.name] += removed_mm3(tissue.label);
+    if (!tissues.empty() && removed_mm3(0) > 0.0) summary.by_tissue_mm3["unlabelled"] += removed_mm3(0);
 }
 
 void begin_session(RecordingSummary& summary, const Playhead& playhead) {
@@ -25,35 +42,6 @@ void begin_session(RecordingSummary& summary, const Playhead& playhead) {
     summary.session = playhead.session();
     summary.grid = playhead.bone().grid();
     summary.has_goodbye = false;
-}
-
-void read_through(RecordingSummary& summary, Playhead& playhead, RemovalCount& removal,
-                  const std::function<void(const Playhead&)>& on_state) {
-    for (;;) {
-        const double before_s = playhead.time_s();
-        if (const StateArrived* next = playhead.next_state()) removal.before(playhead.bone(), next->changes);
-        switch (playhead.step(std::numeric_limits<double>::infinity())) {
-            case Playhead::Step::state: {
-                removal.after(playhead.bone());
-                const ToolState& tool = *playhead.tool();
-                if (tool.spindle_on)
-                    summary.milled_s[summary.session.burrs[tool.burr].name] += playhead.time_s() - before_s;
-                on_state(playhead);
-                break;
-            }
-            case Playhead::Step::new_bone:
-                add_removed(summary, removal);
-                removal = {};
-                begin_session(summary, playhead);
-                break;
-            case Playhead::Step::goodbye:
-                summary.has_goodbye = true;
-                break;
-            case Playhead::Step::nothing_due:
-            case Playhead::Step::end:
-                return;
-        }
-    }
 }
 
 double per_s(std::uint64_t count, double duration_s) {
@@ -70,24 +58,31 @@ RecordingSummary summarise(const std::filesystem::path& file,
                            const std::function<void(const Playhead&)>& on_state) {
     RecordingSummary summary;
     Playhead playhead(file);
-    RemovalCount removal;
     begin_session(summary, playhead);
-    try {
-        read_through(summary, playhead, removal, on_state);
-    } catch (const RecordingError& error) {
-        summary.error = error.what();
-        removal.after(playhead.bone());  // the frame may have been applied in part
-    }
-    add_removed(summary, removal);
+    Levels levels = levels_of(playhead.bone());
+    double before_s = 0.0;
+    summary.error = play_to_end(
+        playhead,
+        [&](double) {
+            before_s = playhead.time_s();
+            if (playhead.next_begins_session()) add_removed(summary, playhead.bone(), levels);
+        },
+        [&](Playhead::Step step) {
+            if (step == Playhead::Step::state) {
+                const ToolState& tool = *playhead.tool();
+                if (tool.spindle_on)
+                    summary.milled_s[summary.session.burrs[tool.burr].name] += playhead.time_s() - before_s;
+                on_state(playhead);
+            }
+            if (step == Playhead::Step::new_bone) {
+                begin_session(summary, playhead);
+                levels = levels_of(playhead.bone());
+            }
+            if (step == Playhead::Step::goodbye) summary.has_goodbye = true;
+        });
+    add_removed(summary, playhead.bone(), levels);
+    static_cast<RecordingCounts&>(summary) = playhead.counts();
     summary.duration_s = playhead.time_s();
-    summary.frames = playhead.frames();
-    summary.states = playhead.states();
-    summary.bytes = playhead.bytes();
-    summary.state_bytes = playhead.state_bytes();
-    summary.ticks = playhead.tick_count();
-    summary.missed_ticks = playhead.missed_ticks();
-    summary.tick_bytes = playhead.tick_bytes();
-    summary.checksums_verified = playhead.checksums_verified();
     summary.bone_checksum = playhead.bone_checksum();
     summary.is_truncated = playhead.is_truncated();
     return summary;

@@ -13,19 +13,11 @@
 
 namespace osteomill {
 
-struct RecordingSummary {
+struct RecordingSummary : RecordingCounts {
     SessionInfo session;  ///< the last, where recordings were joined
     Grid grid;
     std::uint64_t sessions = 0;
     double duration_s = 0.0;
-    std::uint64_t frames = 0;  ///< of all kinds: packets
-    std::uint64_t states = 0;
-    std::uint64_t bytes = 0;
-    std::uint64_t state_bytes = 0;   ///< of these, the state frames; nearly all others are the snapshot's
-    std::uint64_t ticks = 0;         ///< of the haptic loop; 0 where the recording holds none
-    std::uint64_t missed_ticks = 0;  ///< that should be there
-    std::uint64_t tick_bytes = 0;    ///< that they take in the state frames
-    std::uint64_t checksums_verified = 0;
     std::map<std::string, double> milled_s{};       ///< by burr: how long it turned
     double removed_mm3 = 0.0;                       ///< since the recording began
     std::map<std::string, double> by_tissue_mm3{};  ///< of these; by the scene's names, "unlabelled" the rest

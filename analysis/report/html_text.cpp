@@ -1,10 +1,19 @@
 #include "analysis/report/html_text.h"
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 namespace osteomill {
 
 namespace {
+
+struct Escape {
+    char letter;
+    const char* written;
+};
+constexpr std::array escapes{Escape{'&', "&amp;"}, Escape{'<', "&lt;"}, Escape{'>', "&gt;"},
+                             Escape{'"', "&quot;"}, Escape{'\'', "&#39;"}};
 
 /// By the library that checks every byte of it anyway.
 std::string valid_utf8(std::string_view text) {
@@ -18,25 +27,11 @@ std::string valid_utf8(std::string_view text) {
 std::string html_text(std::string_view text) {
     std::string escaped;
     for (const char letter : valid_utf8(text)) {
-        switch (letter) {
-            case '&':
-                escaped += "&amp;";
-                break;
-            case '<':
-                escaped += "&lt;";
-                break;
-            case '>':
-                escaped += "&gt;";
-                break;
-            case '"':
-                escaped += "&quot;";
-                break;
-            case '\'':
-                escaped += "&#39;";
-                break;
-            default:
-                escaped += static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f ? ' ' : letter;
-        }
+        const auto mark = std::ranges::find(escapes, letter, &Escape::letter);
+        if (mark != escapes.end())
+            escaped += mark->written;
+        else
+            escaped += static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f ? ' ' : letter;
     }
     return escaped;
 }

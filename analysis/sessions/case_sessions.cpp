@@ -27,7 +27,7 @@ CaseSessions learners(const CaseSessions& sessions) {
 }
 
 std::optional<double> value_of(const SessionRecord& session, const Headline& what) {
-    return session.sum(what.key);
+    return sum_of(session.metrics, what.key);
 }
 
 std::vector<PracticeValue> practice_of(const CaseSessions& sessions, const Headline& what) {
@@ -62,7 +62,7 @@ std::optional<Interval> expert_band(const CaseSessions& sessions, const Headline
 std::map<std::string, std::vector<bool>> passes_of(const CaseSessions& sessions) {
     std::map<std::string, std::vector<bool>> passes;
     for (const Attempt& attempt : sessions.attempts)
-        if (const auto passed = attempt.session->value("passed"))
+        if (const auto passed = sum_of(attempt.session->metrics, "passed"))
             passes[attempt.session->trainee].push_back(*passed != 0.0);
     return passes;
 }

@@ -83,7 +83,7 @@ std::string comparison_cells(const CaseSessions& sessions, const Headline& what,
 std::string session_table(const CaseSessions& sessions) {
     std::vector<Headline> columns;
     const bool is_judged = std::ranges::any_of(sessions.attempts, [](const Attempt& attempt) {
-        return attempt.session->value("passed").has_value();
+        return sum_of(attempt.session->metrics, "passed").has_value();
     });
     for (const Headline& what : headlines)
         if (!practice_of(sessions, what).empty()) columns.push_back(what);
@@ -104,7 +104,7 @@ std::string session_table(const CaseSessions& sessions) {
                             session.group.empty() ? "" : " (" + html_text(session.group) + ")",
                             attempt.number, began);
         if (is_judged) {
-            const auto passed = session.value("passed");
+            const auto passed = sum_of(session.metrics, "passed");
             html += !passed          ? "<td></td>"
                     : *passed != 0.0 ? "<td class='yes'>✓ yes</td>"
                                      : "<td class='no'>✗ no</td>";

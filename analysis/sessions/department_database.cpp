@@ -28,7 +28,7 @@ void add(pqxx::work& work, const SessionRecord& session) {
     work.exec_params("INSERT INTO session VALUES($1, $2, $3, $4, $5)", session.digest, session.file,
                      session.trainee, session.case_name, session.began_unix_ns);
     int place = 0;
-    for (const KeptMetric& metric : session.metrics) {
+    for (const MetricRow& metric : session.metrics) {
         const std::string value = metric.value ? fmt::format("{}", *metric.value) : "";
         work.exec_params("INSERT INTO metric VALUES($1, $2, $3, $4, $5, $6, $7)", session.digest, place++,
                          metric.key, metric.of, metric.value ? value.c_str() : nullptr, metric.unit,

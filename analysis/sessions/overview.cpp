@@ -48,7 +48,7 @@ std::string sessions_csv(const std::vector<SessionRecord>& sessions) {
     for (const CaseSessions& one : cases)
         for (const Attempt& attempt : one.attempts) attempts[attempt.session] = attempt.number;
     for (const SessionRecord& session : sessions)
-        for (const KeptMetric& metric : session.metrics)
+        for (const MetricRow& metric : session.metrics)
             csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_cell(session.file),
                                csv_cell(session.trainee), csv_cell(session.case_name), attempts[&session],
                                session.began_unix_ns / 1'000'000'000, metric.key, csv_cell(metric.of),

@@ -3,22 +3,20 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/output/cases/json_values.h"
+#include "analysis/report/session_metrics.h"
+
+namespace osteomill {
+
+/// Its group is not kept.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MetricRow, key, of, value, unit, text)
+
+}  // namespace osteomill
 
 namespace osteomill::study {
-
-struct KeptMetric {
-    std::string key;  ///< docs/metrics.md
-    std::string of;   ///< tissue, burr or structure; empty: the session
-    std::optional<double> value;
-    std::string unit;
-    std::string text;  ///< for people
-};
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KeptMetric, key, of, value, unit, text)
 
 struct SessionRecord {
     std::string digest{};  ///< of the recording's bytes: 32 hexadecimal digits
@@ -26,15 +24,10 @@ struct SessionRecord {
     std::string trainee{};
     std::string case_name{};  ///< or the scene's
     std::int64_t began_unix_ns = 0;
-    std::vector<KeptMetric> metrics{};
+    std::vector<MetricRow> metrics{};
     // Of this study, not of the recording.
     std::string group{};   ///< of the trainee (trainee_groups.h); empty: none
     std::string report{};  ///< address of its report from the overview; empty: there is none
-
-    /// Of the whole session.
-    std::optional<double> value(const std::string& key) const;
-    /// Added up over tissues, burrs or structures; nothing where there is none.
-    std::optional<double> sum(const std::string& key) const;
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SessionRecord, digest, file, trainee, case_name, began_unix_ns, metrics)
 

@@ -123,8 +123,12 @@ std::optional<SessionRecord> SessionStore::find(const std::string& digest) const
                      "SELECT key, of, value, unit, text FROM metric WHERE digest = ? ORDER BY place");
     metric.bind(digest);
     while (metric.step())
-        record.metrics.push_back(
-            {metric.text(0), metric.text(1), metric.value(2), metric.text(3), metric.text(4)});
+        record.metrics.push_back({.group = {},
+                                  .key = metric.text(0),
+                                  .of = metric.text(1),
+                                  .text = metric.text(4),
+                                  .value = metric.value(2),
+                                  .unit = metric.text(3)});
     if (!metric.is_good()) fail("cannot be read");
     return record;
 }
@@ -142,7 +146,7 @@ void SessionStore::keep(const SessionRecord& record) {
     session.bind(record.began_unix_ns).step();
     is_good = is_good && session.is_good();
     std::int64_t place = 0;
-    for (const KeptMetric& kept : record.metrics) {
+    for (const MetricRow& kept : record.metrics) {
         Statement metric(database_.get(), "INSERT INTO metric VALUES(?, ?, ?, ?, ?, ?, ?)");
         metric.bind(record.digest).bind(place++).bind(kept.key).bind(kept.of);
         metric.bind(kept.value).bind(kept.unit).bind(kept.text).step();

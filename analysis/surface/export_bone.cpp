@@ -77,9 +77,6 @@ void export_surface(const ExportOptions& options, const Bone& bone,
 ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const* argv,
                                                      const std::string& version) {
     ExportOptions options;
-    std::string original;
-    double threshold_hu = 0.0;
-    double cell_mm = 0.0;
     CLI::App app(
         "Writes the surface of a bone, carved or not, for other programs; or what was removed of it.",
         "bone_export");
@@ -89,19 +86,16 @@ ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const
                    "OUT.stl, OUT.ply or OUT.obj: the surface, closed, in mm of patient LPS; with --removed "
                    "OUT.nrrd")
         ->required();
-    app.add_option("--removed", original,
+    app.add_option("--removed", options.original,
                    "The bone file that BONE.nrrd was carved from: write what is gone of each voxel, 0 to 255")
         ->type_name("ORIGINAL.nrrd");
-    auto* threshold = app.add_option("--threshold-hu", threshold_hu,
-                                     "Bone is at and above this (default: as the file says, else 300)")
-                          ->check(within(-1024.0, 10000.0));
-    auto* cell = app.add_option("--spacing-mm", cell_mm,
-                                "Coarser triangles, of cells about so long: for printing (default: a voxel)")
-                     ->check(within(0.01, 10.0));
+    app.add_option("--threshold-hu", options.threshold_hu,
+                   "Bone is at and above this (default: as the file says, else 300)")
+        ->check(within(-1024.0, 10000.0));
+    app.add_option("--spacing-mm", options.cell_mm,
+                   "Coarser triangles, of cells about so long: for printing (default: a voxel)")
+        ->check(within(0.01, 10.0));
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
-    if (!original.empty()) options.original = original;
-    if (threshold->count() > 0) options.threshold_hu = threshold_hu;
-    if (cell->count() > 0) options.cell_mm = cell_mm;
     if (options.cell_mm && options.original)
         throw std::invalid_argument("--spacing-mm: of a surface; what was removed has the bone's own");
     if (options.original && options.output.extension() != ".nrrd")

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <istream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/text/utf8.h"
@@ -22,19 +23,44 @@ inline void strip_line(std::string& line, bool is_first) {
     if (line.ends_with('\r')) line.pop_back();
 }
 
-/// The next line, stripped; semicolons between cells become commas. `number` counts lines and is 0 before the
-/// first. Throws std::runtime_error, in words, also for numbers with a comma for a point.
-inline bool next_table_line(std::istream& in, std::string& line, std::size_t& number) {
-    if (!std::getline(in, line)) return false;
-    strip_line(line, ++number == 1);
-    const bool is_comment = line.starts_with('#');
-    if (is_comment || line.find(';') == std::string::npos) return true;
-    if (line.find(',') != std::string::npos)
-        throw std::runtime_error(
-            "has semicolons between its cells and commas for points; write 0.5, not 0,5");
-    std::replace(line.begin(), line.end(), ';', ',');
-    return true;
-}
+/// The lines of a table that say something: neither blank nor a comment (#). Semicolons between cells become
+/// commas.
+class TableLines {
+  public:
+    /// `name` stands for the file in messages.
+    TableLines(const std::string& text, std::string name) : in_(text), name_(std::move(name)) {}
+
+    /// Whether there is one more. Throws as fail does, also for numbers with a comma for a point.
+    bool next() {
+        while (std::getline(in_, line_)) {
+            ++number_;
+            try {
+                strip_line(line_, number_ == 1);
+            } catch (const std::runtime_error& error) {
+                fail(error.what());
+            }
+            if (line_.starts_with('#') || line_.find_first_not_of(" \t") == std::string::npos) continue;
+            if (line_.find(';') == std::string::npos) return true;
+            if (line_.find(',') != std::string::npos)
+                fail("has semicolons between its cells and commas for points; write 0.5, not 0,5");
+            std::replace(line_.begin(), line_.end(), ';', ',');
+            return true;
+        }
+        return false;
+    }
+    const std::string& line() const { return line_; }
+
+    /// Throws std::runtime_error, "NAME:LINE: WHY".
+    [[noreturn]] void fail(const std::string& why) const {
+        throw std::runtime_error(name_ + ":" + std::to_string(std::max(number_, 1)) + ": " + why);
+    }
+
+  private:
+    std::istringstream in_;
+    std::string name_;
+    std::string line_;
+    int number_ = 0;
+};
 
 /// The cells of a line between commas or semicolons, whichever `separator` is; within quotes they are text,
 /// and two quotes are one.

@@ -1,7 +1,10 @@
 // Outcome of parsing a command line.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace CLI {
@@ -16,6 +19,16 @@ struct ParseResult {
     std::optional<Options> options;
     std::string text;
 };
+
+/// What `read` makes of an option. What it refuses with std::invalid_argument is said with the option's name.
+template <typename Read>
+auto said_of_option(const char* option, Read&& read) {
+    try {
+        return read();
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(fmt::format("{}: {}", option, error.what()));
+    }
+}
 
 /// Fills in what `app` has declared; returns the text where help or the version is requested. Throws
 /// std::invalid_argument with one line for wrong usage.

@@ -23,8 +23,8 @@ Playhead::Step Playhead::step(double until_s) {
     for (bool is_inside_snapshot = false; next_;) {
         if (!is_inside_snapshot && *next_time_s() > until_s) return Step::nothing_due;
         time_s_ = *next_time_s();
-        ++frames_;
-        bytes_ += next_->bytes;
+        ++counts_.frames;
+        counts_.bytes += next_->bytes;
         RecordedEvent event = *std::exchange(next_, std::nullopt);
         is_inside_snapshot = std::holds_alternative<SessionInfo>(event.event) ||
                              std::holds_alternative<SnapshotGoesOn>(event.event);
@@ -39,8 +39,8 @@ Playhead::Step Playhead::step(double until_s) {
 
 void Playhead::take_structures() {
     while (next_ && std::holds_alternative<StructureArrived>(next_->event)) {
-        ++frames_;
-        bytes_ += next_->bytes;
+        ++counts_.frames;
+        counts_.bytes += next_->bytes;
         take(*std::exchange(next_, std::nullopt));
         read_ahead();
     }
@@ -99,18 +99,18 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         const auto& followed = std::get<FollowedState>(outcome);
         if (followed.check == ReplicaCheck::differs || followed.has_regained_bone)
             throw reader_.error_at(event.place, "the bone differs from the one recorded");
-        ++states_;
-        state_bytes_ += event.bytes;
-        if (followed.check == ReplicaCheck::equal) ++checksums_verified_;
+        ++counts_.states;
+        counts_.state_bytes += event.bytes;
+        if (followed.check == ReplicaCheck::equal) ++counts_.checksums_verified;
         // One that did not change is not said again.
         if (!state->state.view) state->state.view = state_.view;
         state_ = std::move(state->state);
         has_state_ = true;
         changes_ = std::move(state->changes);
         ticks_ = std::move(state->ticks);
-        tick_count_ += ticks_.ticks.size();
-        missed_ticks_ += ticks_.missed;
-        tick_bytes_ += ticks_.bytes;
+        counts_.ticks += ticks_.ticks.size();
+        counts_.missed_ticks += ticks_.missed;
+        counts_.tick_bytes += ticks_.bytes;
         return Step::state;
     } else if (auto* of_structure = std::get_if<StructureArrived>(&event.event)) {
         if (of_structure->structure) structures_.push_back(*std::move(of_structure->structure));

@@ -14,6 +14,18 @@
 
 namespace osteomill {
 
+/// What was read.
+struct RecordingCounts {
+    std::uint64_t frames = 0;  ///< of all kinds: packets
+    std::uint64_t states = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t state_bytes = 0;   ///< of these, the state frames; nearly all others are the snapshot's
+    std::uint64_t ticks = 0;         ///< of the haptic loop; 0 where the recording holds none
+    std::uint64_t missed_ticks = 0;  ///< that should be there
+    std::uint64_t tick_bytes = 0;    ///< that they take in the state frames
+    std::uint64_t checksums_verified = 0;
+};
+
 class Playhead {
   public:
     /// Goes to the first bone. Throws RecordingError where there is none.
@@ -55,19 +67,12 @@ class Playhead {
     /// Whether step() would leave this session for another.
     bool next_begins_session() const;
 
-    // Since the recording was opened.
-    std::uint64_t frames() const { return frames_; }
-    std::uint64_t bytes() const { return bytes_; }
+    /// Since the recording was opened.
+    const RecordingCounts& counts() const { return counts_; }
     /// Of the file, 0 to 1.
     double share_read() const {
-        return std::min(1.0, static_cast<double>(bytes_) / static_cast<double>(file_bytes_));
+        return std::min(1.0, static_cast<double>(counts_.bytes) / static_cast<double>(file_bytes_));
     }
-    std::uint64_t states() const { return states_; }
-    std::uint64_t state_bytes() const { return state_bytes_; }
-    std::uint64_t tick_count() const { return tick_count_; }
-    std::uint64_t missed_ticks() const { return missed_ticks_; }
-    std::uint64_t tick_bytes() const { return tick_bytes_; }  ///< among the state_bytes()
-    std::uint64_t checksums_verified() const { return checksums_verified_; }
     /// At the end: whether the file ends within a packet.
     bool is_truncated() const { return reader_.is_truncated(); }
 
@@ -108,15 +113,8 @@ class Playhead {
     std::vector<ChangedBrick> changes_;
     std::vector<Structure> structures_;
 
-    std::uint64_t frames_ = 0;
-    std::uint64_t bytes_ = 0;
+    RecordingCounts counts_;
     std::uint64_t file_bytes_ = 1;
-    std::uint64_t states_ = 0;
-    std::uint64_t state_bytes_ = 0;
-    std::uint64_t tick_count_ = 0;
-    std::uint64_t missed_ticks_ = 0;
-    std::uint64_t tick_bytes_ = 0;
-    std::uint64_t checksums_verified_ = 0;
 };
 
 /// Takes all remaining steps: `on_frame(share_read())` before each, `on_step(step)` after each but the end.

@@ -1,33 +1,15 @@
 #include "common/scene/session_control.h"
 
+#include <array>
+
 namespace osteomill {
 
 const char* name_of(SessionAction action) {
-    switch (action) {
-        case SessionAction::none:
-            return "nothing";
-        case SessionAction::mark:
-            return "mark";
-        case SessionAction::pause:
-            return "pause";
-        case SessionAction::resume:
-            return "resume";
-        case SessionAction::undo:
-            return "undo";
-        case SessionAction::redo:
-            return "redo";
-        case SessionAction::reset:
-            return "reset";
-        case SessionAction::save:
-            return "save";
-        case SessionAction::finish:
-            return "finish";
-        case SessionAction::place:
-            return "place";
-        case SessionAction::speed:
-            return "speed";
-    }
-    return "nothing";
+    constexpr std::array names{"nothing", "mark", "pause",  "resume", "undo", "redo",
+                               "reset",   "save", "finish", "place",  "speed"};
+    static_assert(names.size() == static_cast<std::size_t>(SessionAction::speed) + 1);
+    const auto number = static_cast<std::size_t>(action);
+    return names[number < names.size() ? number : 0];
 }
 
 }  // namespace osteomill

@@ -5,34 +5,21 @@
 
 #include "common/bone/finite.h"
 #include "common/text/plain_text.h"
+#include "common/wire/vec3.h"
 
 namespace osteomill {
-
-namespace {
-
-void write_place(const glm::dvec3& from, v2::Vec3& to) {
-    to.set_x(from.x);
-    to.set_y(from.y);
-    to.set_z(from.z);
-}
-
-glm::dvec3 place_from(const v2::Vec3& from) {
-    return {from.x(), from.y(), from.z()};
-}
-
-}  // namespace
 
 v2::Plan to_message(const Plan& plan) {
     v2::Plan message;
     message.set_margin_mm(plan.margin_mm);
     if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) message.set_tissue(tissue->tissue);
     if (const auto* sphere = std::get_if<SphereRegion>(&plan.region)) {
-        write_place(sphere->centre_mm, *message.mutable_sphere()->mutable_centre_mm());
+        write(sphere->centre_mm, *message.mutable_sphere()->mutable_centre_mm());
         message.mutable_sphere()->set_radius_mm(sphere->radius_mm);
     }
     if (const auto* cylinder = std::get_if<CylinderRegion>(&plan.region)) {
-        write_place(cylinder->from_mm, *message.mutable_cylinder()->mutable_from_mm());
-        write_place(cylinder->to_mm, *message.mutable_cylinder()->mutable_to_mm());
+        write(cylinder->from_mm, *message.mutable_cylinder()->mutable_from_mm());
+        write(cylinder->to_mm, *message.mutable_cylinder()->mutable_to_mm());
         message.mutable_cylinder()->set_radius_mm(cylinder->radius_mm);
     }
     return message;
@@ -48,15 +35,15 @@ std::variant<Plan, WireError> plan_from(const v2::Plan& message) {
         case v2::Plan::kSphere: {
             const v2::Plan::Sphere& sphere = message.sphere();
             radius_mm = sphere.radius_mm();
-            if (!is_finite(place_from(sphere.centre_mm()))) return WireError{"the plan's sphere is nowhere"};
-            plan.region = SphereRegion{place_from(sphere.centre_mm()), radius_mm};
+            if (!is_finite(read(sphere.centre_mm()))) return WireError{"the plan's sphere is nowhere"};
+            plan.region = SphereRegion{read(sphere.centre_mm()), radius_mm};
             break;
         }
         case v2::Plan::kCylinder: {
             const v2::Plan::Cylinder& cylinder = message.cylinder();
             radius_mm = cylinder.radius_mm();
-            const glm::dvec3 from_mm = place_from(cylinder.from_mm());
-            const glm::dvec3 to_mm = place_from(cylinder.to_mm());
+            const glm::dvec3 from_mm = read(cylinder.from_mm());
+            const glm::dvec3 to_mm = read(cylinder.to_mm());
             const double length_mm = glm::length(to_mm - from_mm);
             if (!std::isfinite(length_mm) || !(length_mm > 0.0))
                 return WireError{"the plan's cylinder has an impossible length"};

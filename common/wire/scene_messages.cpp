@@ -24,35 +24,13 @@ WireError unknown_burr(std::uint32_t burr, std::size_t burr_count) {
     return {"burr " + std::to_string(burr) + " is not one of the scene's " + std::to_string(burr_count)};
 }
 
-v2::ToolDriver to_message(ToolDriver driver) {
-    switch (driver) {
-        case ToolDriver::nobody:
-            return v2::TOOL_DRIVER_NOBODY;
-        case ToolDriver::you:
-            return v2::TOOL_DRIVER_YOU;
-        case ToolDriver::another:
-            return v2::TOOL_DRIVER_ANOTHER;
-        case ToolDriver::others_only:
-            return v2::TOOL_DRIVER_OTHERS_ONLY;
-        case ToolDriver::unknown:
-            break;
-    }
-    return v2::TOOL_DRIVER_UNKNOWN;
-}
+static_assert(static_cast<int>(ToolDriver::unknown) == v2::TOOL_DRIVER_UNKNOWN &&
+                  static_cast<int>(ToolDriver::others_only) == v2::TOOL_DRIVER_OTHERS_ONLY,
+              "the drivers have the numbers of the message");
 
+/// A newer server may say what this program does not know.
 ToolDriver driver_from(v2::ToolDriver driver) {
-    switch (driver) {
-        case v2::TOOL_DRIVER_NOBODY:
-            return ToolDriver::nobody;
-        case v2::TOOL_DRIVER_YOU:
-            return ToolDriver::you;
-        case v2::TOOL_DRIVER_ANOTHER:
-            return ToolDriver::another;
-        case v2::TOOL_DRIVER_OTHERS_ONLY:
-            return ToolDriver::others_only;
-        default:  // a newer server may say what this program does not know
-            return ToolDriver::unknown;
-    }
+    return v2::ToolDriver_IsValid(driver) ? static_cast<ToolDriver>(driver) : ToolDriver::unknown;
 }
 
 /// Of a burr whose diameter is checked; nothing where the message makes no head. A shape that only a newer
@@ -139,7 +117,7 @@ v2::ToolState to_message(const ToolState& tool) {
     message.set_fault(std::string(tool.fault.text()));
     message.set_notice(std::string(tool.notice.text()));
     message.set_taken_unix_ns(tool.taken_unix_ns);
-    message.set_driver(to_message(tool.driver));
+    message.set_driver(static_cast<v2::ToolDriver>(tool.driver));
     if (tool.depth_mm) message.set_depth_mm(*tool.depth_mm);
     if (tool.solve) {
         v2::SolveCounts& solve = *message.mutable_solve();

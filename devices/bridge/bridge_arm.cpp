@@ -25,10 +25,18 @@ glm::dvec3 vector_of(const double (&values)[3]) {
     return {values[0], values[1], values[2]};
 }
 
+double seconds(std::uint64_t ns) {
+    return 1e-9 * static_cast<double>(ns);
+}
+
 }  // namespace
 
 BridgeArm::BridgeArm(const BridgeAddress& where, Parts parts)
-    : socket_(where), parts_(std::move(parts)), host_(parts_.key, parts_.random), burr_(parts_.start_burr) {
+    : socket_(where),
+      parts_(std::move(parts)),
+      host_(parts_.key, parts_.random),
+      burr_(parts_.start_burr),
+      readings_([] { return seconds(omb_now_ns()); }) {
     thread_ = std::thread([this] {
         parts_.on_thread_start();
         run();
@@ -84,37 +92,35 @@ bool BridgeArm::is_driven(std::uint64_t now_ns) const {
 
 void BridgeArm::take_pose(std::uint64_t now_ns) {
     const omb_pose& pose = host_.pose();
-    ArmReading reading;
+    ArmReading reading{.knows_pedal = true};
+    DeviceState& state = reading.state;
     glm::dquat turn(1.0, 0.0, 0.0, 0.0);
     const bool has_orientation = (pose.status & OMB_HAS_ORIENTATION) != 0;
     if (has_orientation)
         turn = glm::normalize(
             glm::dquat(pose.quaternion[0], pose.quaternion[1], pose.quaternion[2], pose.quaternion[3]));
-    reading.spindle_axis = has_orientation ? turn * glm::dvec3(0.0, 0.0, 1.0) : parts_.start_axis;
+    state.spindle_axis = has_orientation ? turn * glm::dvec3(0.0, 0.0, 1.0) : parts_.start_axis;
     tool_from_handle_mm_ = turn * vector_of(host_.arm()->tool_from_handle_mm);
-    reading.tool_mm = vector_of(pose.position_mm) + tool_from_handle_mm_;
+    state.position_mm = vector_of(pose.position_mm) + tool_from_handle_mm_;
 
     if (!sensor_) sensor_.emplace(0.0);
-    sensor_->read(reading.tool_mm, 1e-9 * static_cast<double>(now_ns - sensed_ns_));
+    sensor_->read(state.position_mm, seconds(now_ns - sensed_ns_));
     sensed_ns_ = now_ns;
     // The arm's own estimate is of the handle; where that is not the tool, turning it moves the tool, too.
     const bool is_at_tool = tool_from_handle_mm_ == glm::dvec3(0.0);
-    reading.velocity_mm_per_s = is_at_tool && (pose.status & OMB_HAS_VELOCITY) != 0
-                                    ? vector_of(pose.velocity_mm_per_s)
-                                    : sensor_->velocity_mm_per_s();
-    reading.pedal = (pose.buttons & OMB_PEDAL) != 0;
-    reading.knows_pedal = true;
+    state.velocity_mm_per_s = is_at_tool && (pose.status & OMB_HAS_VELOCITY) != 0
+                                  ? vector_of(pose.velocity_mm_per_s)
+                                  : sensor_->velocity_mm_per_s();
+    state.pedal = {.is_down = (pose.buttons & OMB_PEDAL) != 0, .speaker = host_.session()};
     const bool next_pressed = (pose.buttons & OMB_NEXT_BURR) != 0;
     // Of another arm nothing is known before its first pose: a key that it holds already asks for nothing.
     if (std::exchange(session_, host_.session()) != host_.session()) was_next_pressed_ = next_pressed;
     if (next_pressed && !was_next_pressed_) burr_ = (burr_ + 1) % parts_.burr_count;
     was_next_pressed_ = next_pressed;
-    reading.burr = burr_;
-    // omb_now_ns() is the monotonic clock, as steady_clock is.
-    reading.said = std::chrono::steady_clock::time_point(std::chrono::nanoseconds(host_.said_ns()));
-    reading.speaker = host_.session();
-    reading.is_ready = (pose.status & OMB_READY) != 0;
-    notice_.store(reading.is_ready ? "" : "the arm says that it is not ready: is it calibrated, and held?",
+    state.burr = burr_;
+    reading.said_s = seconds(host_.said_ns());
+    state.connected = (pose.status & OMB_READY) != 0;
+    notice_.store(state.connected ? "" : "the arm says that it is not ready: is it calibrated, and held?",
                   std::memory_order_relaxed);
     readings_.publish(reading);
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -90,14 +89,7 @@ int open_udp(BridgeAddress& where) {
 
 DatagramSocket::DatagramSocket(const BridgeAddress& where) : where_(where) {
     const auto* path = std::get_if<BridgePath>(&where_);
-    wake_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-    if (wake_ < 0) refuse(where, fmt::format("no eventfd can be had: {}", std::strerror(errno)));
-    try {
-        socket_ = path != nullptr ? open_path(where_, *path) : open_udp(where_);
-    } catch (...) {
-        close(wake_);
-        throw;
-    }
+    socket_ = path != nullptr ? open_path(where_, *path) : open_udp(where_);
     struct stat bound {};
     if (path != nullptr && lstat(path->path.c_str(), &bound) == 0) {
         path_device_ = bound.st_dev;
@@ -107,7 +99,6 @@ DatagramSocket::DatagramSocket(const BridgeAddress& where) : where_(where) {
 
 DatagramSocket::~DatagramSocket() {
     close(socket_);
-    close(wake_);
     const auto* path = std::get_if<BridgePath>(&where_);
     struct stat found {};
     if (path != nullptr && lstat(path->path.c_str(), &found) == 0 && found.st_dev == path_device_ &&
@@ -126,10 +117,9 @@ std::optional<std::size_t> DatagramSocket::receive(std::span<std::uint8_t> buffe
     message.msg_iovlen = 1;
     ssize_t bytes = recvmsg(socket_, &message, 0);
     if (bytes < 0 && (errno == EAGAIN || errno == EWOULDBLOCK) && longest_wait_ms > 0) {
-        std::array<pollfd, 2> wait{pollfd{socket_, POLLIN, 0}, pollfd{wake_, POLLIN, 0}};
+        std::array<pollfd, 2> wait{pollfd{socket_, POLLIN, 0}, pollfd{wake_.descriptor(), POLLIN, 0}};
         if (poll(wait.data(), wait.size(), longest_wait_ms) > 0) {
-            std::uint64_t times = 0;
-            if (wait[1].revents != 0) static_cast<void>(!read(wake_, &times, sizeof times));
+            if (wait[1].revents != 0) wake_.wait(0);
             message.msg_namelen = sizeof sender;
             bytes = recvmsg(socket_, &message, 0);
         }
@@ -138,11 +128,6 @@ std::optional<std::size_t> DatagramSocket::receive(std::span<std::uint8_t> buffe
     const auto* begin = reinterpret_cast<const std::uint8_t*>(&sender);
     from.assign(begin, begin + std::min<std::size_t>(message.msg_namelen, sizeof sender));
     return static_cast<std::size_t>(bytes);
-}
-
-void DatagramSocket::wake() noexcept {
-    const std::uint64_t once = 1;
-    static_cast<void>(!write(wake_, &once, sizeof once));  // full is awake, too
 }
 
 void DatagramSocket::send(std::span<const std::uint8_t> datagram, const PeerAddress& to) noexcept {

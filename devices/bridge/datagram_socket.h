@@ -11,6 +11,7 @@
 
 #include "devices/bridge/bridge_address.h"
 #include "devices/bridge/bridge_host.h"
+#include "devices/wake_up.h"
 
 namespace osteomill {
 
@@ -32,9 +33,8 @@ class DatagramSocket {
     std::optional<std::size_t> receive(std::span<std::uint8_t> buffer, PeerAddress& from,
                                        int longest_wait_ms) noexcept;
 
-    /// Ends a receive() of another thread, or the next. Real-time safe: one call of the system that never
-    /// waits.
-    void wake() noexcept;
+    /// Ends a receive() of another thread, or the next. Real-time safe.
+    void wake() noexcept { wake_.wake(); }
 
     /// What cannot be sent now is lost.
     void send(std::span<const std::uint8_t> datagram, const PeerAddress& to) noexcept;
@@ -42,7 +42,7 @@ class DatagramSocket {
   private:
     BridgeAddress where_;
     int socket_ = -1;
-    int wake_ = -1;  // an eventfd
+    WakeUp wake_;
     // Of the path: at the end it may be another's.
     dev_t path_device_ = 0;
     ino_t path_inode_ = 0;

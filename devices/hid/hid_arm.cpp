@@ -17,8 +17,8 @@ constexpr int longest_wait_ms = 5;
 class ArmConversation final : public HidConversation {
   public:
     ArmConversation(const ArmProfile& profile, std::unique_ptr<HidConnection> connection,
-                    std::function<double()> clock_s, std::uint64_t number,
-                    TripleBuffer<DeviceState>& readings, TripleBuffer<glm::dvec3>& forces)
+                    std::function<double()> clock_s, std::uint64_t number, ArmReadings& readings,
+                    TripleBuffer<glm::dvec3>& forces)
         : connection_(std::move(connection)),
           clock_s_(std::move(clock_s)),
           number_(number),
@@ -33,9 +33,10 @@ class ArmConversation final : public HidConversation {
         std::optional<glm::dvec3> wanted_n;
         if (forces_.refresh()) wanted_n = forces_.front();
         link_.answer(clock_s_(), wanted_n);
-        readings_.back() = link_.reading();
-        readings_.back().pedal.speaker = number_;
-        readings_.publish();
+        ArmReading reading{.state = link_.reading(), .knows_pedal = true};
+        reading.state.pedal.speaker = number_;
+        reading.said_s = reading.state.pedal.said_s;
+        readings_.publish(reading);
         return link_.state() != ArmLink::State::gone;
     }
 
@@ -46,12 +47,12 @@ class ArmConversation final : public HidConversation {
     std::function<double()> clock_s_;
     std::uint64_t number_;
     ArmLink link_;
-    TripleBuffer<DeviceState>& readings_;
+    ArmReadings& readings_;
     TripleBuffer<glm::dvec3>& forces_;
 };
 
 HidWorkerParts parts_of(const ArmProfile& profile, HidTransport& transport, std::function<double()> clock_s,
-                        std::function<void()> on_thread_start, TripleBuffer<DeviceState>& readings,
+                        std::function<void()> on_thread_start, ArmReadings& readings,
                         TripleBuffer<glm::dvec3>& forces) {
     return {
         .transport = transport,
@@ -72,7 +73,7 @@ HidWorkerParts parts_of(const ArmProfile& profile, HidTransport& transport, std:
 HidArm::HidArm(ArmProfile profile, HidTransport& transport, std::function<double()> clock_s,
                std::function<void()> on_thread_start)
     : profile_(std::move(profile)),
-      clock_s_(clock_s),
+      readings_(clock_s),
       worker_(parts_of(profile_, transport, std::move(clock_s), std::move(on_thread_start), readings_,
                        forces_)) {}
 
@@ -84,15 +85,6 @@ DeviceLimits HidArm::limits() const {
                                  .apparent_mass_kg = profile_.apparent_mass_kg,
                                  .position_resolution_mm = ArmKinematics(profile_).resolution_mm()},
                                 delay_s);
-}
-
-DeviceState HidArm::read(double now_s) noexcept {
-    const bool is_new = readings_.refresh();
-    DeviceState newest = readings_.front();
-    if (is_new) permission_.renew(said_at(now_s, clock_s_() - newest.pedal.said_s));
-    newest.pedal.said_s = permission_.renewed_s();
-    if (!permission_.holds(now_s)) newest.connected = false;
-    return newest;
 }
 
 void HidArm::write(const glm::dvec3& force_n) noexcept {

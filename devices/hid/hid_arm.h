@@ -5,19 +5,16 @@
 
 #include <functional>
 
+#include "devices/arm_readings.h"
 #include "devices/hid/arm_profile.h"
 #include "devices/hid/hid_worker.h"
 #include "simulation/device/haptic_device.h"
-#include "simulation/device/permission.h"
 #include "simulation/exchange/triple_buffer.h"
 
 namespace osteomill {
 
 class HidArm final : public HapticDevice {
   public:
-    /// Session time without a new reading after which the arm counts as lost, whatever its thread does.
-    static constexpr double longest_reading_age_s = 0.03;
-
     /// `clock_s` gives seconds that never decrease; the thread calls it and `on_thread_start`. The transport
     /// outlives the arm.
     HidArm(ArmProfile profile, HidTransport& transport, std::function<double()> clock_s,
@@ -26,18 +23,16 @@ class HidArm final : public HapticDevice {
     std::string name() const override { return profile_.name; }
     DeviceLimits limits() const override;
     void start() override { worker_.start(); }
-    DeviceState read(double now_s) noexcept override;
+    DeviceState read(double now_s) noexcept override { return readings_.read(now_s); }
     void write(const glm::dvec3& force_n) noexcept override;
     void stop() noexcept override { worker_.stop(); }
     const char* notice() const noexcept override { return worker_.notice(); }
 
   private:
     ArmProfile profile_;
-    std::function<double()> clock_s_;
-    TripleBuffer<DeviceState> readings_;  // thread to loop
-    TripleBuffer<glm::dvec3> forces_;     // loop to thread
-    Permission permission_{longest_reading_age_s};
-    HidWorker worker_;  // last: its thread uses the others
+    ArmReadings readings_;             // thread to loop
+    TripleBuffer<glm::dvec3> forces_;  // loop to thread
+    HidWorker worker_;                 // last: its thread uses the others
 };
 
 /// Where the tip is at the calibration position, device space.

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <filesystem>
-#include <istream>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,8 @@ namespace osteomill {
 
 /// Throws std::runtime_error with one line: file, line, what is wrong, what would be right.
 std::vector<Waypoint> read_trajectory_csv(const std::filesystem::path& file, std::size_t burr_count);
-/// The same from a stream; `name` stands for the file in errors.
-std::vector<Waypoint> read_trajectory_csv(std::istream& in, const std::string& name, std::size_t burr_count);
+/// The same of a text; `name` stands for the file in errors.
+std::vector<Waypoint> read_trajectory_csv(const std::string& text, const std::string& name,
+                                          std::size_t burr_count);
 
 }  // namespace osteomill

@@ -48,7 +48,6 @@ std::string metrics_text(const TickMeter::Reading& loop, const StreamingTraffic&
     for (std::size_t i = 0; i < TickMeter::latency_bounds_s.size(); ++i)
         page.value(fmt::format("tick_latency_seconds_bucket{{le=\"{}\"}}", TickMeter::latency_bounds_s[i]),
                    up_to += loop.latency[i]);
-    // Of the buckets, not of the ticks, which the loop may have counted one more of meanwhile.
     up_to += loop.latency.back();
     page.value("tick_latency_seconds_bucket{le=\"+Inf\"}", up_to);
     page.value("tick_latency_seconds_sum", loop.latency_sum_s);

@@ -1,12 +1,10 @@
 // Timing of the haptic loop while it runs: counted from the ticks that the loop hands to its logs, so that
 // the loop itself knows nothing of it.
 //
-// The loop's thread pushes, any other reads; every number is by itself, and at most a tick older than the
-// next.
+// The loop's thread pushes, one other reads.
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +12,7 @@
 
 #include "common/scene/tick_sample.h"
 #include "simulation/exchange/sample_log.h"
+#include "simulation/exchange/triple_buffer.h"
 #include "simulation/safety/fault.h"
 
 namespace osteomill {
@@ -47,26 +46,15 @@ class TickMeter final : public SampleLog<TickSample> {
     void drain() override {}
     void drain_all() override {}
 
-    /// Any thread.
-    Reading read() const;
-
-  private:
-    /// Raised by one thread: no read-modify-write is needed.
-    static void raise(std::atomic<std::uint64_t>& count, std::uint64_t by = 1) noexcept {
-        count.store(count.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
+    /// Of the newest tick. One thread's.
+    Reading read() noexcept {
+        readings_.refresh();
+        return readings_.front();
     }
 
-    std::atomic<double> session_s_{0.0};
-    std::atomic<std::uint64_t> ticks_{0};
-    std::atomic<std::uint64_t> missed_{0};
-    std::array<std::atomic<std::uint64_t>, latency_bounds_s.size() + 1> latency_{};
-    std::atomic<double> latency_sum_s_{0.0};
-    std::array<std::atomic<std::uint64_t>, all_faults.size() + 1> faults_{};
-    std::atomic<std::uint8_t> fault_{0};
-    std::atomic<double> force_n_{0.0};
-    std::atomic<double> removed_mm3_{0.0};
-    std::atomic<bool> spindle_on_{false};
-    std::atomic<std::uint64_t> spindle_starts_{0};
+  private:
+    Reading now_;  // the loop's
+    TripleBuffer<Reading> readings_;
     std::optional<std::chrono::steady_clock::time_point> began_{};  // time zero; none on the virtual clock
 };
 

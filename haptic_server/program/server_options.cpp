@@ -18,11 +18,6 @@ namespace osteomill {
 
 namespace {
 
-std::optional<std::filesystem::path> path_if_given(const std::string& text) {
-    if (text.empty()) return std::nullopt;
-    return text;
-}
-
 std::optional<ListenAddress> listen_address(const TypedServerOptions& typed) {
     if (typed.listen == "none" || (typed.listen.empty() && typed.clock == "virtual")) return std::nullopt;
     if (typed.listen.empty()) return ListenAddress{};
@@ -30,34 +25,31 @@ std::optional<ListenAddress> listen_address(const TypedServerOptions& typed) {
 }
 
 std::string checked_coupling(const TypedServerOptions& typed, const DeviceEntry& device) {
-    const bool has_cutting_law = find_force_model(typed.force_model).has_cutting_law;
+    const std::string& force_model = typed.options.session.force_model;
+    const bool has_cutting_law = find_force_model(force_model).has_cutting_law;
     if (typed.coupling.empty()) return usual_coupling(has_cutting_law, device);
     if (find_coupling(typed.coupling).needs_cutting_law && !has_cutting_law) {
         throw std::invalid_argument(
             fmt::format("--coupling {}: solves the cutting law, and --force-model {} has none; take "
                         "--coupling {}",
-                        typed.coupling, typed.force_model, usual_coupling(has_cutting_law, device)));
+                        typed.coupling, force_model, usual_coupling(has_cutting_law, device)));
     }
     return typed.coupling;
 }
 
 SceneChanges scene_changes(const TypedServerOptions& typed) {
     SceneChanges changes{.option = typed.changes.empty() ? "--burr" : "--set"};
-    try {
-        for (const std::string& text : typed.changes) changes.changes.push_back(parse_scene_change(text));
-    } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(fmt::format("--set: {}", error.what()));
-    }
+    for (const std::string& text : typed.changes)
+        changes.changes.push_back(said_of_option("--set", [&] { return parse_scene_change(text); }));
     if (!typed.burr.empty())
         changes.changes.push_back({.key = "start_burr", .value = typed.burr, .is_text = true});
     return changes;
 }
 
-bool checked_vibration(const TypedServerOptions& typed) {
-    if (typed.vibration && !find_force_model(typed.force_model).has_cutting_law)
+void require_cutting_law_to_vibrate(const MillingSessionOptions& session) {
+    if (session.vibration && !find_force_model(session.force_model).has_cutting_law)
         throw std::invalid_argument(fmt::format(
-            "--vibration: comes of the cutting law, and --force-model {} has none", typed.force_model));
-    return typed.vibration;
+            "--vibration: comes of the cutting law, and --force-model {} has none", session.force_model));
 }
 
 bool is_utf8(const std::string& text) {
@@ -77,7 +69,7 @@ std::optional<std::filesystem::path> histograms_beside(const std::filesystem::pa
     return json.parent_path() / (json.stem().string() + ".histograms.json");
 }
 
-std::string checked_trainee(const std::string& name) {
+void require_trainee(const std::string& name) {
     constexpr std::size_t longest = 100;
     const bool has_control = std::any_of(name.begin(), name.end(), [](char letter) {
         return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
@@ -85,7 +77,6 @@ std::string checked_trainee(const std::string& name) {
     if (name.size() > longest || has_control || !is_utf8(name))
         throw std::invalid_argument(
             fmt::format("--trainee: a name is one line of at most {} bytes of UTF-8", longest));
-    return name;
 }
 
 /// A bone may be saved over the one that was loaded: it is replaced when all of the new one is there.
@@ -119,92 +110,72 @@ void require_distinct_files(const ServerOptions& options, const AccessOptions& a
 
 std::optional<ListenAddress> metrics_address(const TypedServerOptions& typed) {
     if (typed.metrics.empty()) return std::nullopt;
-    try {
-        const ListenAddress where = parse_listen_address(typed.metrics);
-        if (!is_loopback(where))
-            throw std::invalid_argument(fmt::format("'{}' can be reached from elsewhere; take 127.0.0.1:{}",
-                                                    typed.metrics, where.port));
-        return where;
-    } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(fmt::format("--metrics: {}", error.what()));
-    }
+    const ListenAddress where =
+        said_of_option("--metrics", [&] { return parse_listen_address(typed.metrics); });
+    if (!is_loopback(where))
+        throw std::invalid_argument(
+            fmt::format("--metrics: '{}' can be reached from elsewhere; take "
+                        "127.0.0.1:{}",
+                        typed.metrics, where.port));
+    return where;
 }
 
 ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& access) {
     const bool is_virtual = typed.clock == "virtual";
-    ServerOptions options;
+    ServerOptions options = typed.options;
+    OutputFiles& outputs = options.outputs;
     options.device = typed.device.checked();
     const DeviceEntry& device = *options.device.entry;
     const bool is_client = device.is_moved_by_client;
     if (!device.is_simulated && is_virtual) {
         throw std::invalid_argument(fmt::format("--device {}: a person needs --clock real", device.name));
     }
-    if (!device.is_simulated && !typed.trajectory.empty()) {
+    if (!device.is_simulated && options.scene.trajectory) {
         throw std::invalid_argument("--trajectory: only --device simulated follows one");
     }
-    if (!typed.scene.empty()) options.scene.name = typed.scene;
     if (!typed.case_name.empty()) {
-        options.scene = case_chosen(typed.case_name);
+        const SceneChoice of_case = case_chosen(typed.case_name);
+        options.scene.name = of_case.name;
+        options.scene.case_folder = outputs.case_folder = of_case.case_folder;
         options.case_name = name_of_case(typed.case_name);
-        options.outputs.case_folder = options.scene.case_folder;
     }
-    options.scene.bone = path_if_given(typed.bone);
     options.scene.changes = scene_changes(typed);
     if (options.scene.bone && !options.scene.name && !options.scene.changes.changes.empty())
         throw std::invalid_argument(fmt::format(
             "{}: of a scene; --bone alone has none, name one with --scene", options.scene.changes.option));
-    if (typed.spindle_rpm > 0.0) options.scene.spindle_rpm = typed.spindle_rpm;
     options.grip = typed.grip == "light" ? Grip::light : Grip::firm;
     if (typed.grip == rails_name) options.grip.reset();
     if (!options.grip && !device.is_simulated)
         throw std::invalid_argument(fmt::format("--grip {}: goes with --device simulated", rails_name));
-    options.scene.trajectory = path_if_given(typed.trajectory);
     options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
     options.session.coupling = checked_coupling(typed, device);
-    options.session.force_model = typed.force_model;
-    options.session.vibration = checked_vibration(typed);
-    options.session.duration_s = typed.duration_s;
-    if (typed.haptic_cpu >= 0) options.session.haptic_cpu = typed.haptic_cpu;
-    if (typed.milling_cpu >= 0) options.session.milling_cpu = typed.milling_cpu;
+    require_cutting_law_to_vibrate(options.session);
     options.session.milling_rate_hz =
         typed.milling_rate_hz > 0.0
             ? typed.milling_rate_hz
             : usual_milling_rate_hz(options.session.coupling, options.session.force_model);
-    try {
-        options.listen = listen_address(typed);
-    } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(fmt::format("--listen: {}", error.what()));
-    }
+    options.listen = said_of_option("--listen", [&] { return listen_address(typed); });
     if (options.listen) options.access = access.access_to(*options.listen);
     options.metrics = metrics_address(typed);
-    options.logs_json = typed.log_json;
     if (is_client && !options.listen) {
         throw std::invalid_argument("--device client: the operator connects over --listen, which is none");
     }
-    options.operators = path_if_given(typed.operators);
     if (options.operators && !is_client)
         throw std::invalid_argument(
             "--operators: goes with --device client; with others no client moves the tool");
     if (options.operators && !options.access.tls)
         throw std::invalid_argument(
             "--operators: needs TLS (--tls-cert, --tls-key, --tls-ca), which says who a client is");
-    options.controls = path_if_given(typed.controls);
-    options.record = path_if_given(typed.record);
-    options.outputs.report = path_if_given(typed.report);
-    if (options.outputs.report && options.record)
+    if (outputs.report && options.record)
         throw std::invalid_argument("--record: --report records already, as DIR/session.pcap");
-    if (options.outputs.report) options.record = recording_in(*options.outputs.report);
+    if (outputs.report) options.record = recording_in(*outputs.report);
     options.records_ticks = typed.record_rate_hz == "1000";
-    options.trainee = checked_trainee(typed.trainee);
-    options.outputs.save_bone = path_if_given(typed.save_bone);
-    if (options.outputs.save_bone && options.outputs.save_bone->extension() != ".nrrd") {
-        throw std::invalid_argument(fmt::format("--save-bone: '{}' must end in .nrrd", typed.save_bone));
+    require_trainee(options.trainee);
+    if (outputs.save_bone && outputs.save_bone->extension() != ".nrrd") {
+        throw std::invalid_argument(
+            fmt::format("--save-bone: '{}' must end in .nrrd", outputs.save_bone->string()));
     }
-    options.outputs.json = path_if_given(typed.json);
-    if (options.outputs.json) options.outputs.json_histograms = histograms_beside(*options.outputs.json);
-    options.logs.force = path_if_given(typed.log_csv);
-    options.logs.milling = path_if_given(typed.log_milling_csv);
-    options.checks_machine = typed.check;
+    if (outputs.json) outputs.json_histograms = histograms_beside(*outputs.json);
     require_distinct_files(options, access);
     return options;
 }

@@ -55,19 +55,18 @@ std::string coupling_help() {
 }  // namespace
 
 void declare(CLI::App& app, TypedServerOptions& typed) {
+    ServerOptions& to = typed.options;
     app.add_option(
-           "--scene", typed.scene,
-           fmt::format(
-               "Scene: a TOML file, or a phantom: {} (tooth; with --bone alone: a cavity on top of that "
-               "bone)",
-               fmt::join(phantom_names, ", ")))
-        ->capture_default_str();
+        "--scene", to.scene.name,
+        fmt::format("Scene: a TOML file, or a phantom: {} (tooth; with --bone alone: a cavity on top of that "
+                    "bone)",
+                    fmt::join(phantom_names, ", ")));
     app.add_option("--case", typed.case_name,
                    fmt::format("Case: a folder that bone_import --case made, or one built in: {}",
                                fmt::join(phantom_names, ", ")))
         ->type_name("DIR|NAME")
         ->excludes("--scene");
-    app.add_option("--bone", typed.bone, "Bone from a file that bone_import wrote, instead of the scene's")
+    app.add_option("--bone", to.scene.bone, "Bone from a file that bone_import wrote, instead of the scene's")
         ->type_name("FILE.nrrd");
     add_texts(app, "--set", typed.changes,
               "A key of the scene, whatever its file says, such as wall_friction=0.3, device.scale=0.5 or "
@@ -75,7 +74,7 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
         ->type_name("KEY=VALUE");
     app.add_option("--burr", typed.burr, "The burr to start with, by its name in the scene")
         ->type_name("NAME");
-    app.add_option("--rpm", typed.spindle_rpm, "Spindle speed of every burr, in place of the scene's")
+    app.add_option("--rpm", to.scene.spindle_rpm, "Spindle speed of every burr, in place of the scene's")
         ->check(within(least_spindle_rpm, most_spindle_rpm));
     typed.device.declare(app);
     app.add_option(
@@ -84,11 +83,11 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
            "force")
         ->check(one_of({"light", "firm", rails_name}))
         ->capture_default_str();
-    app.add_option("--trajectory", typed.trajectory,
+    app.add_option("--trajectory", to.scene.trajectory,
                    "What the simulated hand follows, instead of the scene's")
         ->type_name("FILE.csv");
     app.add_option("--coupling", typed.coupling, coupling_help())->check(a_coupling())->type_name("NAME");
-    app.add_option("--force-model", typed.force_model, force_model_help())
+    app.add_option("--force-model", to.session.force_model, force_model_help())
         ->check(one_of(force_model_names()))
         ->capture_default_str();
     app.add_option("--milling-rate-hz", typed.milling_rate_hz,
@@ -97,18 +96,18 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
                                least_milling_rate_hz, most_milling_rate_hz))
         ->check(within(least_milling_rate_hz, most_milling_rate_hz));
     app.add_flag(
-        "--vibration", typed.vibration,
+        "--vibration", to.session.vibration,
         "Add what the arm can render of the handpiece's vibration, up to 300 Hz: run-out, once a turn of "
         "the spindle (to 18 000 rpm), and the edges' passing");
     app.add_option("--clock", typed.clock, "real, or virtual: as fast as it can, repeatable to the bit")
         ->check(one_of({"real", "virtual"}))
         ->capture_default_str();
-    app.add_option("--haptic-cpu", typed.haptic_cpu,
+    app.add_option("--haptic-cpu", to.session.haptic_cpu,
                    "Bind the haptic loop to this processor; best one that the kernel keeps free (isolcpus)")
         ->check(not_below_zero());
-    app.add_option("--milling-cpu", typed.milling_cpu, "Bind the milling loop to this processor")
+    app.add_option("--milling-cpu", to.session.milling_cpu, "Bind the milling loop to this processor")
         ->check(not_below_zero());
-    app.add_option("--duration-s", typed.duration_s, "Stop after this long (or at the trajectory's end)")
+    app.add_option("--duration-s", to.session.duration_s, "Stop after this long (or at the trajectory's end)")
         ->check(above_zero());
     app.add_option("--listen", typed.listen,
                    "Where clients connect, port 0: any free one; \"none\": nobody does (127.0.0.1:7010; none "
@@ -118,18 +117,18 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
                    "Where Prometheus or curl may ask how the session goes, at /metrics; an address of this "
                    "machine alone, such as 127.0.0.1:9464")
         ->type_name("ADDRESS:PORT");
-    app.add_flag("--log-json", typed.log_json,
+    app.add_flag("--log-json", to.logs_json,
                  "Standard error, with the log, as one JSON object a line: time, level, message");
-    app.add_option("--operators", typed.operators,
+    app.add_option("--operators", to.operators,
                    "With --device client and TLS: who may move the tool, others watch; a certificate's "
                    "subject a line, "
                    "whole, as RFC 2253 writes it, such as CN=viewer; # begins a comment")
         ->type_name("FILE");
-    app.add_option("--controls", typed.controls,
+    app.add_option("--controls", to.controls,
                    "Pause, undo, mark and the like at given times, as the window's tool bar does; lines of "
                    "t_s,action,text")
         ->type_name("FILE.csv");
-    app.add_option("--record", typed.record,
+    app.add_option("--record", to.record,
                    "Write what a client is sent, for packet_replay and render_client --replay; a pcap file")
         ->type_name("FILE");
     app.add_option("--record-rate-hz", typed.record_rate_hz,
@@ -137,31 +136,31 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
                    "the log of --log-csv), or 30, only the states that clients are sent")
         ->check(one_of({"1000", "30"}))
         ->capture_default_str();
-    app.add_option("--save-bone", typed.save_bone,
+    app.add_option("--save-bone", to.outputs.save_bone,
                    "Write what is left of the bone, at the end or on a signal; a large CT takes a minute and "
                    "says how "
                    "far it has come")
         ->type_name("FILE.nrrd");
     app.add_option(
-           "--report", typed.report,
+           "--report", to.outputs.report,
            "Record the session into this folder and, at its end, write its report: report.html, metrics.csv, "
            "metrics.json; a folder that holds a session already is refused")
         ->type_name("DIR");
-    app.add_option("--trainee", typed.trainee, "Whose session it is, for the recording and the report")
+    app.add_option("--trainee", to.trainee, "Whose session it is, for the recording and the report")
         ->type_name("NAME");
-    app.add_option("--json", typed.json,
+    app.add_option("--json", to.outputs.json,
                    "Write what was measured, and with which settings; the histograms that its percentiles "
                    "are from go beside it, into NAME.histograms.json")
         ->type_name("FILE");
-    app.add_option("--log-csv", typed.log_csv, "Write force and depth, a line a millisecond")
+    app.add_option("--log-csv", to.logs.force, "Write force and depth, a line a millisecond")
         ->type_name("FILE");
     app.add_option(
-           "--log-milling-csv", typed.log_milling_csv,
+           "--log-milling-csv", to.logs.milling,
            "Write the milling force of every milling step; with --force-model milling-instants at 10 kHz, "
            "the force within the tooth period")
         ->type_name("FILE");
     app.add_flag(
-        "--check", typed.check,
+        "--check", to.checks_machine,
         "Look whether the machine is ready for a session with these options, say for all that is not "
         "what it costs and what mends it, and end: 0 where nothing is wrong, else 1");
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <list>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -72,24 +73,18 @@ std::string write_bones(const ReplayOptions& options, const std::atomic<bool>& s
 }
 
 void read(const ReplayOptions& options, const std::atomic<bool>& stop) {
-    std::optional<RecordingCsv> csv;
-    if (options.csv) csv.emplace(*options.csv, CsvLines::ticks);
-    std::optional<RecordingCsv> states_csv;
-    if (options.states_csv) states_csv.emplace(*options.states_csv, CsvLines::states);
-    std::optional<RecordingCsv> trajectory;
-    if (options.trajectory) trajectory.emplace(*options.trajectory, CsvLines::trajectory);
+    std::list<RecordingCsv> tables;
+    if (options.csv) tables.emplace_back(*options.csv, CsvLines::ticks);
+    if (options.states_csv) tables.emplace_back(*options.states_csv, CsvLines::states);
+    if (options.trajectory) tables.emplace_back(*options.trajectory, CsvLines::trajectory);
     std::optional<RecordingSound> sound;
     if (options.sound) sound.emplace(*options.sound);
     const RecordingSummary summary = summarise(options.recording, [&](const Playhead& playhead) {
         require_going_on(stop);
-        if (csv) csv->add(playhead);
-        if (states_csv) states_csv->add(playhead);
-        if (trajectory) trajectory->add(playhead);
+        for (RecordingCsv& table : tables) table.add(playhead);
         if (sound) sound->add(playhead);
     });
-    if (csv) csv->close();
-    if (states_csv) states_csv->close();
-    if (trajectory) trajectory->close();
+    for (RecordingCsv& table : tables) table.close();
     if (sound) sound->close();
     // Names may be what a hostile file holds: bytes that are no UTF-8 must not cost the whole report.
     if (options.json)

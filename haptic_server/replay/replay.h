@@ -3,8 +3,8 @@
 
 #include <atomic>
 
-#include "haptic_server/replay/replay_options.h"
 #include "common/program/program_output.h"
+#include "haptic_server/replay/replay_options.h"
 
 namespace osteomill {
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <vector>
 
@@ -17,6 +18,59 @@ namespace {
 
 constexpr double slowest = 0.01;
 constexpr double fastest = 1000.0;
+
+/// A file or folder that is made of the recording.
+struct Output {
+    const char* option;
+    std::optional<std::filesystem::path> ReplayOptions::*file;
+    const char* type_name;
+    const char* help;
+};
+using Options = ReplayOptions;
+constexpr std::array outputs{
+    Output{"--json", &Options::json, "FILE", "Write the same to this file; serve nobody"},
+    Output{"--csv", &Options::csv, "FILE",
+           "Write force and depth, a line a tick, as haptic_server --log-csv does; of a recording "
+           "that holds no ticks, as --states-csv; serve nobody"},
+    Output{"--states-csv", &Options::states_csv, "FILE",
+           "Write time, pose, force, burr, spindle, removed volume and the nearest structure, a line "
+           "a frame; serve nobody"},
+    Output{"--trajectory", &Options::trajectory, "FILE.csv",
+           "Write the hand's motion, for another session that makes it again (haptic_server "
+           "--grip rails --trajectory FILE); serve nobody"},
+    Output{"--surface", &Options::surface, "FILE",
+           "Write the surface of the bone as it is at the end, closed, in mm of patient LPS, to this "
+           ".stl, .ply or .obj; serve nobody"},
+    Output{"--difference", &Options::difference, "FILE",
+           "Write what was removed of each voxel, 0 to 255, to this .nrrd; serve nobody"},
+    Output{"--sound", &Options::sound, "FILE", "Write what the burr sounds like to this .wav; serve nobody"},
+    Output{"--hdf5", &Options::hdf5, "FILE",
+           "Write all that is in it, in units, to this .h5 or .hdf5 (docs/hdf5.md); serve nobody"},
+    Output{"--report", &Options::report, "DIR",
+           "Write the session's report (report.html, metrics.csv, metrics.json: docs/metrics.md) into "
+           "this folder; serve nobody"},
+    Output{"--film", &Options::film, "FILE.mp4",
+           "Make a film of it with render_client, as it does with --replay FILE --film; serve nobody"}};
+
+void require_ending(const char* option, const std::optional<std::filesystem::path>& file,
+                    const char* ending) {
+    if (file && file->extension() != ending)
+        throw std::invalid_argument(fmt::format("{}: '{}' must end in {}", option, file->string(), ending));
+}
+
+std::vector<NamedFile> files_of(const ReplayOptions& options, const AccessOptions& access) {
+    std::vector<NamedFile> files = access.files_read();
+    files.push_back({"FILE", options.recording, false});
+    for (const Output& output : outputs)
+        if (output.file != &Options::report && options.*output.file)
+            files.push_back({output.option, *(options.*output.file)});
+    if (options.hdf5 && options.layout == Hdf5Layout::fivrs_v3)
+        files.push_back({"--layout", fivrs_v3_file(*options.hdf5)});
+    if (options.report)
+        for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
+            files.push_back({"--report", *options.report / name});
+    return files;
+}
 
 /// FIVRS's programs read every .hdf5 of a folder and nothing else.
 void require_hdf5_name(const ReplayOptions& options, bool has_layout) {
@@ -35,20 +89,16 @@ void require_hdf5_name(const ReplayOptions& options, bool has_layout) {
 
 }  // namespace
 
+bool ReplayOptions::only_reads() const {
+    return info || std::ranges::any_of(outputs, [this](const Output& output) {
+               return output.file != &ReplayOptions::film && this->*output.file;
+           });
+}
+
 ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, const std::string& version) {
     ReplayOptions options;
     std::string listen = "127.0.0.1:7010";
-    std::string json;
-    std::string csv;
-    std::string states_csv;
-    std::string trajectory;
-    std::string surface;
-    std::string difference;
-    std::string sound;
-    std::string hdf5;
     std::string layout = hdf5_layout_names.front();
-    std::string report;
-    std::string film;
     CLI::App app(
         "Shows a recording of haptic_server --record to render clients, from the moment that the first one "
         "joins; or says what is in it.",
@@ -66,31 +116,8 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
                      ->check(not_below_zero());
     app.add_flag("--info", options.info,
                  "Print duration, rates, burrs, removed volume by tissue, checksum; serve nobody");
-    app.add_option("--json", json, "Write the same to this file; serve nobody")->type_name("FILE");
-    app.add_option("--csv", csv,
-                   "Write force and depth, a line a tick, as haptic_server --log-csv does; of a recording "
-                   "that holds no ticks, as --states-csv; serve nobody")
-        ->type_name("FILE");
-    app.add_option("--states-csv", states_csv,
-                   "Write time, pose, force, burr, spindle, removed volume and the nearest structure, a line "
-                   "a frame; serve nobody")
-        ->type_name("FILE");
-    app.add_option("--trajectory", trajectory,
-                   "Write the hand's motion, for another session that makes it again (haptic_server "
-                   "--grip rails --trajectory FILE); serve nobody")
-        ->type_name("FILE.csv");
-    app.add_option("--surface", surface,
-                   "Write the surface of the bone as it is at the end, closed, in mm of patient LPS, to this "
-                   ".stl, .ply or .obj; serve nobody")
-        ->type_name("FILE");
-    app.add_option("--difference", difference,
-                   "Write what was removed of each voxel, 0 to 255, to this .nrrd; serve nobody")
-        ->type_name("FILE");
-    app.add_option("--sound", sound, "Write what the burr sounds like to this .wav; serve nobody")
-        ->type_name("FILE");
-    app.add_option("--hdf5", hdf5,
-                   "Write all that is in it, in units, to this .h5 or .hdf5 (docs/hdf5.md); serve nobody")
-        ->type_name("FILE");
+    for (const Output& output : outputs)
+        app.add_option(output.option, options.*output.file, output.help)->type_name(output.type_name);
     auto* of_hdf5 =
         app.add_option(
                "--layout", layout,
@@ -98,51 +125,16 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
                "writes a second file beside it, in the folder v3")
             ->check(one_of({hdf5_layout_names.begin(), hdf5_layout_names.end()}))
             ->capture_default_str();
-    app.add_option(
-           "--report", report,
-           "Write the session's report (report.html, metrics.csv, metrics.json: docs/metrics.md) into "
-           "this folder; serve nobody")
-        ->type_name("DIR");
-    app.add_option("--film", film,
-                   "Make a film of it with render_client, as it does with --replay FILE --film; serve nobody")
-        ->type_name("FILE.mp4");
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
-    if (!json.empty()) options.json = json;
-    if (!csv.empty()) options.csv = csv;
-    if (!states_csv.empty()) options.states_csv = states_csv;
-    if (!trajectory.empty()) options.trajectory = trajectory;
-    if (!surface.empty()) options.surface = surface;
-    if (!difference.empty()) options.difference = difference;
-    if (!sound.empty()) options.sound = sound;
-    if (!hdf5.empty()) options.hdf5 = hdf5;
     options.layout =
         static_cast<Hdf5Layout>(std::ranges::find(hdf5_layout_names, layout) - hdf5_layout_names.begin());
-    if (!report.empty()) options.report = report;
-    if (!film.empty()) options.film = film;
     if (options.surface && !is_mesh_name(*options.surface))
-        throw std::invalid_argument(fmt::format("--surface: '{}' must end in {}", surface, mesh_endings));
-    if (options.difference && options.difference->extension() != ".nrrd")
-        throw std::invalid_argument(fmt::format("--difference: '{}' must end in .nrrd", difference));
-    if (options.sound && options.sound->extension() != ".wav")
-        throw std::invalid_argument(fmt::format("--sound: '{}' must end in .wav", sound));
+        throw std::invalid_argument(
+            fmt::format("--surface: '{}' must end in {}", options.surface->string(), mesh_endings));
+    require_ending("--difference", options.difference, ".nrrd");
+    require_ending("--sound", options.sound, ".wav");
     require_hdf5_name(options, of_hdf5->count() > 0);
-    std::vector<NamedFile> files = access.files_read();
-    files.push_back({"FILE", options.recording, false});
-    if (options.json) files.push_back({"--json", *options.json});
-    if (options.csv) files.push_back({"--csv", *options.csv});
-    if (options.states_csv) files.push_back({"--states-csv", *options.states_csv});
-    if (options.trajectory) files.push_back({"--trajectory", *options.trajectory});
-    if (options.surface) files.push_back({"--surface", *options.surface});
-    if (options.difference) files.push_back({"--difference", *options.difference});
-    if (options.sound) files.push_back({"--sound", *options.sound});
-    if (options.hdf5) files.push_back({"--hdf5", *options.hdf5});
-    if (options.hdf5 && options.layout == Hdf5Layout::fivrs_v3)
-        files.push_back({"--layout", fivrs_v3_file(*options.hdf5)});
-    if (options.report)
-        for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
-            files.push_back({"--report", *options.report / name});
-    if (options.film) files.push_back({"--film", *options.film});
-    require_distinct(files);
+    require_distinct(files_of(options, access));
     if (options.film && (options.only_reads() || where->count() > 0))
         throw std::invalid_argument("--film: goes with --speed and --from-s alone");
     for (const CLI::Option* serving : {where, speed, from})
@@ -151,11 +143,7 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
                 "{} is for showing a recording; --info, --json, --csv, --states-csv, "
                 "--trajectory, --surface, --difference, --sound, --hdf5 and --report read all of it",
                 serving->get_name()));
-    try {
-        options.listen = parse_listen_address(listen);
-    } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(fmt::format("--listen: {}", error.what()));
-    }
+    options.listen = said_of_option("--listen", [&] { return parse_listen_address(listen); });
     options.access = access.access_to(options.listen);
     return {options, {}};
 }

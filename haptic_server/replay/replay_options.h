@@ -31,10 +31,7 @@ struct ReplayOptions {
     std::optional<std::filesystem::path> film;        ///< for render_client, which draws it
 
     /// Whether it is only looked into, and shown to nobody.
-    bool only_reads() const {
-        return info || json || csv || states_csv || trajectory || surface || difference || sound || hdf5 ||
-               report;
-    }
+    bool only_reads() const;
 };
 
 using ReplayCommandLine = ParseResult<ReplayOptions>;

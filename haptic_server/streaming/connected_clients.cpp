@@ -17,6 +17,9 @@ namespace {
 /// Bounds what strangers can make the server hold; a class of students looks on through far fewer.
 constexpr std::size_t most_clients = 32;
 
+/// A client says hello within two round trips; this leaves room for a machine that is busy.
+constexpr std::chrono::seconds patience{10};
+
 std::int64_t unix_time_ns() {
     const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
     return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
@@ -67,7 +70,7 @@ void ConnectedClients::look_after(Time now) {
     if (tool_lease_) tool_lease_->check_silence(now);
     log_holder();
     drop_revoked(now);
-    for (const Id id : unidentified_.overdue(now))
+    for (const Id id : unidentified_.here_since(now - patience))
         connections_.at(id)->close("was dropped: it did not say hello", false);
     client_log_.tell_left_out(now);
     unidentified_log_.tell_left_out(now);
@@ -85,7 +88,8 @@ void ConnectedClients::show_ct(const std::function<std::shared_ptr<const CtVolum
 }
 
 std::optional<Viewpoint> ConnectedClients::view_of_operator() {
-    if (const auto steers = tool_lease_ ? tool_lease_->holder() : control_lease_.holder()) steered_last_ = steers;
+    if (const auto steers = tool_lease_ ? tool_lease_->holder() : control_lease_.holder())
+        steered_last_ = steers;
     const auto looks = steered_last_ ? views_.find(*steered_last_) : views_.begin();
     return looks != views_.end() ? looks->second : std::nullopt;
 }

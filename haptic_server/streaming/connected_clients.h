@@ -21,11 +21,11 @@
 #include "common/wire/bone_replica.h"
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/client_connection.h"
+#include "haptic_server/streaming/connection_quota.h"
 #include "haptic_server/streaming/control_lease.h"
 #include "haptic_server/streaming/lease_history.h"
 #include "haptic_server/streaming/streaming_options.h"
 #include "haptic_server/streaming/tool_lease.h"
-#include "haptic_server/streaming/unidentified_connections.h"
 
 namespace osteomill {
 
@@ -102,9 +102,11 @@ class ConnectedClients {
     std::optional<Id> steered_last_;                // and is still connected
 
     std::map<Id, std::shared_ptr<ClientConnection>> connections_;
-    UnidentifiedConnections unidentified_;  // those of the connections who are that
-    std::set<Id> watchers_;                 // those of the connections who may not move the tool
-    std::set<Id> refused_input_;            // and of these, who have been named in the log for it
+    /// Those of the connections that have not said hello. They are sent one and no more, so that a stranger
+    /// costs no snapshot.
+    ConnectionQuota unidentified_;
+    std::set<Id> watchers_;       // those of the connections who may not move the tool
+    std::set<Id> refused_input_;  // and of these, who have been named in the log for it
     Id last_client_ = 0;
     std::uint64_t sent_bytes_ = 0;
     std::function<void()> when_gone_;  // says that goodbye has been said, too

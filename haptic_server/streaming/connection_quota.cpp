@@ -19,7 +19,7 @@ Origin origin_of(const boost::asio::ip::address& address) {
 }
 
 std::optional<ConnectionQuota::Id> ConnectionQuota::next_to_go() const {
-    if (origins_.size() < most_) return std::nullopt;
+    if (held_.size() < most_) return std::nullopt;
     // Of those who hold equally many, whose oldest is the oldest.
     const auto most = std::ranges::max_element(holders_, [](const auto& a, const auto& b) {
         if (a.second.size() != b.second.size()) return a.second.size() < b.second.size();
@@ -28,23 +28,30 @@ std::optional<ConnectionQuota::Id> ConnectionQuota::next_to_go() const {
     return *most->second.begin();
 }
 
-void ConnectionQuota::add(Id id, const Origin& origin) {
-    origins_.emplace(id, origin);
+void ConnectionQuota::add(Id id, const Origin& origin, Time now) {
+    held_.emplace(id, Held{origin, now});
     holders_[origin].insert(id);
 }
 
 bool ConnectionQuota::remove(Id id) {
-    const auto found = origins_.find(id);
-    if (found == origins_.end()) return false;
-    const auto holder = holders_.find(found->second);
+    const auto found = held_.find(id);
+    if (found == held_.end()) return false;
+    const auto holder = holders_.find(found->second.origin);
     holder->second.erase(id);
     if (holder->second.empty()) holders_.erase(holder);
-    origins_.erase(found);
+    held_.erase(found);
     return true;
 }
 
+std::vector<ConnectionQuota::Id> ConnectionQuota::here_since(Time time) const {
+    std::vector<Id> some;
+    for (const auto& [id, held] : held_)
+        if (held.since <= time) some.push_back(id);
+    return some;
+}
+
 void ConnectionQuota::clear() {
-    origins_.clear();
+    held_.clear();
     holders_.clear();
 }
 

@@ -1,4 +1,5 @@
-// Quota of connections that have not identified themselves yet, shared by the addresses they come from.
+// Quota of connections that have not identified themselves yet, a new client or a port scan, shared by the
+// addresses they come from. So they never cost a client its connection.
 //
 // When it is full, the oldest connection of the address that holds most goes. So one address, however fast it
 // connects, never costs another its connection. Behind one address, or from very many, a connection is kept
@@ -7,12 +8,14 @@
 #pragma once
 
 #include <boost/asio/ip/address.hpp>
+#include <chrono>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
+#include <vector>
 
 namespace osteomill {
 
@@ -31,21 +34,29 @@ Origin origin_of(const boost::asio::ip::address& address);
 class ConnectionQuota {
   public:
     using Id = std::uint64_t;  ///< ascending in the order in which they came
+    using Time = std::chrono::steady_clock::time_point;
 
     /// At least one.
     explicit ConnectionQuota(std::size_t most) : most_(most) {}
 
     /// The connection that has to go before another can be added; none where there is room.
     std::optional<Id> next_to_go() const;
-    void add(Id id, const Origin& origin);
+    void add(Id id, const Origin& origin, Time now);
     /// False if it has none.
     bool remove(Id id);
-    std::size_t size() const { return origins_.size(); }
+    bool contains(Id id) const { return held_.contains(id); }
+    /// Those that came no later.
+    std::vector<Id> here_since(Time time) const;
+    std::size_t size() const { return held_.size(); }
     void clear();
 
   private:
     std::size_t most_;
-    std::map<Id, Origin> origins_;
+    struct Held {
+        Origin origin;
+        Time since;
+    };
+    std::map<Id, Held> held_;
     std::map<Origin, std::set<Id>> holders_;  // none is empty
 };
 

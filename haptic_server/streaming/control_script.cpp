@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -68,44 +67,24 @@ TimedControl timed_control(std::string_view line) {
 
 }  // namespace
 
-ControlScript read_control_script(std::istream& in, const std::string& name) {
+ControlScript read_control_script(const std::string& text, const std::string& name) {
     ControlScript script;
-    bool has_header = false;
-    std::size_t number = 0;
-    const auto refuse = [&](const std::string& what) {
-        throw std::runtime_error(fmt::format("{}:{}: {}", name, std::max<std::size_t>(number, 1), what));
-    };
-    const auto next = [&](std::string& line) {
+    TableLines lines(text, name);
+    if (!lines.next() || lines.line() != header) lines.fail(fmt::format("the first line must be {}", header));
+    while (lines.next()) {
         try {
-            return next_table_line(in, line, number);
-        } catch (const std::runtime_error& error) {
-            refuse(error.what());
-        }
-        return false;
-    };
-    for (std::string line; next(line);) {
-        if (line.empty() || line.front() == '#') continue;
-        if (!has_header) {
-            if (line != header) refuse(fmt::format("the first line must be {}", header));
-            has_header = true;
-            continue;
-        }
-        try {
-            script.push_back(timed_control(line));
+            script.push_back(timed_control(lines.line()));
         } catch (const std::invalid_argument& error) {
-            refuse(error.what());
+            lines.fail(error.what());
         }
         if (script.size() > 1 && script.back().time_s < script[script.size() - 2].time_s)
-            refuse("t_s must not be earlier than on the line before");
+            lines.fail("t_s must not be earlier than on the line before");
     }
-    if (in.bad()) throw std::runtime_error(name + ": cannot be read");
-    if (!has_header) refuse(fmt::format("the first line must be {}", header));
     return script;
 }
 
 ControlScript read_control_script(const std::filesystem::path& file) {
-    std::istringstream in(read_text(file, controls_kind));
-    return read_control_script(in, file.string());
+    return read_control_script(read_text(file, controls_kind), file.string());
 }
 
 }  // namespace osteomill

@@ -13,7 +13,6 @@
 
 #include <deque>
 #include <filesystem>
-#include <istream>
 #include <string>
 
 #include "common/scene/session_control.h"
@@ -31,7 +30,7 @@ using ControlScript = std::deque<TimedControl>;
 
 /// Throws std::runtime_error with one line: file, line, what is wrong, what would be right.
 ControlScript read_control_script(const std::filesystem::path& file);
-/// The same from a stream; `name` stands for the file in errors.
-ControlScript read_control_script(std::istream& in, const std::string& name);
+/// The same of a text; `name` stands for the file in errors.
+ControlScript read_control_script(const std::string& text, const std::string& name);
 
 }  // namespace osteomill

@@ -31,7 +31,7 @@ void Handshakes::begin(tcp::socket socket) {
              "it gave way to others, with " + std::to_string(quota_.size()) + " handshakes under way");
     const Id id = ++last_id_;
     Handshake& handshake = under_way_.try_emplace(id, std::move(socket), io_).first->second;
-    quota_.add(id, origin_of(from.address()));
+    quota_.add(id, origin_of(from.address()), std::chrono::steady_clock::now());
     handshake.timer.expires_after(deadline_);
     handshake.timer.async_wait([this, id](error_code failure) {
         if (!failure) fail(id, "no TLS handshake within " + std::to_string(deadline_.count()) + " ms");

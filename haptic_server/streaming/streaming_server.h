@@ -4,7 +4,7 @@
 // loop's, and applies the changes at every frame, watched or not. Memory is bounded: for each client one
 // frame under way and a set of voxels to be sent. A slow client gets fewer frames and misses nothing; a
 // client that sends invalid data is dropped with one log line. No client is served before its hello, and a
-// connection without one cannot take a client's place: see UnidentifiedConnections. With TLS a client needs a
+// connection without one cannot take a client's place: see ConnectionQuota. With TLS a client needs a
 // certificate of the lab's CA; without it, only this machine is served unless an option says otherwise.
 #pragma once
 

@@ -4,8 +4,8 @@ namespace osteomill {
 
 bool ToolLease::take_input(ClientId client, const OperatorCommand& command, Time now) {
     if (holder_ && *holder_ != client && is_kept(now)) return false;
-    if (holder_ != client) activity_.begin();
-    activity_.note(command, now);
+    if (holder_ != client || command.pedal || newest_ != command) acted_ = now;
+    newest_ = command;
     holder_ = client;
     last_heard_ = now;
     output_.back() = {command, now, client};

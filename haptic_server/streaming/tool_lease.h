@@ -1,6 +1,6 @@
 // Lease on the tool: the client that moves it, and that client's newest input. The first client that sends
 // input has the lease until it leaves or the lease runs out. Its input renews the lease. A client whose input
-// has not changed for half a minute (OperatorActivity) loses it to the next one that sends input. The pedal
+// has not changed for half a minute, its pedal up, loses it to the next one that sends input. The pedal
 // of a silent operator is the device's matter, see simulation/device/permission.h.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 #include "common/scene/operator_command.h"
 #include "common/scene/tool_state.h"
-#include "haptic_server/streaming/operator_activity.h"
+#include "haptic_server/streaming/control_lease.h"
 #include "simulation/exchange/operator_channel.h"
 
 namespace osteomill {
@@ -42,11 +42,15 @@ class ToolLease {
 
   private:
     /// Whether the holder may keep it though another asks.
-    bool is_kept(Time now) const { return now - last_heard_ <= duration && !activity_.is_idle(now); }
+    bool is_kept(Time now) const {
+        return now - last_heard_ <= duration && now - acted_ <= ControlLease::longest_rest;
+    }
 
     OperatorChannel& output_;
     std::optional<ClientId> holder_;
-    OperatorActivity activity_;  // of the holder
+    // Of the holder:
+    std::optional<OperatorCommand> newest_;
+    Time acted_{};  // a new target, axis or burr, or the pedal was down
     Time last_heard_{};
 };
 

@@ -49,11 +49,7 @@ Grid grid_of(const SourceImage& image, const std::filesystem::path& path) {
             if (!(std::abs(image.direction[axis][row] - (row == axis ? 1.0 : 0.0)) <= printing_tolerance))
                 throw ImagingError(path, std::string("its axes do not run left, posterior, superior") + hint);
     }
-    try {
-        require_valid(grid);
-    } catch (const std::invalid_argument& error) {
-        throw ImagingError(path, error.what());
-    }
+    said_of(path, [&] { require_valid(grid); });
     return grid;
 }
 

@@ -7,19 +7,18 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <filesystem>
-#include <iostream>
 #include <optional>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/program/available_memory.h"
+#include "common/program/command_line.h"
 #include "common/program/option_checks.h"
-#include "common/program/program_output.h"
-#include "common/program/stop_signals.h"
+#include "common/program/run_program.h"
 #include "common/scene/tissue_tables.h"
 #include "common/text/plain_text.h"
 #include "imaging/case/case_folder.h"
@@ -30,43 +29,41 @@
 #include "imaging/segmentation/segmentation.h"
 #include "imaging/segmentation/segmentation_file.h"
 
-namespace {
+namespace osteomill {
 
-constexpr int exit_failure = 1;
-constexpr int exit_usage = 2;
+namespace {
 
 /// Thrown once a signal asks for the end.
 struct Stopped : std::runtime_error {
     Stopped() : std::runtime_error("stopped; nothing was written") {}
 };
 
+struct ImportCommand {
+    ImportOptions options;
+    CaseParts parts;
+    std::optional<std::filesystem::path> case_folder;
+    std::optional<std::filesystem::path> preview;
+};
+
 /// Option texts that have a form of their own; std::invalid_argument says what is wrong with one.
 struct Texts {
     std::string region;
-    std::string case_folder;
-    osteomill::CaseParts parts;
     std::vector<std::string> labels;
     std::vector<std::string> segmentations;
     std::vector<std::string> materials;
     std::vector<std::string> protect;
     std::string stack_spacing;
-    std::string colours;
-    std::string target;
-    std::string preview;
     std::string rescale;
     std::string intensity_window;
-    std::string series;
-    double threshold_hu = 0.0;
 };
 
 constexpr double preview_spacing_mm = 0.5;
 
 /// The scan, or the bone of labels where there is none.
-void import(const osteomill::ImportOptions& options, const osteomill::BegunCase& begun,
-            const osteomill::ImportSurroundings& surroundings, bool is_to_look_at) {
-    if (begun.labels == 0) return osteomill::import_bone(options, surroundings);
-    osteomill::import_bone(options, osteomill::scan_of_labels(begun, surroundings.messages, is_to_look_at),
-                           surroundings);
+void import(const ImportOptions& options, const BegunCase& begun, const ImportSurroundings& surroundings,
+            bool is_to_look_at) {
+    if (begun.labels == 0) return import_bone(options, surroundings);
+    import_bone(options, scan_of_labels(begun, surroundings.messages, is_to_look_at), surroundings);
 }
 
 /// A new folder beside a file, gone with this.
@@ -90,98 +87,98 @@ class ScratchFolder {
 };
 
 /// The whole scan, coarse, by way of a file that is gone afterwards.
-void preview(osteomill::ImportOptions options, const osteomill::BegunCase& begun,
-             const std::filesystem::path& picture, const osteomill::ImportSurroundings& surroundings) {
-    const std::optional<osteomill::Region> region = std::exchange(options.region, std::nullopt);
+void preview(ImportOptions options, const BegunCase& begun, const std::filesystem::path& picture,
+             const ImportSurroundings& surroundings) {
+    const std::optional<Region> region = std::exchange(options.region, std::nullopt);
     options.threshold_hu.reset();
     if (picture.has_parent_path()) std::filesystem::create_directories(picture.parent_path());
     const ScratchFolder scratch(picture);
     options.output = scratch.path() / "coarse.nrrd";
     import(options, begun, surroundings, true);
-    const osteomill::CtVolume ct = osteomill::whole_ct(options.output);
-    surroundings.messages << osteomill::summary_of(ct);
+    const CtVolume ct = whole_ct(options.output);
+    surroundings.messages << summary_of(ct);
     if (picture.extension() == ".raw")
-        osteomill::write_preview_voxels(ct, begun.segmentations, picture);
+        write_preview_voxels(ct, begun.segmentations, picture);
     else
-        osteomill::write_preview(ct, region, picture);
+        write_preview(ct, region, picture);
     for (const auto& segmentation : begun.segmentations)
-        for (const osteomill::Segment& segment : segmentation->segments)
+        for (const Segment& segment : segmentation->segments)
             surroundings.messages << "segment " << segment.name << '\n';
     surroundings.messages << "preview: " << picture.string() << '\n';
 }
 
 /// What there is now, and the next command where `option` says how the server takes it.
 std::string made(const std::string& what, const std::string& path, const std::string& option) {
-    const std::string shown = osteomill::printable(path);
+    const std::string shown = printable(path);
     std::string line = what + ": " + shown;
     if (!option.empty()) line += "; next: haptic_server --device client " + option + " '" + shown + "'";
     return line + '\n';
 }
 
-void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts) {
+void add_options(CLI::App& app, ImportCommand& command, Texts& texts) {
+    ImportOptions& options = command.options;
     app.add_option("INPUT", options.input,
                    "DICOM folder, a NRRD, NIfTI or MetaImage file, or a folder of PNG or TIFF pictures");
     auto* output =
         app.add_option("OUTPUT.nrrd", options.output, "bone file to write (int16 HU, patient LPS, gzip)");
-    app.add_option("--case", texts.case_folder,
+    app.add_option("--case", command.case_folder,
                    "folder to make a case in, instead: case.toml, bone.nrrd and the segmentation")
         ->type_name("DIR")
         ->excludes(output);
     app.add_option(
-           "--preview", texts.preview,
+           "--preview", command.preview,
            "instead of a bone: say what the scan covers and its HU, and draw three slices of it, at "
            "0.5 mm unless --spacing-mm says otherwise, with the --region; VOXELS.raw: all slices, a byte "
            "of grey for each voxel, then one of its segment")
         ->type_name("PICTURE.png")
         ->excludes(output)
         ->excludes("--case");
-    osteomill::add_texts(
-        app, "--labels", texts.labels,
-        "in place of INPUT, with --case: bone is made of the segments of a label map that are bone "
-        "by their names, or by --material; a folder: all label maps in it, or a stack of pictures; "
-        "again for each further file")
+    add_texts(app, "--labels", texts.labels,
+              "in place of INPUT, with --case: bone is made of the segments of a label map that are bone "
+              "by their names, or by --material; a folder: all label maps in it, or a stack of pictures; "
+              "again for each further file")
         ->type_name("FILE");
-    osteomill::add_texts(
-        app, "--material", texts.materials,
-        "what a segment is made of (scenes/materials.toml), such as \"Tooth 36=enamel\"; NAME=soft: "
-        "no bone; again for each further one")
+    add_texts(app, "--material", texts.materials,
+              "what a segment is made of (scenes/materials.toml), such as \"Tooth 36=enamel\"; NAME=soft: "
+              "no bone; again for each further one")
         ->type_name("NAME=MATERIAL");
     app.add_option(
            "--stack-spacing", texts.stack_spacing,
            "x,y,z in mm: of pixels and slices, where INPUT or labels are a stack of PNG or TIFF pictures")
         ->type_name("X,Y,Z");
-    osteomill::add_texts(app, "--segmentation", texts.segmentations,
-                         "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, "
-                         "NIfTI); again for each further file; with --preview their names are said")
+    add_texts(app, "--segmentation", texts.segmentations,
+              "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, "
+              "NIfTI); again for each further file; with --preview their names are said")
         ->type_name("FILE");
     app.add_option(
-           "--colours", texts.colours,
+           "--colours", command.parts.colours,
            "names and colours of a label map's labels: a colour table of 3D Slicer (.ctbl) or ITK-SNAP")
         ->type_name("FILE");
-    osteomill::add_texts(
+    add_texts(
         app, "--protect", texts.protect,
         "with --segmentation: a segment that must not be touched, and its own --warn-mm; again for each "
         "further one")
         ->type_name("NAME[=MM]");
-    app.add_option("--warn-mm", texts.parts.warn_mm, "of the protected: warn of a burr that is nearer")
-        ->check(osteomill::within(0.0, osteomill::most_warn_mm))
+    app.add_option("--warn-mm", command.parts.warn_mm, "of the protected: warn of a burr that is nearer")
+        ->check(within(0.0, most_warn_mm))
         ->capture_default_str();
-    app.add_option("--target", texts.target, "with --segmentation: the segment that is to be removed")
+    app.add_option("--target", command.parts.target, "with --segmentation: the segment that is to be removed")
         ->type_name("NAME");
     app.add_option("--spacing-mm", options.spacing_mm,
                    "edge of a voxel of the result; a case of a large region that says nothing is coarser")
         ->capture_default_str()
-        ->check(osteomill::within(0.01, 10.0));
-    app.add_option("--threshold-hu", texts.threshold_hu,
+        ->check(within(0.01, 10.0));
+    app.add_option("--threshold-hu", options.threshold_hu,
                    "bone is at and above this: kept in the file for haptic_server; HU further than 2 voxels "
                    "from bone "
                    "become -1000")
-        ->check(osteomill::within(-1024.0, 10000.0));
+        ->check(within(-1024.0, 10000.0));
     app.add_flag("--keep-soft-tissue", options.keeps_soft_tissue,
                  "with --threshold-hu: HU far from bone stay, so that a carved bone can be laid beside the "
                  "scan; the file is some 3 to 10 times as large");
     app.add_option("--region", texts.region, "x0,y0,z0,x1,y1,z1 in mm of patient LPS: import only this box");
-    app.add_option("--series", texts.series, "UID of the DICOM series to take (default: the largest)");
+    app.add_option("--series", options.choice.series_uid,
+                   "UID of the DICOM series to take (default: the largest)");
     auto* rescale =
         app.add_option("--rescale", texts.rescale,
                        "SLOPE,INTERCEPT: HU = SLOPE * value + INTERCEPT, for files that carry none (after "
@@ -194,7 +191,8 @@ void add_options(CLI::App& app, osteomill::ImportOptions& options, Texts& texts)
 }
 
 /// Of labels, which have no CT numbers.
-void parse_labels(const CLI::App& app, Texts& texts, osteomill::ImportOptions& options) {
+void parse_labels(const CLI::App& app, const Texts& texts, ImportCommand& command) {
+    ImportOptions& options = command.options;
     if (!options.input.empty() && !options.output.empty())
         throw std::invalid_argument("--labels: stands in place of INPUT");
     if (!options.input.empty())
@@ -204,139 +202,125 @@ void parse_labels(const CLI::App& app, Texts& texts, osteomill::ImportOptions& o
          {"--threshold-hu", "--keep-soft-tissue", "--series", "--rescale", "--intensity-window"})
         if (app.count(option) > 0)
             throw std::invalid_argument(std::string(option) + ": goes with a scan, not with --labels");
-    texts.parts.labels.assign(texts.labels.begin(), texts.labels.end());
+    command.parts.labels.assign(texts.labels.begin(), texts.labels.end());
     options.input = texts.labels.front();
-    options.threshold_hu = osteomill::threshold_of_labels_hu;
+    options.threshold_hu = threshold_of_labels_hu;
     options.follows_contours = false;
 }
 
 /// "NAME=MATERIAL"; a name may hold "=", a material none.
-void parse_materials(Texts& texts) {
+void parse_materials(const Texts& texts, CaseParts& parts) {
     for (const std::string& text : texts.materials) {
         const std::size_t at = text.rfind('=');
         if (at == std::string::npos || at == 0)
             throw std::invalid_argument("--material '" + text + "': give NAME=MATERIAL");
-        texts.parts.materials[text.substr(0, at)] = text.substr(at + 1);
+        parts.materials[text.substr(0, at)] = text.substr(at + 1);
     }
 }
 
 /// "NAME" or "NAME=MM"; a name may hold "=", and end like a number where MM follows.
-void parse_protected(Texts& texts) {
+void parse_protected(const Texts& texts, CaseParts& parts) {
     for (const std::string& text : texts.protect) {
         const std::size_t at = text.rfind('=');
         double mm = 0.0;
         const char* const end = text.data() + text.size();
         const bool has_mm = at != std::string::npos && at > 0 && at + 1 < text.size() &&
                             std::from_chars(text.data() + at + 1, end, mm).ptr == end;
-        if (has_mm && !(mm >= 0.0 && mm <= osteomill::most_warn_mm))
+        if (has_mm && !(mm >= 0.0 && mm <= most_warn_mm))
             throw std::invalid_argument(
-                fmt::format("--protect '{}': warns from 0 to {} mm on", text, osteomill::most_warn_mm));
-        texts.parts.is_protected.push_back(has_mm ? text.substr(0, at) : text);
-        if (has_mm) texts.parts.warns_from_mm[text.substr(0, at)] = mm;
+                fmt::format("--protect '{}': warns from 0 to {} mm on", text, most_warn_mm));
+        parts.is_protected.push_back(has_mm ? text.substr(0, at) : text);
+        if (has_mm) parts.warns_from_mm[text.substr(0, at)] = mm;
     }
 }
 
-void parse_texts(const CLI::App& app, Texts& texts, osteomill::ImportOptions& options) {
-    if (app.count("--threshold-hu") > 0) options.threshold_hu = texts.threshold_hu;
+void parse_texts(const CLI::App& app, const Texts& texts, ImportCommand& command) {
+    ImportOptions& options = command.options;
     if (options.keeps_soft_tissue && !options.threshold_hu)
         throw std::invalid_argument("--keep-soft-tissue: goes with --threshold-hu; without, all HU are kept");
-    if (app.count("--region") > 0) options.region = osteomill::parse_region(texts.region);
-    if (app.count("--series") > 0) options.choice.series_uid = texts.series;
-    if (app.count("--rescale") > 0) options.to_hu = osteomill::parse_rescale(texts.rescale);
-    if (app.count("--intensity-window") > 0)
-        options.to_hu = osteomill::parse_intensity_window(texts.intensity_window);
+    if (app.count("--region") > 0) options.region = parse_region(texts.region);
+    if (app.count("--rescale") > 0) options.to_hu = parse_rescale(texts.rescale);
+    if (app.count("--intensity-window") > 0) options.to_hu = parse_intensity_window(texts.intensity_window);
     const bool has_segments = !texts.segmentations.empty() || !texts.labels.empty();
-    if (texts.case_folder.empty() && texts.preview.empty() && has_segments)
+    if (!command.case_folder && !command.preview && has_segments)
         throw std::invalid_argument(std::string(texts.labels.empty() ? "--segmentation" : "--labels") +
                                     ": goes with --case or --preview");
     for (const char* option : {"--colours", "--protect", "--warn-mm", "--target", "--material"})
         if (!has_segments && app.count(option) > 0)
             throw std::invalid_argument(std::string(option) + ": goes with --segmentation or --labels");
     if (!texts.labels.empty())
-        parse_labels(app, texts, options);
+        parse_labels(app, texts, command);
     else if (options.input.empty())
         throw std::invalid_argument("give INPUT, or --labels FILE (see --help)");
-    parse_materials(texts);
-    parse_protected(texts);
+    parse_materials(texts, command.parts);
+    parse_protected(texts, command.parts);
     if (!texts.stack_spacing.empty())
-        options.choice.stack_spacing_mm = texts.parts.stack_spacing_mm =
-            osteomill::parse_stack_spacing(texts.stack_spacing);
-    texts.parts.segmentations.assign(texts.segmentations.begin(), texts.segmentations.end());
-    if (!texts.colours.empty()) texts.parts.colours = texts.colours;
-    if (!texts.target.empty()) texts.parts.target = texts.target;
-    if (!texts.preview.empty()) {
+        options.choice.stack_spacing_mm = command.parts.stack_spacing_mm =
+            parse_stack_spacing(texts.stack_spacing);
+    command.parts.segmentations.assign(texts.segmentations.begin(), texts.segmentations.end());
+    if (command.preview) {
         if (app.count("--spacing-mm") == 0) options.spacing_mm = preview_spacing_mm;
         return;
     }
-    if (texts.case_folder.empty() && options.output.empty())
+    if (!command.case_folder && options.output.empty())
         throw std::invalid_argument("give OUTPUT.nrrd, --case DIR or --preview PICTURE.png (see --help)");
-    if (!texts.case_folder.empty()) {
-        options.output = osteomill::bone_of_case(texts.case_folder);
+    if (command.case_folder) {
+        options.output = bone_of_case(*command.case_folder);
         options.may_be_coarser = app.count("--spacing-mm") == 0;
     }
     if (options.output.extension() != ".nrrd")
         throw std::invalid_argument("OUTPUT '" + options.output.string() + "': its name must end in .nrrd");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    const std::atomic<bool>& is_stopped = osteomill::stop_on_signals();
+ParseResult<ImportCommand> parse(int argc, const char* const* argv) {
+    ImportCommand command;
+    Texts texts;
     CLI::App app("Makes a bone file of a CT scan: isotropic, in patient LPS, in HU.", "bone_import");
     app.set_version_flag("--version", OSTEOMILL_VERSION);
-    osteomill::ImportOptions options;
-    Texts texts;
-    add_options(app, options, texts);
-    try {
-        osteomill::parse_arguments(app, argc, argv);
-        parse_texts(app, texts, options);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        std::cerr << "bone_import: " << osteomill::printable(error.what()) << " (see --help)\n";
-        return exit_usage;
-    } catch (const std::invalid_argument& error) {
-        std::cerr << "bone_import: " << osteomill::printable(error.what()) << '\n';
-        return exit_usage;
+    add_options(app, command, texts);
+    if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
+    parse_texts(app, texts, command);
+    return {std::move(command), {}};
+}
+
+void run(const ImportCommand& command, const ProgramOutput& output) {
+    const std::atomic<bool>& is_stopped = stop_on_signals();
+    LineStreamBuffer buffer(*output.err);
+    std::ostream messages(&buffer);
+    messages << std::unitbuf;
+    const ImportSurroundings surroundings{.messages = messages,
+                                          .is_terminal = output.err->is_terminal(),
+                                          .available_memory_bytes = available_memory_bytes(),
+                                          .go_on = [&] {
+                                              if (is_stopped) throw Stopped();
+                                          }};
+    // All that can be refused is refused before an hour of work.
+    const BegunCase begun = read_case_parts(command.parts);
+    std::optional<UnfinishedCase> unfinished;
+    if (command.case_folder) {
+        unfinished.emplace(*command.case_folder);
+        begin_case(*command.case_folder);
     }
-    const osteomill::ProgramOutput output;
-    int exit_code = 0;
-    {
-        osteomill::LineStreamBuffer buffer(*output.err);
-        std::ostream messages(&buffer);
-        messages << std::unitbuf;
-        try {
-            const osteomill::ImportSurroundings surroundings{
-                .messages = messages,
-                .is_terminal = output.err->is_terminal(),
-                .available_memory_bytes = osteomill::available_memory_bytes(),
-                .go_on = [&] {
-                    if (is_stopped) throw Stopped();
-                }};
-            const bool makes_case = !texts.case_folder.empty();
-            // All that can be refused is refused before an hour of work.
-            const osteomill::BegunCase begun = osteomill::read_case_parts(texts.parts);
-            std::optional<osteomill::UnfinishedCase> unfinished;
-            if (makes_case) {
-                unfinished.emplace(texts.case_folder);
-                osteomill::begin_case(texts.case_folder);
-            }
-            if (texts.preview.empty())
-                import(options, begun, surroundings, false);
-            else
-                preview(options, begun, texts.preview, surroundings);
-            if (makes_case) {
-                osteomill::finish_case(texts.case_folder, begun, messages, surroundings.go_on);
-                unfinished->finish();
-                messages << made("case", texts.case_folder, "--case");
-            } else if (texts.preview.empty()) {
-                // Without a threshold it is not known what of it is bone.
-                messages << made("bone", options.output.string(), options.threshold_hu ? "--bone" : "");
-            }
-        } catch (const std::exception& error) {
-            messages << "bone_import: " << osteomill::printable(error.what()) << '\n';
-            exit_code = exit_failure;
-        }
+    if (command.preview)
+        preview(command.options, begun, *command.preview, surroundings);
+    else
+        import(command.options, begun, surroundings, false);
+    if (command.case_folder) {
+        finish_case(*command.case_folder, begun, messages, surroundings.go_on);
+        unfinished->finish();
+        messages << made("case", command.case_folder->string(), "--case");
+    } else if (!command.preview) {
+        // Without a threshold it is not known what of it is bone.
+        messages << made("bone", command.options.output.string(),
+                         command.options.threshold_hu ? "--bone" : "");
     }
-    output.finish();
-    return exit_code;
+}
+
+}  // namespace
+
+}  // namespace osteomill
+
+int main(int argc, char** argv) {
+    return osteomill::run_program(
+        "bone_import", [&] { return osteomill::parse(argc, argv); }, osteomill::run);
 }

@@ -260,11 +260,7 @@ std::optional<DicomScan> scan_file(const std::filesystem::path& path) {
             path,
             "is DICOM of more than 1 GiB, and compressed or damaged; save the scan as one file "
             "a slice, or as NRRD");
-    try {
-        return scan_first(file, most_scanned_bytes);
-    } catch (const std::invalid_argument& error) {
-        throw ImagingError(path, error.what());
-    }
+    return said_of(path, [&] { return scan_first(file, most_scanned_bytes); });
 }
 
 }  // namespace

@@ -73,12 +73,7 @@ OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& 
     const std::vector<DicomSlice> slices = slices_of(series);
     std::vector<SlicePlacement> placements;
     for (const DicomSlice& slice : slices) placements.push_back(slice.placement);
-    SliceStack stack;
-    try {
-        stack = stack_slices(placements);
-    } catch (const std::invalid_argument& error) {
-        throw ImagingError(folder, error.what());
-    }
+    const SliceStack stack = said_of(folder, [&] { return stack_slices(placements); });
     std::map<std::filesystem::path, DicomHeader> header_of_file;
     for (const DicomFile& file : series.files) header_of_file[file.path] = file.header;
 

@@ -51,12 +51,8 @@ void read_sizes(const NiftiStatements& stated, const std::filesystem::path& path
     if (known == data_types.end())
         throw ImagingError(path, fmt::format("datatype {} of {} bits (datatype, bitpix) is not read",
                                              stated.datatype, stated.bits));
-    try {
-        header.voxels.type = known->type;
-        header.voxel_bytes = plausible_voxel_count(sizes) * known->bytes;
-    } catch (const std::invalid_argument& error) {
-        throw ImagingError(path, error.what());
-    }
+    header.voxels.type = known->type;
+    header.voxel_bytes = said_of(path, [&] { return plausible_voxel_count(sizes) * known->bytes; });
     if (sizes.size() != 3)
         throw ImagingError(path, fmt::format("has {} dimensions; a volume has 3", sizes.size()));
     for (int axis = 0; axis < 3; ++axis)

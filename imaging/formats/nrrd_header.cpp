@@ -191,12 +191,10 @@ ImageHeader nrrd_image(const NrrdHeader& header, const std::filesystem::path& pa
                                              shortened(lines), shortened(skip)));
     layout.line_skip = *line_skip;
     layout.byte_skip = *byte_skip;
-    try {
+    said_of(path, [&] {
         layout.voxel_bytes = least_bytes(plausible_voxel_count(sizes), *voxel_type, layout.encoding);
         layout.data_files = data_files_of(header);
-    } catch (const std::invalid_argument& error) {
-        throw ImagingError(path, error.what());
-    }
+    });
     if (!layout.data_files.empty() && layout.voxel_bytes % layout.data_files.size() != 0)
         throw ImagingError(path, fmt::format("{} data files cannot share {} bytes of voxels evenly",
                                              layout.data_files.size(), layout.voxel_bytes));

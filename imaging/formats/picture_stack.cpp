@@ -119,11 +119,7 @@ OpenedImage open_picture_stack(const std::filesystem::path& path, const std::opt
                     path.string()));
     for (const std::string& note : {doubt_of_order(files), first.note})
         if (!note.empty()) image.notes.push_back(note);
-    try {
-        require_plausible_geometry(image);
-    } catch (const std::invalid_argument& error) {
-        throw ImagingError(path, error.what());
-    }
+    said_of(path, [&] { require_plausible_geometry(image); });
     stack.reading_bytes = 2 * sizeof(float) * first.values.size();
     stack.read_slices = [pages = std::move(pages), size = image.size_voxels, is_coloured = first.is_coloured,
                          purpose](const TakeSlice& take, const ReportProgress& report) {

@@ -117,11 +117,7 @@ void settle_geometry(SourceImage& image, const std::filesystem::path& path) {
         image.direction = nearest_rotation(image.direction);
         image.origin_mm += middle_mm - position_mm(image, middle);
     }
-    try {
-        require_plausible_geometry(image);
-    } catch (const std::invalid_argument& error) {
-        throw ImagingError(path, error.what());
-    }
+    said_of(path, [&] { require_plausible_geometry(image); });
 }
 
 void note_guessed_orientation(SourceImage& image, const std::filesystem::path& path, const std::string& why,

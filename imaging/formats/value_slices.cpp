@@ -144,28 +144,13 @@ void read_value_slices(const VoxelData& data, const VoxelLayout& layout, const g
                        const TakeSlice& take, const ReportProgress& report) {
     SliceFiller slices(layout, size_voxels, take, report);
     if (data.encoding == Encoding::text) return read_text(data, slices);
-    switch (layout.type) {
-        case VoxelType::int8:
-            return read_binary<std::int8_t>(data, layout, slices);
-        case VoxelType::uint8:
-            return read_binary<std::uint8_t>(data, layout, slices);
-        case VoxelType::int16:
-            return read_binary<std::int16_t>(data, layout, slices);
-        case VoxelType::uint16:
-            return read_binary<std::uint16_t>(data, layout, slices);
-        case VoxelType::int32:
-            return read_binary<std::int32_t>(data, layout, slices);
-        case VoxelType::uint32:
-            return read_binary<std::uint32_t>(data, layout, slices);
-        case VoxelType::int64:
-            return read_binary<std::int64_t>(data, layout, slices);
-        case VoxelType::uint64:
-            return read_binary<std::uint64_t>(data, layout, slices);
-        case VoxelType::float32:
-            return read_binary<float>(data, layout, slices);
-        case VoxelType::float64:
-            return read_binary<double>(data, layout, slices);
-    }
+    // By VoxelType.
+    constexpr std::array readers{read_binary<std::int8_t>,  read_binary<std::uint8_t>,
+                                 read_binary<std::int16_t>, read_binary<std::uint16_t>,
+                                 read_binary<std::int32_t>, read_binary<std::uint32_t>,
+                                 read_binary<std::int64_t>, read_binary<std::uint64_t>,
+                                 read_binary<float>,        read_binary<double>};
+    readers[static_cast<std::size_t>(layout.type)](data, layout, slices);
 }
 
 }  // namespace osteomill

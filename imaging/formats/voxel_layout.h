@@ -1,6 +1,8 @@
 // Meaning of the bytes of a voxel.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace osteomill {
@@ -8,20 +10,8 @@ namespace osteomill {
 enum class VoxelType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 inline std::uint64_t bytes_of(VoxelType type) {
-    switch (type) {
-        case VoxelType::int8:
-        case VoxelType::uint8:
-            return 1;
-        case VoxelType::int16:
-        case VoxelType::uint16:
-            return 2;
-        case VoxelType::int32:
-        case VoxelType::uint32:
-        case VoxelType::float32:
-            return 4;
-        default:
-            return 8;
-    }
+    constexpr std::array<std::uint64_t, 10> bytes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+    return bytes[static_cast<std::size_t>(type)];
 }
 
 struct VoxelLayout {

@@ -27,46 +27,32 @@ constexpr std::int64_t largest_edge_px = 8192;
 constexpr std::size_t most_cameras = 64;
 const double default_field_of_view_rad = Camera{}.field_of_view_rad;
 
-/// Throws std::runtime_error, in words.
-std::array<double, 8> numbers_of(const std::string& line) {
-    const std::vector<std::string> cells = cells_of(line);
+std::array<double, 8> numbers_of(const TableLines& lines) {
+    const std::vector<std::string> cells = cells_of(lines.line());
     std::array<double, 8> numbers{};
     if (cells.size() != numbers.size())
-        throw std::runtime_error(
-            fmt::format("has {} cells, not the 8 of time_s,x,y,z,qx,qy,qz,qw", cells.size()));
+        lines.fail(fmt::format("has {} cells, not the 8 of time_s,x,y,z,qx,qy,qz,qw", cells.size()));
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const auto number = finite_number(cells[i]);
-        if (!number) throw std::runtime_error(fmt::format("has '{}', which is no number", cells[i]));
+        if (!number) lines.fail(fmt::format("has '{}', which is no number", cells[i]));
         numbers[i] = *number;
     }
     return numbers;
 }
 
 void read_path(DatasetCamera& camera, const std::filesystem::path& file) {
-    std::istringstream in(read_text(file, table_kind));
-    std::size_t number = 0;
-    std::string line;
-    const auto refuse = [&](const std::string& why) {
-        throw SceneError(fmt::format("{}:{}: {}", file.string(), number, why));
-    };
-    try {
-        while (next_table_line(in, line, number)) {
-            if (line.empty() || line.starts_with('#') || (number == 1 && line.starts_with("time_s")))
-                continue;
-            const std::array<double, 8> n = numbers_of(line);
-            const glm::dquat rotation(n[7], n[4], n[5], n[6]);
-            if (std::abs(glm::length(rotation) - 1.0) > 1e-3) refuse("its quaternion is not of length 1");
-            if (!camera.times_s.empty() && n[0] <= camera.times_s.back())
-                refuse("its time is not behind the one before");
-            camera.times_s.push_back(n[0]);
-            camera.poses.push_back({{n[1], n[2], n[3]}, glm::normalize(rotation)});
-        }
-    } catch (const SceneError&) {
-        throw;
-    } catch (const std::runtime_error& wrong) {
-        refuse(wrong.what());
+    TableLines lines(read_text(file, table_kind), file.string());
+    for (bool is_first = true; lines.next(); is_first = false) {
+        if (is_first && lines.line().starts_with("time_s")) continue;
+        const std::array<double, 8> n = numbers_of(lines);
+        const glm::dquat rotation(n[7], n[4], n[5], n[6]);
+        if (std::abs(glm::length(rotation) - 1.0) > 1e-3) lines.fail("its quaternion is not of length 1");
+        if (!camera.times_s.empty() && n[0] <= camera.times_s.back())
+            lines.fail("its time is not behind the one before");
+        camera.times_s.push_back(n[0]);
+        camera.poses.push_back({{n[1], n[2], n[3]}, glm::normalize(rotation)});
     }
-    if (camera.poses.empty()) refuse("has no pose; a line is time_s,x,y,z,qx,qy,qz,qw");
+    if (camera.poses.empty()) lines.fail("has no pose; a line is time_s,x,y,z,qx,qy,qz,qw");
 }
 
 void read_pinhole(DatasetCamera& camera, TomlReader& reader) {

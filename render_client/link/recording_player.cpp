@@ -64,11 +64,11 @@ LinkUpdate RecordingPlayer::poll(Time now) {
                     : has_ended     ? LinkStatus::finished
                                     : LinkStatus::live;
     update.status_line = status_line();
-    update.frames = playhead_->states();
-    update.checksums_verified = playhead_->checksums_verified();
+    update.frames = playhead_->counts().states;
+    update.checksums_verified = playhead_->counts().checksums_verified;
     update.connections = 1;
-    update.frames_per_s = frame_rate_.update(playhead_->states(), now);
-    update.bytes_per_s = byte_rate_.update(playhead_->bytes(), now);
+    update.frames_per_s = frame_rate_.update(playhead_->counts().states, now);
+    update.bytes_per_s = byte_rate_.update(playhead_->counts().bytes, now);
     return update;
 }
 

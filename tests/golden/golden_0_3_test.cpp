@@ -60,8 +60,8 @@ TEST(Golden03, ARecordingIsPlayedToItsBoneTickByTick) {
     EXPECT_FALSE(playhead.is_truncated());
     const nlohmann::json session = session_json();
     EXPECT_EQ(text_of_checksum(playhead.bone_checksum()), session["bone_checksum"]);
-    EXPECT_EQ(playhead.tick_count(), session["ticks"]);
-    EXPECT_EQ(playhead.missed_ticks(), 0U);
+    EXPECT_EQ(playhead.counts().ticks, session["ticks"]);
+    EXPECT_EQ(playhead.counts().missed_ticks, 0U);
     EXPECT_NEAR(playhead.tool()->removed_mm3, session["removed_mm3"]["total"], 1e-9);
     EXPECT_EQ(playhead.session().trainee, "golden");
     EXPECT_EQ(playhead.session().case_name, "case");

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,8 @@
 #include <stdexcept>
 
 #include "common/files/input_file.h"
+#include "common/files/table_line.h"
+#include "common/text/words.h"
 
 namespace osteomill::study {
 
@@ -21,28 +22,14 @@ namespace {
 /// Cells of a file by column.
 using Columns = std::map<std::string, std::vector<std::string>>;
 
-/// Cells of a line as Table writes it: quoted where they hold a comma, a quote in them twice.
-std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells(1);
-    bool is_quoted = false;
-    for (const char c : line)
-        if (c == '"')
-            is_quoted = !is_quoted;
-        else if (c == ',' && !is_quoted)
-            cells.emplace_back();
-        else
-            cells.back() += c;
-    return cells;
-}
-
 Columns columns_of_csv(const std::string& text) {
     std::istringstream in(text);
     std::string line;
     std::getline(in, line);
-    const std::vector<std::string> names = cells_of(line);
+    const std::vector<std::string> names = quoted_cells(line, ',');
     Columns columns;
     while (std::getline(in, line)) {
-        const std::vector<std::string> cells = cells_of(line);
+        const std::vector<std::string> cells = quoted_cells(line, ',');
         for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i)
             columns[names[i]].push_back(cells[i]);
     }
@@ -69,19 +56,12 @@ Columns columns_of(const std::filesystem::path& file) {
     }
 }
 
-std::optional<double> number(const std::string& cell) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
-    return value;
-}
-
 /// In numbers; infinite where one of them is none, or not finite.
 double distance(const std::string& a, const std::string& b) {
     if (a == b) return 0.0;
-    const auto x = number(a);
-    const auto y = number(b);
-    if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return HUGE_VAL;
+    const auto x = finite_number(a);
+    const auto y = finite_number(b);
+    if (!x || !y) return HUGE_VAL;
     return std::abs(*x - *y);
 }
 

@@ -17,11 +17,11 @@ const ListenAddress usual_service{.port = 10001};
 DeviceParts make_haply_arm(const ListenAddress& service, const DeviceContext& context) {
     const Scene& scene = context.scene;
     auto arm = std::make_unique<HaplyArm>(
-        HaplyLinkParts{.service = service,
-                       .burr_count = scene.burrs.size(),
-                       .start_burr = scene.start_burr,
-                       .start_axis = direction_in_device(scene.device, scene.start_pose.spindle_axis),
-                       .on_thread_start = [] { ask_for_real_time(device_priority); }});
+        HaplyArm::Parts{.service = service,
+                        .burr_count = scene.burrs.size(),
+                        .start_burr = scene.start_burr,
+                        .start_axis = direction_in_device(scene.device, scene.start_pose.spindle_axis),
+                        .on_thread_start = [] { ask_for_real_time(device_priority); }});
     context.say(fmt::format("waiting for an Inverse3 of the Haply service at {}", to_text(service)));
     if (!has_come(*arm, context)) return {};
     context.say(

@@ -17,7 +17,7 @@ class CameraFileTest : public ::testing::Test {
     std::string refusal(const std::string& text) const {
         try {
             read(text);
-        } catch (const SceneError& error) {
+        } catch (const std::runtime_error& error) {
             return error.what();
         }
         return "nothing is wrong";

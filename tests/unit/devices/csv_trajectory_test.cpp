@@ -16,8 +16,7 @@ using ::testing::StartsWith;
 const std::string header = "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n";
 
 std::vector<Waypoint> read(const std::string& text) {
-    std::istringstream in(text);
-    return read_trajectory_csv(in, "path.csv", 3);
+    return read_trajectory_csv(text, "path.csv", 3);
 }
 
 std::string error_of(const std::string& text) {

@@ -157,7 +157,7 @@ TEST(RealTimeCode, AllocatesNothingWhileItPlaysATrackersSamples) {
 // Its thread does, for messages.
 TEST(RealTimeCode, AllocatesNothingBetweenTheLoopAndHaplysService) {
     testing::HaplyService service;
-    HaplyArm arm(HaplyLinkParts{.service = {.port = service.port()}});
+    HaplyArm arm(HaplyArm::Parts{.service = {.port = service.port()}});
     ASSERT_TRUE(arm.await(testing::far_too_late()));
     int taken = 0;
     const std::size_t before = testing::allocation_count_here();

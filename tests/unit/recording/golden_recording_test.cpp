@@ -28,7 +28,7 @@ TEST(GoldenRecording, OfProtocol20HasNoTicksAndIsRead) {
         EXPECT_TRUE(playhead.ticks().empty());
     }
     EXPECT_FALSE(playhead.session().holds_ticks);
-    EXPECT_EQ(playhead.tick_count(), 0U);
+    EXPECT_EQ(playhead.counts().ticks, 0U);
     EXPECT_EQ(playhead.bone_checksum(), 0xaff1f42ae77592c5U);
     EXPECT_NEAR(playhead.tool()->removed_mm3, 0.11651764705882356, 1e-9);
 }

@@ -53,8 +53,9 @@ TEST_F(PlayheadTest, FollowsTheBoneFromTheFirstToTheLast) {
     EXPECT_EQ(playhead.step(for_ever), Playhead::Step::end);
     EXPECT_EQ(playhead.bone_checksum(), checksum(made.after));
     EXPECT_EQ(checksum(playhead.bone()), checksum(made.after));
-    EXPECT_EQ(playhead.states(), made.checksum_after_state.size() + 1) << "the last again, with the goodbye";
-    EXPECT_EQ(playhead.checksums_verified(), 11U);
+    EXPECT_EQ(playhead.counts().states, made.checksum_after_state.size() + 1)
+        << "the last again, with the goodbye";
+    EXPECT_EQ(playhead.counts().checksums_verified, 11U);
     EXPECT_NEAR(playhead.time_s(), made.duration_s(), 1e-6);
     EXPECT_NEAR(outline_of(file_).duration_s, made.duration_s(), 1e-6);
     EXPECT_FALSE(playhead.is_truncated());
@@ -96,7 +97,7 @@ TEST_F(PlayheadTest, IsReadableUpToTheLastWholeFrameWhereverItIsTorn) {
         Playhead playhead(torn);
         while (playhead.step(for_ever) != Playhead::Step::end) {
         }
-        const std::size_t states = playhead.states();
+        const std::size_t states = playhead.counts().states;
         EXPECT_GT(states, 0U);
         EXPECT_EQ(playhead.bone_checksum(),
                   made.checksum_after_state[std::min(states, made.checksum_after_state.size()) - 1]);

@@ -75,7 +75,7 @@ TEST(RecordingSummary, HoldsWhatCameBeforeWhatCannotBeRead) {
     EXPECT_EQ(summary.bone_checksum, made.checksum_after_state[180]);
     EXPECT_NEAR(last_s, 180 * MadeRecording::period_s, 1e-6);
     Playhead playhead(folder / "a.pcap");
-    while (playhead.step(last_s) == Playhead::Step::state && playhead.states() < summary.states) {
+    while (playhead.step(last_s) == Playhead::Step::state && playhead.counts().states < summary.states) {
     }
     EXPECT_NEAR(summary.removed_mm3, bone_volume_mm3(made.before) - bone_volume_mm3(playhead.bone()), 1e-9);
 }

@@ -12,7 +12,7 @@ Origin origin_at(const char* address) {
 /// One more, who takes another's place if there is none.
 void squeeze_in(ConnectionQuota& quota, ConnectionQuota::Id id, const Origin& origin) {
     if (const auto oldest = quota.next_to_go()) quota.remove(*oldest);
-    quota.add(id, origin);
+    quota.add(id, origin, {});
 }
 
 TEST(Origin, IsAnAddressOrTheNetworkThatOnePartyHas) {
@@ -26,14 +26,14 @@ TEST(Origin, IsAnAddressOrTheNetworkThatOnePartyHas) {
 
 TEST(ConnectionQuota, GoOldestFirstOfThoseWhoHoldMost) {
     ConnectionQuota quota(3);
-    quota.add(1, origin_at("10.0.0.1"));
-    quota.add(2, origin_at("10.0.0.2"));
+    quota.add(1, origin_at("10.0.0.1"), {});
+    quota.add(2, origin_at("10.0.0.2"), {});
     EXPECT_FALSE(quota.next_to_go());
-    quota.add(3, origin_at("10.0.0.2"));
+    quota.add(3, origin_at("10.0.0.2"), {});
     EXPECT_EQ(quota.next_to_go(), 2U);
     EXPECT_TRUE(quota.remove(2));
     EXPECT_FALSE(quota.remove(2));
-    quota.add(4, origin_at("10.0.0.3"));
+    quota.add(4, origin_at("10.0.0.3"), {});
     EXPECT_EQ(quota.next_to_go(), 1U) << "of equals the oldest";
     quota.clear();
     EXPECT_EQ(quota.size(), 0U);
@@ -42,7 +42,7 @@ TEST(ConnectionQuota, GoOldestFirstOfThoseWhoHoldMost) {
 
 TEST(ConnectionQuota, AreNotTakenFromAnotherAddressByAFlood) {
     ConnectionQuota quota(16);
-    quota.add(1, origin_at("2001:db8:1:2::7"));
+    quota.add(1, origin_at("2001:db8:1:2::7"), {});
     // Each from an address of its own, of one network.
     for (ConnectionQuota::Id id = 2; id < 10'000; ++id)
         squeeze_in(quota, id, origin_at(("2001:db8:6:6::" + std::to_string(id)).c_str()));
@@ -52,11 +52,24 @@ TEST(ConnectionQuota, AreNotTakenFromAnotherAddressByAFlood) {
 
 TEST(ConnectionQuota, ArePassedOnByAFloodFromOneAddressOnlyWhenAsManyHaveComeAsThereAre) {
     ConnectionQuota quota(16);
-    quota.add(1, origin_at("127.0.0.1"));
+    quota.add(1, origin_at("127.0.0.1"), {});
     for (ConnectionQuota::Id id = 2; id <= 16; ++id) squeeze_in(quota, id, origin_at("127.0.0.1"));
     EXPECT_EQ(quota.next_to_go(), 1U);
     squeeze_in(quota, 17, origin_at("127.0.0.1"));
     EXPECT_FALSE(quota.remove(1));
+}
+
+TEST(ConnectionQuota, AreHereSinceTheyCame) {
+    const ConnectionQuota::Time opening{};
+    ConnectionQuota quota(3);
+    quota.add(1, Origin{}, opening);
+    quota.add(2, Origin{}, opening + std::chrono::seconds(10));
+    EXPECT_TRUE(quota.here_since(opening - std::chrono::seconds(10)).empty());
+    EXPECT_EQ(quota.here_since(opening), std::vector<ConnectionQuota::Id>{1});
+    quota.remove(1);
+    EXPECT_FALSE(quota.contains(1));
+    EXPECT_TRUE(quota.contains(2));
+    EXPECT_TRUE(quota.here_since(opening).empty());
 }
 
 TEST(ConnectionQuota, LeaveRoomAmongTheFilesThatMayBeOpen) {

@@ -8,8 +8,7 @@ namespace osteomill {
 namespace {
 
 ControlScript read(const std::string& text) {
-    std::istringstream in(text);
-    return read_control_script(in, "s.csv");
+    return read_control_script(text, "s.csv");
 }
 
 std::string refusal(const std::string& text) {

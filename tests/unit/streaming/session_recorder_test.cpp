@@ -96,9 +96,9 @@ TEST_F(SessionRecorderTest, HoldsEveryTickAndCountsThoseThatWereDropped) {
         const auto step = playhead.step(std::numeric_limits<double>::infinity());
         if (step == Playhead::Step::end) break;
         if (step != Playhead::Step::state) continue;
-        if (playhead.missed_ticks() > missed)
-            missed_behind.emplace_back(playhead.missed_ticks() - missed, ticks.size());
-        missed = playhead.missed_ticks();
+        if (playhead.counts().missed_ticks > missed)
+            missed_behind.emplace_back(playhead.counts().missed_ticks - missed, ticks.size());
+        missed = playhead.counts().missed_ticks;
         for (const TickSample& tick : playhead.ticks())
             ticks.push_back(static_cast<int>(std::lround(1000.0 * tick.time_s)));
     }

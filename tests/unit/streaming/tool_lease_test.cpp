@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 namespace osteomill {
 namespace {
 
@@ -88,7 +90,26 @@ TEST_F(ToolLeaseTest, IsKeptByOneWhoRestsUntilAnotherAsksForIt) {
     EXPECT_FALSE(lease_.take_input(1, resting, now)) << "the new one has just begun";
     now += ToolLease::duration;
     EXPECT_TRUE(lease_.take_input(2, {.burr = 1}, now));
-    EXPECT_FALSE(lease_.take_input(1, resting, now + OperatorActivity::longest_rest / 10));
+    EXPECT_FALSE(lease_.take_input(1, resting, now + ControlLease::longest_rest / 10));
+}
+
+TEST_F(ToolLeaseTest, IsKeptByAnythingNewAndByAPedalThatIsDown) {
+    OperatorCommand command{.hand_target_mm = {1, 2, 3}, .burr = 1};
+    auto now = start_;
+    for (const auto& change : std::initializer_list<std::function<void(OperatorCommand&)>>{
+             [](OperatorCommand& moved) { moved.hand_target_mm.x += 0.01; },
+             [](OperatorCommand& turned) {
+                 turned.spindle_axis = {0, 1, 0};
+             },
+             [](OperatorCommand& other) { other.burr = 0; },
+             [](OperatorCommand& pressed) { pressed.pedal = true; },
+             [](OperatorCommand&) {},  // it is down still
+             [](OperatorCommand& released) { released.pedal = false; }}) {
+        for (int i = 0; i < 31; ++i) lease_.take_input(1, command, now += std::chrono::seconds(1));
+        change(command);
+        EXPECT_TRUE(lease_.take_input(1, command, now));
+        EXPECT_FALSE(lease_.take_input(2, {}, now));
+    }
 }
 
 }  // namespace

@@ -27,10 +27,10 @@ class HaplyArmOnService : public ::testing::Test {
         service.emplace(is_new);
         devices.position_m = {0.01, -0.12, 0.15};
         service->set(devices);
-        arm.emplace(HaplyLinkParts{.service = {.port = service->port()},
-                                   .burr_count = 3,
-                                   .start_burr = 1,
-                                   .start_axis = {0.0, 1.0, 0.0}});
+        arm.emplace(HaplyArm::Parts{.service = {.port = service->port()},
+                                    .burr_count = 3,
+                                    .start_burr = 1,
+                                    .start_axis = {0.0, 1.0, 0.0}});
         ASSERT_TRUE(arm->await(testing::far_too_late()));
     }
     void begin(bool is_new = true) {
@@ -319,7 +319,7 @@ TEST(HaplyArmAlone, WaitsUntilItIsToldNotTo) {
         HaplyService once;
         port = once.port();
     }
-    HaplyArm arm(HaplyLinkParts{.service = {.port = port}});
+    HaplyArm arm(HaplyArm::Parts{.service = {.port = port}});
     EXPECT_FALSE(
         arm.await([&] { return std::string(arm.notice()).find("does not answer") != std::string::npos; }));
     EXPECT_FALSE(arm.read(0.0).connected);

@@ -104,7 +104,7 @@ std::vector<SessionRecord> two_groups() {
     const auto add = [&](const char* group, double time_s) {
         sessions.push_back({.trainee = std::string(group) + std::to_string(sessions.size()),
                             .case_name = "molar",
-                            .metrics = {{"time_s", "", time_s, "s", "time"}},
+                            .metrics = {{"", "time_s", "", "time", time_s, "s"}},
                             .group = group});
     };
     for (const double time_s : {155.7, 162.3, 149.0, 171.2, 158.8}) add("expert", time_s);
@@ -128,8 +128,9 @@ TEST(OverviewTest, CountsATraineeOnceAndDrawsTheTrend) {
     std::vector<SessionRecord> sessions;
     for (const double time_s : {300.0, 251.0, 230.0, 222.0, 210.0})
         sessions.push_back(
-            {.trainee = "Anna", .case_name = "molar", .metrics = {{"time_s", "", time_s, "s", "time"}}});
-    sessions.push_back({.trainee = "Bo", .case_name = "molar", .metrics = {{"time_s", "", 200.0, "s", ""}}});
+            {.trainee = "Anna", .case_name = "molar", .metrics = {{"", "time_s", "", "time", time_s, "s"}}});
+    sessions.push_back(
+        {.trainee = "Bo", .case_name = "molar", .metrics = {{"", "time_s", "", "", 200.0, "s"}}});
     const std::string page = Overview(sessions, {}).html({});
     // Anna's mean is 242.6; of hers and Bo's 200 it is 221.3.
     EXPECT_THAT(page, HasSubstr("<td class='n'>2</td><td class='n'>221.3 ["));
@@ -185,7 +186,7 @@ TEST(SessionStoreTest, KeepsARecordAsItIs) {
         .trainee = "O'Neil; DROP TABLE session",
         .case_name = "molar",
         .began_unix_ns = 1'700'000'000'123'456'789,
-        .metrics = {{"time_s", "", 1.0 / 3.0, "s", "time"}, {"nothing", "pulp", {}, "", ""}}};
+        .metrics = {{"", "time_s", "", "time", 1.0 / 3.0, "s"}, {"", "nothing", "pulp", "", {}, ""}}};
     const auto same = [&](const std::optional<SessionRecord>& kept) {
         ASSERT_TRUE(kept);
         EXPECT_EQ(kept->trainee, record.trainee);

@@ -17,6 +17,9 @@ class WakeUp {
     /// Until wake(), `longest_ms` at most.
     void wait(int longest_ms) noexcept;
 
+    /// Readable once awake, for a thread that waits for more than this.
+    int descriptor() const { return event_; }
+
   private:
     int event_ = -1;  // an eventfd
 };

@@ -1,4 +1,4 @@
-#include "devices/haply/wake_up.h"
+#include "devices/wake_up.h"
 
 #include <poll.h>
 #include <sys/eventfd.h>
