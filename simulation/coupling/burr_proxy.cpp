@@ -65,8 +65,10 @@ void BurrProxy::take_over(const MillingResult& latest) noexcept {
 }
 
 std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double step_s, Meets meets,
+                                                    const glm::dvec3& pull_n,
                                                     const Engagement& engagement) noexcept {
     std::size_t count = 0;
+    const double most_out_mm = scale_.speed_mm_per_s(most_push_out_mm_per_s) * step_s;
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
     const double yields_mm = engagement.has_edge_force && meets == Meets::chips ? edge_yields_mm : 0.0;
     const auto add = [&](const glm::dvec3& normal, const glm::dvec3& force_n_per_mm, double begins_mm,
@@ -99,7 +101,9 @@ std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double st
     }
     for (std::size_t i = 0; i < engagement.shank_count; ++i) {
         const ShankPatch& patch = engagement.shank_patches[i];
-        add_wall(patch.normal, patch.area_mm2, patch.gap_mm - glm::dot(patch.normal, moved));
+        const double deepest_mm = most_out_mm + glm::length(pull_n) / (wall_n_per_mm3_ * patch.area_mm2);
+        shank_begins_mm_[i] = std::max(patch.gap_mm - glm::dot(patch.normal, moved), -deepest_mm);
+        add_wall(patch.normal, patch.area_mm2, shank_begins_mm_[i]);
     }
     return {contacts_.data(), count};
 }
@@ -107,15 +111,15 @@ std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double st
 BurrProxy::WallReaction BurrProxy::wall_reaction(const glm::dvec3& step_mm,
                                                  const Engagement& engagement) const noexcept {
     WallReaction reaction;
-    const glm::dvec3 moved = position_mm_ + step_mm - engagement.burr_position_mm;
     for (std::size_t i = 0; i < engagement.shank_count; ++i) {
         const ShankPatch& patch = engagement.shank_patches[i];
-        const double beyond_mm = glm::dot(patch.normal, moved) - patch.gap_mm;
+        const double beyond_mm = glm::dot(patch.normal, step_mm) - shank_begins_mm_[i];
         if (beyond_mm <= 0.0) continue;
         const glm::dvec3 force_n = -wall_n_per_mm3_ * patch.area_mm2 * beyond_mm * patch.normal;
         reaction.force_n += force_n;
         reaction.torque_n_mm += glm::cross(patch.arm_mm, force_n);
     }
+    const glm::dvec3 moved = position_mm_ + step_mm - engagement.burr_position_mm;
     for (std::size_t i = 0; engagement.has_walls && i < engagement.count; ++i) {
         const EngagedPatch& patch = engagement.patches[i];
         const double beyond_mm = glm::dot(patch.normal, moved) - patch.gap_mm;
@@ -211,7 +215,7 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const glm::dvec3& hand_m
     apart_mj_ *= std::max(0.0, 1.0 - tick_s / apart_memory_s);
     // The force may turn the step sideways, but hardly makes it longer than the pull (K_r, K_a >= 0).
     const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
-    const auto contacts = gather_contacts(longest_mm, tick_s, Meets::chips, engagement);
+    const auto contacts = gather_contacts(longest_mm, tick_s, Meets::chips, pull.offset_n, engagement);
     ContactStep solved{.step_mm = pull_mm};
     if (!contacts.empty()) {
         solved = balance_with_bone(pull, hand_step_mm, tick_s, contacts, engagement);
@@ -234,7 +238,7 @@ void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull
                              const Engagement& engagement) noexcept {
     const glm::dvec3 pull_mm = target_mm - position_mm_;
     const double longest_mm = glm::length(pull_mm) + 2.0 * engagement.spacing_mm;
-    const auto contacts = gather_contacts(longest_mm, 0.0, meets, engagement);
+    const auto contacts = gather_contacts(longest_mm, tick_s, meets, pull.offset_n, engagement);
     correction_.reset();
     apart_mj_ = 0.0;
     if (contacts.empty()) {

@@ -26,9 +26,12 @@
 //
 //     F(d) = - sum of k A_j n_j max(0, n_j . (p + d - p_map) - gap_j)
 //
-// in the same balance. It is not a cutting force: the gain that compares those with the model's leaves it out
-// and, since a wall returns no more energy than it took, so does the store of the energy with which bone
-// drives the burr. The hand sets the tool's direction, which is not solved.
+// in the same balance. The hand tilts a shank without meeting resistance, and a rim between two rings of its
+// samples is met late: so a shank may be deeper in bone than anything pressed it. Bone pushes it out no
+// faster than most_push_out_mm_per_s; at once, it would throw the hand. It is not a cutting force: the gain
+// that compares those with the model's leaves it out and, since a wall returns no more energy than it took,
+// so does the store of the energy with which bone drives the burr. The hand sets the tool's direction, which
+// is not solved.
 //
 // The pull is that of coupling_spring.h, with its damper. So the hand feels exactly the force of the bone on
 // the burr, with two exceptions.
@@ -111,6 +114,9 @@ class BurrProxy {
     /// Wall pressure per depth with the spindle off, N/mm^3: a 1 mm burr pressed with 3 N sinks in by 0.04
     /// mm, and no farther at the arm either.
     static constexpr double wall_n_per_mm3 = 1000.0;
+    /// How fast bone pushes a shank out that is deeper in it than the pull presses it, at the arm: slower
+    /// than a hand that yields.
+    static constexpr double most_push_out_mm_per_s = 5.0;
     /// How fast the spring may let go: 0.15 N a tick, half of what is felt as a knock.
     static constexpr double most_release_n_per_s = 150.0;
 
@@ -137,10 +143,11 @@ class BurrProxy {
     /// What of the head's surroundings a step may meet.
     enum class Meets : std::uint8_t { chips, walls_only, all_as_walls };
 
-    /// Contacts that a step of `step_s` may meet that is no longer than `longest_mm`.
+    /// Contacts that a step of `step_s` may meet that is no longer than `longest_mm`; `pull_n` is the pull on
+    /// the burr at rest.
     std::span<const Contact> gather_contacts(double longest_mm, double step_s, Meets meets,
-                                             const Engagement& engagement) noexcept;
-    /// At the end of a step from where the proxy is.
+                                             const glm::dvec3& pull_n, const Engagement& engagement) noexcept;
+    /// At the end of a step from where the proxy is, for which contacts were gathered.
     WallReaction wall_reaction(const glm::dvec3& step_mm, const Engagement& engagement) const noexcept;
     void remember_cuts(const Engagement& engagement) noexcept;
     /// Takes the burr that carves along with the proxy, which bone holds or does not.
@@ -175,6 +182,7 @@ class BurrProxy {
     std::array<double, Engagement::max_patches>
         cut_mm_{};  // by patch: advance from p_map to which the proxy has cut
     WallReaction walls_;
+    std::array<double, Engagement::max_shank_patches> shank_begins_mm_{};  // from where the proxy is
     std::array<Contact, 2 * Engagement::max_patches + Engagement::max_shank_patches>
         contacts_{};  // a patch of the burr may have two
 };

@@ -127,6 +127,22 @@ TEST(ShankContact, WallThatLetsGoIsNoBoneThatDrivesTheBurr) {
     EXPECT_EQ(proxy.counts().fallbacks, 0U);
 }
 
+TEST(ShankContact, BoneThatATiltedShankIsInPushesItOutGentlyAndAllTheWay) {
+    // Nothing pressed it in by 0.1 mm: the hand turned the tool, which it can do without meeting resistance.
+    for (const bool spindle_on : {false, true}) {
+        BurrProxy proxy;
+        proxy.place(glm::dvec3(0.0));
+        const auto bone = wall_along_x(-0.1);
+        double before_mm = 0.0;
+        for (int i = 0; i < 100; ++i) {
+            advance(proxy, {0.0, 0.0, 0.0}, spindle_on, *bone);
+            EXPECT_LT(spring_n_per_mm * (before_mm - proxy.position_mm().x), 0.01) << "N in a tick, " << i;
+            before_mm = proxy.position_mm().x;
+        }
+        EXPECT_NEAR(proxy.position_mm().x, -0.1, 0.001) << spindle_on;
+    }
+}
+
 /// Draws the hand from one place to another at 10 mm/s and lets it rest there; where the burr then is, the
 /// force on the hand, and the torque.
 CouplingOutput draw(Lockstep& loop, const glm::dvec3& from_mm, const glm::dvec3& to_mm, bool spindle_on) {
