@@ -184,8 +184,9 @@ void Commands::ask(SessionAction action) {
 void Commands::change_speed(double factor) {
     const auto& tool = session_.tool();
     const SessionInfo* scene = source_.session();
-    if (!tool || scene == nullptr || tool->burr >= scene->burrs.size()) return;
-    const double rpm = factor * spindle_rpm(*tool, scene->burrs[tool->burr]);
+    const Burr* burr = tool && scene ? scene->burr_of(tool->burr) : nullptr;
+    if (burr == nullptr) return;
+    const double rpm = factor * spindle_rpm(*tool, *burr);
     source_.send_control({.action = SessionAction::speed,
                           .spindle_rpm = std::clamp(rpm, least_spindle_rpm, most_spindle_rpm)});
 }
@@ -214,8 +215,8 @@ std::optional<ToolPose> Commands::over_bone(const glm::dvec2& pixel) const {
         pick_surface(*bone, session_.camera(), pixel, session_.size_px(), session_.view().cuts.planes());
     if (!found) return std::nullopt;
     const SessionInfo* scene = source_.session();
-    const double radius_mm =
-        scene != nullptr && tool->burr < scene->burrs.size() ? scene->burrs[tool->burr].radius_mm() : 0.0;
+    const Burr* burr = scene ? scene->burr_of(tool->burr) : nullptr;
+    const double radius_mm = burr ? burr->radius_mm() : 0.0;
     return ToolPose{found->position_mm + (radius_mm + gap_mm) * found->normal, found->normal};
 }
 
