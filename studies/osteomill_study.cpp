@@ -20,7 +20,7 @@
 #include "studies/force/force_study.h"
 #include "studies/polishing/polishing_study.h"
 #include "studies/realtime/realtime_study.h"
-#include "studies/render/render_options.h"
+#include "studies/render/render_study.h"
 #include "studies/repeat/repeat.h"
 #include "studies/stability/map/stability_study.h"
 
