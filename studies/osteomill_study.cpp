@@ -16,13 +16,13 @@
 #include "common/program/commit.h"
 #include "common/program/option_checks.h"
 #include "common/text/plain_text.h"
-#include "studies/bridge/bridge_options.h"
-#include "studies/force/force_options.h"
-#include "studies/polishing/polishing_options.h"
-#include "studies/realtime/realtime_options.h"
-#include "studies/render/render_options.h"
+#include "studies/bridge/bridge_study.h"
+#include "studies/force/force_study.h"
+#include "studies/polishing/polishing_study.h"
+#include "studies/realtime/realtime_study.h"
+#include "studies/render/render_study.h"
 #include "studies/repeat/repeat.h"
-#include "studies/stability/map/stability_options.h"
+#include "studies/stability/map/stability_study.h"
 
 int main(int argc, char** argv) {
     using namespace osteomill;

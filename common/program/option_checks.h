@@ -8,9 +8,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/text/plain_text.h"
@@ -83,6 +86,20 @@ inline CLI::Option* add_texts(CLI::App& app, const std::string& option, std::vec
             option, [](const CLI::results_t&) { return true; }, help)
         ->take_all()
         ->each([&texts](const std::string& text) { texts.push_back(text); });
+}
+
+/// An option that `take` reads the text of. What it refuses it throws as std::invalid_argument, in words that
+/// go on behind the option's name.
+inline CLI::Option* add_read(CLI::App& app, const std::string& option,
+                             std::function<void(const std::string&)> take, const std::string& help) {
+    const auto refuse_in_words = [option, take = std::move(take)](const std::string& text) {
+        try {
+            take(text);
+        } catch (const std::invalid_argument& wrong) {
+            throw CLI::ValidationError(option, wrong.what());
+        }
+    };
+    return app.add_option_function<std::string>(option, refuse_in_words, help);
 }
 
 inline CLI::Validator one_of(const std::vector<std::string>& names) {

@@ -1,6 +1,7 @@
 // Description of a server and its scene, as a joining client gets it. Plain data.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -32,6 +33,9 @@ struct SessionInfo {
     std::string trainee{};
     std::string case_name{};
     std::map<std::string, std::string> settings{};  ///< as haptic_server --json names them
+
+    /// The burr of that number; null where the server has announced none.
+    const Burr* burr_of(std::size_t number) const { return number < burrs.size() ? &burrs[number] : nullptr; }
 };
 
 }  // namespace osteomill

@@ -76,11 +76,10 @@ Json instant_json(const DatasetFrame& frame, const Playhead& playhead) {
     const SessionInfo& session = playhead.session();
     const glm::dmat4 pose = pose_of(tool_as_thing(state, session));
     Json tool{{"pose", json_of(pose_of(glm::dvec3(pose[3]), glm::dmat3(pose)))}};
-    if (state.burr < session.burrs.size()) {
-        const Burr& burr = session.burrs[state.burr];
-        tool["burr"] = burr.name;
-        tool["diameter_mm"] = burr.diameter_mm;
-        tool["spindle_rpm"] = state.spindle_on ? spindle_rpm(state, burr) : 0.0;
+    if (const Burr* burr = session.burr_of(state.burr)) {
+        tool["burr"] = burr->name;
+        tool["diameter_mm"] = burr->diameter_mm;
+        tool["spindle_rpm"] = state.spindle_on ? spindle_rpm(state, *burr) : 0.0;
     }
     return {{"frame", frame.number},
             {"session", frame.session},

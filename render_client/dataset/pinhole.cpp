@@ -42,9 +42,9 @@ Viewpoint viewpoint_of(const Camera& camera) {
 void look_through(Camera& camera, const Pinhole& pinhole, const Pose& pose) {
     const glm::dmat3 axes = glm::mat3_cast(pose.rotation);
     const glm::dvec3 right = axes[0], forward = axes[2];
-    camera.elevation_rad = std::asin(std::clamp(-forward.z, -1.0, 1.0));
+    look_along(camera, forward);
     const bool is_upright = std::abs(forward.z) > 1.0 - 1e-12;
-    camera.azimuth_rad = is_upright ? std::atan2(right.y, right.x) : std::atan2(-forward.x, forward.y);
+    if (is_upright) camera.azimuth_rad = std::atan2(right.y, right.x);
     camera.roll_rad = std::atan2(glm::dot(right, camera.up()), glm::dot(right, camera.right()));
     camera.target_mm = pose.position_mm + camera.distance_mm * camera.forward();
 

@@ -21,12 +21,12 @@ std::vector<TissueColour> solid_colours(std::span<const Tissue> tissues) {
 
 DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session) {
     DrawnTool tool{.state = state, .is_only_a_thing = true};
-    if (state.burr >= session.burrs.size()) return tool;
-    const Burr& burr = session.burrs[state.burr];
-    const bool clockwise = burr.sense == SpindleSense::clockwise;
-    tool.burr = {burr.diameter_mm, burr.head, burr.edges, clockwise};
+    const Burr* burr = session.burr_of(state.burr);
+    if (burr == nullptr) return tool;
+    const bool clockwise = burr->sense == SpindleSense::clockwise;
+    tool.burr = {burr->diameter_mm, burr->head, burr->edges, clockwise};
     if (!state.spindle_on) return tool;
-    const double turns = spindle_rpm(state, burr) / 60.0 * state.time_s;
+    const double turns = spindle_rpm(state, *burr) / 60.0 * state.time_s;
     // Clockwise seen from the shank is negative about the axis from tip to shank.
     tool.spin_rad = (clockwise ? -2.0 : 2.0) * std::numbers::pi * (turns - std::floor(turns));
     return tool;

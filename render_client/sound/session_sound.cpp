@@ -47,9 +47,10 @@ std::string SessionSound::hear(const std::optional<ToolState>& tool, const Sessi
         return line;
     }
     const bool is_news = tool && tool->time_s != heard_time_s_;
-    if (!is_news || session == nullptr || tool->burr >= session->burrs.size()) return {};
+    const Burr* burr = is_news && session ? session->burr_of(tool->burr) : nullptr;
+    if (burr == nullptr) return {};
     heard_time_s_ = tool->time_s;
-    speaker_->hear(is_on_ ? cue_of(*tool, session->burrs[tool->burr]) : SoundCue{}, warning);
+    speaker_->hear(is_on_ ? cue_of(*tool, *burr) : SoundCue{}, warning);
     return {};
 }
 

@@ -13,14 +13,14 @@ namespace osteomill {
 
 namespace {
 
-/// "2/8". Throws CLI::ValidationError.
+/// "2/8". Throws std::invalid_argument.
 DatasetPart part_named(const std::string& text) {
     const std::string_view all = text;
     const std::size_t slash = std::min(text.find('/'), text.size());
     const auto number = parse_number<std::size_t>(all.substr(0, slash));
     const auto of = parse_number<std::size_t>(all.substr(std::min(slash + 1, text.size())));
     if (!number || !of || *number < 1 || *number > *of)
-        throw CLI::ValidationError("--shard", "'" + text + "' is no part I/N with 1 <= I <= N, such as 2/8");
+        throw std::invalid_argument("'" + text + "' is no part I/N with 1 <= I <= N, such as 2/8");
     return {*number, *of};
 }
 
@@ -42,16 +42,10 @@ CLI::Option* add_dataset_options(CLI::App& app, DatasetOptions& dataset) {
                    "Frames a recorded second of the image set (every recorded state)")
         ->check(within(0.001, 1000.0))
         ->needs(folder);
-    app.add_option_function<std::string>(
-           "--dataset-images",
-           [&](const std::string& text) {
-               try {
-                   dataset.images = images_named(cells_of(text));
-               } catch (const std::invalid_argument& wrong) {
-                   throw CLI::ValidationError("--dataset-images", wrong.what());
-               }
-           },
-           "What is written, of colour, depth, ray-depth, labels, normals (all but ray-depth)")
+    add_read(
+        app, "--dataset-images",
+        [&](const std::string& text) { dataset.images = images_named(cells_of(text)); },
+        "What is written, of colour, depth, ray-depth, labels, normals (all but ray-depth)")
         ->type_name("KIND,...")
         ->needs(folder);
     app.add_option(
@@ -60,9 +54,9 @@ CLI::Option* add_dataset_options(CLI::App& app, DatasetOptions& dataset) {
            "by lot, frame by frame, from this seed")
         ->type_name("SEED")
         ->needs(folder);
-    app.add_option_function<std::string>(
-           "--shard", [&](const std::string& text) { dataset.part = part_named(text); },
-           "Only part I of N of the image set's frames, for one process among several")
+    add_read(
+        app, "--shard", [&](const std::string& text) { dataset.part = part_named(text); },
+        "Only part I of N of the image set's frames, for one process among several")
         ->type_name("I/N")
         ->needs(folder);
     // An image set shows things as they are, alike in picture and numbers.

@@ -70,16 +70,16 @@ NoRun wrong_usage(const std::string& what) {
 template <typename Value>
 void add_choice(CLI::App& app, const std::string& option, const std::vector<std::string>& names,
                 const std::vector<Value>& values, Value& chosen, const std::string& help) {
-    app.add_option_function<std::string>(
-           option,
-           [=, &chosen](const std::string& text) {
-               const auto name = std::find(names.begin(), names.end(), text);
-               if (name == names.end())
-                   throw CLI::ValidationError(
-                       option, fmt::format("is '{}', not one of {}", text, fmt::join(names, ", ")));
-               chosen = values[static_cast<std::size_t>(name - names.begin())];
-           },
-           help)
+    add_read(
+        app, option,
+        [=, &chosen](const std::string& text) {
+            const auto name = std::find(names.begin(), names.end(), text);
+            if (name == names.end())
+                throw std::invalid_argument(
+                    fmt::format("is '{}', not one of {}", text, fmt::join(names, ", ")));
+            chosen = values[static_cast<std::size_t>(name - names.begin())];
+        },
+        help)
         ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
@@ -190,13 +190,13 @@ std::string same_files(const RenderOptions& options, const TlsOptions& tls) {
 
 }  // namespace
 
-std::optional<glm::ivec2> parse_size(const std::string& text) {
+glm::ivec2 parse_size(const std::string& text) {
     const std::size_t cross = text.find('x');
-    if (cross == std::string::npos) return std::nullopt;
     const auto width = whole_number(std::string_view(text).substr(0, cross), 1, largest_window_px);
-    const auto height = whole_number(std::string_view(text).substr(cross + 1), 1, largest_window_px);
-    if (!width || !height) return std::nullopt;
-    return glm::ivec2(*width, *height);
+    if (cross != std::string::npos && width)
+        if (const auto height = whole_number(std::string_view(text).substr(cross + 1), 1, largest_window_px))
+            return {*width, *height};
+    throw std::invalid_argument("is '" + text + "', not WIDTHxHEIGHT in pixels, each 1 to 16384");
 }
 
 int screenshot_interval(const RenderOptions& options) {
@@ -210,18 +210,14 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     CLI::App app("Shows what is left of the bone that haptic_server mills, or milled.", "render_client");
     app.set_version_flag("--version", "render_client " + version);
 
-    auto* connect = app.add_option_function<std::string>(
-                           "--connect",
-                           [&](const std::string& text) {
-                               try {
-                                   const ServerAddress server = parse_server_address(text);
-                                   options.host = server.host;
-                                   options.port = server.port;
-                               } catch (const std::invalid_argument& error) {
-                                   throw CLI::ValidationError("--connect", error.what());
-                               }
-                           },
-                           "The server's HOST:PORT (127.0.0.1:7010)")
+    auto* connect = add_read(
+                        app, "--connect",
+                        [&](const std::string& text) {
+                            const ServerAddress server = parse_server_address(text);
+                            options.host = server.host;
+                            options.port = server.port;
+                        },
+                        "The server's HOST:PORT (127.0.0.1:7010)")
                         ->type_name("HOST:PORT");
     const TlsOptions tls(app);
     auto* record = app.add_option("--record", options.record,
@@ -246,15 +242,9 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
            "With --replay: seen by this camera, while the recording goes on: a TOML file as for --cameras, "
            "or trainee: from where the one looked who moved the tool (in a film that, where it is recorded)")
         ->type_name("FILE|trainee");
-    app.add_option_function<std::string>(
-           "--window-size",
-           [&](const std::string& text) {
-               options.window_size_px = parse_size(text);
-               if (!options.window_size_px)
-                   throw CLI::ValidationError(
-                       "--window-size", "is '" + text + "', not WIDTHxHEIGHT in pixels, each 1 to 16384");
-           },
-           "Size of the picture (1280x800; 960x600 offscreen)")
+    add_read(
+        app, "--window-size", [&](const std::string& text) { options.window_size_px = parse_size(text); },
+        "Size of the picture (1280x800; 960x600 offscreen)")
         ->type_name("WxH");
     add_look(app, options);
     add_stereo(app, options.stereo);

@@ -76,7 +76,7 @@ int screenshot_interval(const RenderOptions& options);
 
 ParsedOptions parse_options(int argument_count, const char* const* arguments, const std::string& version);
 
-/// "1280x800" as a size; none unless both are whole numbers from 1 to 16384.
-std::optional<glm::ivec2> parse_size(const std::string& text);
+/// "1280x800" as a size. Throws std::invalid_argument unless both are whole numbers from 1 to 16384.
+glm::ivec2 parse_size(const std::string& text);
 
 }  // namespace osteomill

@@ -34,6 +34,10 @@ glm::dvec3 Camera::up() const {
     return glm::cross(right(), forward());
 }
 
+bool Camera::has_in_front(const glm::dvec3& position_mm) const {
+    return glm::dot(position_mm - eye_mm(), forward()) >= near_mm;
+}
+
 glm::dmat4 Camera::view() const {
     return glm::lookAt(eye_mm(), eye_mm() + forward(), up());
 }
@@ -64,6 +68,11 @@ Camera camera_on(const glm::dvec3& centre_mm, double radius_mm) {
     camera.near_mm = 0.01 * radius_mm;
     camera.far_mm = 20.0 * radius_mm;
     return camera;
+}
+
+void look_along(Camera& camera, const glm::dvec3& forward) {
+    camera.azimuth_rad = std::atan2(-forward.x, forward.y);
+    camera.elevation_rad = std::asin(std::clamp(-forward.z, -1.0, 1.0));
 }
 
 void orbit(Camera& camera, double azimuth_change_rad, double elevation_change_rad) {

@@ -31,6 +31,8 @@ struct Camera {
     glm::dvec3 forward() const;  ///< unit; right and up complete it to the axes of the picture
     glm::dvec3 right() const;
     glm::dvec3 up() const;
+    /// Whether a point is in front of the eye, no nearer than the near plane.
+    bool has_in_front(const glm::dvec3& position_mm) const;
     /// Half the picture's width and height at distance 1, `size_px` as below.
     glm::dvec2 half_extent(const glm::ivec2& size_px) const;
     /// The ray through the picture's middle; 1 along forward().
@@ -43,6 +45,8 @@ struct Camera {
 /// A camera from the front and above that sees the whole box.
 Camera camera_on(const glm::dvec3& centre_mm, double radius_mm);
 
+/// Turns the camera to look along a unit direction.
+void look_along(Camera& camera, const glm::dvec3& forward);
 /// Turns round the target; elevation stays within a degree of straight up and down.
 void orbit(Camera& camera, double azimuth_change_rad, double elevation_change_rad);
 /// Moves target and eye so that what is at the target's depth follows the pointer (pixels, y down).

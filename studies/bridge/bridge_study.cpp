@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,6 +18,12 @@
 namespace osteomill::study {
 
 namespace {
+
+struct BridgeStudyOptions {
+    std::filesystem::path out = "study/bridge";
+    double seconds = 20.0;  ///< a way
+    bool quick = false;
+};
 
 nlohmann::ordered_json in_numbers(const std::vector<double>& trips_us) {
     return {{"count", trips_us.size()},
@@ -55,8 +64,6 @@ RoundTrips trips_over(const Way& way, double seconds) {
         seconds);
 }
 
-}  // namespace
-
 void run_bridge_study(const BridgeStudyOptions& options, const StudySurroundings& surroundings) {
     StudyRun run(options.out, surroundings);
     const std::vector<Way> all_ways = ways();
@@ -85,6 +92,24 @@ void run_bridge_study(const BridgeStudyOptions& options, const StudySurroundings
     if (const std::string why_not = PrivateNetwork::why_not(); !why_not.empty())
         run.say("two namespaces: left out; {}", why_not);
     run.write(found, "bridge");
+}
+
+}  // namespace
+
+StudyCommand add_bridge(CLI::App& app) {
+    const auto shared = std::make_shared<BridgeStudyOptions>();
+    BridgeStudyOptions& options = *shared;
+    CLI::App* bridge = app.add_subcommand(
+        "bridge", "the way to an arm behind the bridge and back, beside a bare echo of the same size");
+    add_out(*bridge, options.out);
+    bridge->add_option("--seconds", options.seconds, "that each way is measured")
+        ->check(CLI::Range(1.0, 3600.0))
+        ->capture_default_str();
+    bridge->add_flag("--quick", options.quick, "two seconds each");
+    return {
+        .subcommand = bridge,
+        .run = [shared](const StudySurroundings& surroundings) { run_bridge_study(*shared, surroundings); },
+        .runs_one_by_one = true};
 }
 
 }  // namespace osteomill::study

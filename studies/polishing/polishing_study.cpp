@@ -1,5 +1,8 @@
 #include "studies/polishing/polishing_study.h"
 
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -11,6 +14,14 @@
 #include "studies/polishing/published_figures.h"
 
 namespace osteomill::study {
+
+namespace {
+
+struct PolishingStudyOptions {
+    std::filesystem::path out = "study/polishing";
+    bool quick = false;            ///< fewer runs: half a minute at most
+    bool has_edge_forces = false;  ///< burrs whose edges rub with 0.3 N/mm; else the published law
+};
 
 void run_polishing_study(const PolishingStudyOptions& options, const StudySurroundings& surroundings) {
     require_charts_of(surroundings);
@@ -36,6 +47,21 @@ void run_polishing_study(const PolishingStudyOptions& options, const StudySurrou
     run.say("{}", figures.csv());
     run.draw({"polishing_depth", "polishing_milling", "polishing_point_spring"});
     run.say("figures.csv, the runs (CSV) and charts (SVG) are in {}", run.out().string());
+}
+
+}  // namespace
+
+StudyCommand add_polishing(CLI::App& app) {
+    const auto shared = std::make_shared<PolishingStudyOptions>();
+    PolishingStudyOptions& options = *shared;
+    CLI::App* polishing = app.add_subcommand("polishing", "the published polishing experiment: its figures");
+    add_out(*polishing, options.out);
+    polishing->add_flag("--edge-forces", options.has_edge_forces,
+                        "burrs whose edges rub, as in cortical bone; without, the published law");
+    polishing->add_flag("--quick", options.quick, "fewer runs: under half a minute");
+    return {polishing,
+            [shared](const StudySurroundings& surroundings) { run_polishing_study(*shared, surroundings); },
+            jobs_of_processors()};
 }
 
 }  // namespace osteomill::study

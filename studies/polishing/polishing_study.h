@@ -1,21 +1,12 @@
 // The published polishing experiment: figures 6, 7 and 8.
 #pragma once
 
-#include <filesystem>
-
-#include "analysis/output/surroundings.h"
+#include "analysis/output/study_command.h"
 
 namespace osteomill::study {
 
-struct PolishingStudyOptions {
-    std::filesystem::path out;
-    bool quick = false;            ///< fewer runs: half a minute at most
-    bool has_edge_forces = false;  ///< burrs whose edges rub with 0.3 N/mm; else the published law
-};
-
-/// Writes figures.csv, a table a run and charts (SVG) into `options.out`, and the
-/// logs of the sessions into its folder `runs`. Throws std::runtime_error in one line naming what cannot be
-/// written.
-void run_polishing_study(const PolishingStudyOptions& options, const StudySurroundings& surroundings);
+/// `osteomill_study polishing`: writes figures.csv, a table a run and charts (SVG), and the logs of the
+/// sessions into the folder `runs`.
+StudyCommand add_polishing(CLI::App& app);
 
 }  // namespace osteomill::study

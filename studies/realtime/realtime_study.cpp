@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -12,6 +15,7 @@
 #include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
 #include "common/program/child_program.h"
+#include "common/program/option_checks.h"
 #include "studies/realtime/installed_program.h"
 #include "studies/realtime/slices.h"
 
@@ -20,6 +24,12 @@ namespace osteomill::study {
 namespace {
 
 using nlohmann::ordered_json;
+
+struct RealtimeStudyOptions {
+    std::filesystem::path out = "study/realtime";
+    bool quick = false;         ///< 9 s in slices of 3: under a minute and a half, and no measure of a tail
+    double duration_s = 600.0;  ///< that each is measured, without load and again under it; whole slices
+};
 
 constexpr double most_times_cyclictest = 1.5;
 constexpr double more_late_ticks_share = 1e-5;
@@ -201,11 +211,32 @@ class RealtimeStudy {
     int slices_;
 };
 
-}  // namespace
-
 void run_realtime_study(const RealtimeStudyOptions& options, const StudySurroundings& surroundings) {
     require_charts_of(surroundings);
     RealtimeStudy(options, surroundings).run();
+}
+
+}  // namespace
+
+StudyCommand add_realtime(CLI::App& app) {
+    const auto shared = std::make_shared<RealtimeStudyOptions>();
+    RealtimeStudyOptions& options = *shared;
+    CLI::App* realtime = app.add_subcommand("realtime",
+                                            "how late the haptic loop wakes and how long it takes, in turns "
+                                            "with cyclictest; then under stress-ng");
+    add_out(*realtime, options.out);
+    CLI::Option* const duration =
+        realtime
+            ->add_option("--duration-s", options.duration_s,
+                         "how long each of the two is measured, without load and again under it")
+            ->capture_default_str()
+            ->check(within(10.0, 86'400.0));
+    realtime->add_flag("--quick", options.quick, "9 s each: shows that it works, not how long the tail is")
+        ->excludes(duration);
+    return {
+        .subcommand = realtime,
+        .run = [shared](const StudySurroundings& surroundings) { run_realtime_study(*shared, surroundings); },
+        .runs_one_by_one = true};
 }
 
 }  // namespace osteomill::study

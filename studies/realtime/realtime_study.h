@@ -6,21 +6,12 @@
 // kHz; cyclictest does nothing but wake.
 #pragma once
 
-#include <filesystem>
-
-#include "analysis/output/surroundings.h"
+#include "analysis/output/study_command.h"
 
 namespace osteomill::study {
 
-struct RealtimeStudyOptions {
-    std::filesystem::path out;
-    bool quick = false;         ///< 9 s in slices of 3: under a minute and a half, and no measure of a tail
-    double duration_s = 600.0;  ///< that each is measured, without load and again under it; whole slices
-};
-
-/// Writes realtime.json, latencies.csv and realtime.svg into `options.out`. What is
-/// not installed (cyclictest, stress-ng) is left out with a line that says so. Throws std::runtime_error in
-/// one line where haptic_server is not beside this program, something fails or cannot be written.
-void run_realtime_study(const RealtimeStudyOptions& options, const StudySurroundings& surroundings);
+/// `osteomill_study realtime`: writes realtime.json, latencies.csv and realtime.svg. What is not installed
+/// (cyclictest, stress-ng) is left out with a line that says so; haptic_server must be beside this program.
+StudyCommand add_realtime(CLI::App& app);
 
 }  // namespace osteomill::study

@@ -2,12 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/output/output_files.h"
 #include "analysis/output/study_run.h"
+#include "common/program/option_checks.h"
+#include "render_client/ui/options.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "studies/render/accuracy.h"
 #include "studies/render/carved_sphere.h"
@@ -18,6 +26,16 @@ namespace osteomill::study {
 namespace {
 
 using nlohmann::ordered_json;
+
+struct RenderStudyOptions {
+    std::filesystem::path out = "study/render";
+    bool full_rate_only = false;                   ///< only frames a second in a large window, full_rate.h
+    std::optional<int> frames{};                   ///< of these, in a row of the table; none: 600
+    std::optional<int> gpu{};                      ///< draw on this GPU of several, from 0
+    bool quick = false;                            ///< fewer settings, smaller pictures: under a minute
+    std::optional<glm::ivec2> size_px{};           ///< of the pictures; none: 640 x 480, 240 x 180 if quick
+    std::optional<std::filesystem::path> scans{};  ///< a folder of trial scans; none: the phantom alone
+};
 
 constexpr double full_quality_goal_db = 40.0;
 const std::vector<double> px_per_voxel{4.0, 10.0, 20.0};
@@ -52,8 +70,6 @@ ordered_json cut_wall_figures(double p95_deg, const std::vector<double>& found_d
     }
     return {{"p95_deg", p95_deg}, {"pictures", pictures}};
 }
-
-}  // namespace
 
 void run_render_study(const RenderStudyOptions& options, const StudySurroundings& surroundings) {
     require_charts_of(surroundings);
@@ -111,6 +127,47 @@ void run_render_study(const RenderStudyOptions& options, const StudySurroundings
     run.write(found, "render");
     run.draw({"render_accuracy"});
     run.say("render.json, accuracy.csv and render_accuracy.svg are in {}", options.out.string());
+}
+
+}  // namespace
+
+StudyCommand add_render(CLI::App& app) {
+    const auto shared = std::make_shared<RenderStudyOptions>();
+    RenderStudyOptions& options = *shared;
+    if (const char* const scans = std::getenv("OSTEOMILL_SCANS")) options.scans = scans;
+    CLI::App* render =
+        app.add_subcommand("render", "the pictures: frame time against accuracy, how smooth a cut looks");
+    add_out(*render, options.out);
+    render
+        ->add_option_function<int>(
+            "--width-px",
+            [&options](int width_px) { options.size_px = glm::ivec2(width_px, 3 * width_px / 4); },
+            "width of the pictures, 4:3 (640; 240 with --quick)")
+        ->check(CLI::Range(64, 4096));
+    auto* const full_rate = render->add_flag(
+        "--full-rate", options.full_rate_only,
+        "only what a graphics card draws in a second at 2560 x 1440, orbiting and carving, "
+        "with uploads and texture memory; smaller and shorter where a software rasteriser draws");
+    add_read(
+        *render, "--size-px", [&options](const std::string& text) { options.size_px = parse_size(text); },
+        "size of these pictures (2560x1440; 640x360 by a software rasteriser)")
+        ->needs(full_rate)
+        ->excludes("--width-px")
+        ->type_name("WxH");
+    render->add_option("--frames", options.frames, "of each of their rows (600; 8 by a software rasteriser)")
+        ->needs(full_rate)
+        ->check(CLI::Range(1, 1'000'000));
+    render
+        ->add_option(
+            "--gpu", options.gpu,
+            "draw on this GPU of several, counted from 0 (the first; where there is none, Mesa's software "
+            "rasteriser)")
+        ->check(CLI::Range(0, 63));
+    render->add_flag("--quick", options.quick, "fewer settings, smaller pictures: under a minute");
+    return {
+        .subcommand = render,
+        .run = [shared](const StudySurroundings& surroundings) { run_render_study(*shared, surroundings); },
+        .runs_one_by_one = true};
 }
 
 }  // namespace osteomill::study

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -20,31 +21,37 @@ constexpr double notice_s = 4.0;
 /// Between a burr that is placed and the bone under it.
 constexpr double gap_mm = 1.0;
 
+/// What goes on and off.
+constexpr std::array switches{std::pair{Action::help, &ViewSettings::help_shown},
+                              std::pair{Action::panels, &ViewSettings::panels_shown},
+                              std::pair{Action::cuts_panel, &ViewSettings::cuts_panel_shown},
+                              std::pair{Action::transfer_panel, &ViewSettings::transfer_panel_shown},
+                              std::pair{Action::slices, &ViewSettings::slices_shown},
+                              std::pair{Action::light_field, &ViewSettings::light_field},
+                              std::pair{Action::sound, &ViewSettings::sound},
+                              std::pair{Action::warnings, &ViewSettings::warns},
+                              std::pair{Action::details, &ViewSettings::details_shown},
+                              std::pair{Action::fullscreen, &ViewSettings::is_fullscreen},
+                              std::pair{Action::tilt, &ViewSettings::drag_tilts}};
+
+/// What is asked for before it is done, of who may control the session.
+constexpr std::array questions{std::pair{Action::save_surface, SessionQuestion::surface},
+                               std::pair{Action::mark, SessionQuestion::mark},
+                               std::pair{Action::finish, SessionQuestion::finish}};
+
 const char* words_for(SessionAction done) {
-    switch (done) {
-        case SessionAction::mark:
-            return tr("marked");
-        case SessionAction::pause:
-            return tr("paused");
-        case SessionAction::resume:
-            return tr("the session goes on");
-        case SessionAction::undo:
-            return tr("a stroke was undone");
-        case SessionAction::redo:
-            return tr("a stroke was redone");
-        case SessionAction::reset:
-            return tr("all strokes were undone");
-        case SessionAction::save:
-            return tr("the server saves the bone");
-        case SessionAction::finish:
-            return tr("the session ends;");
-        case SessionAction::place:
-            return tr("the tool is");
-        case SessionAction::speed:
-            return tr("the spindle's speed:");
-        case SessionAction::none:
-            break;
-    }
+    const std::array words{std::pair{SessionAction::mark, tr("marked")},
+                           std::pair{SessionAction::pause, tr("paused")},
+                           std::pair{SessionAction::resume, tr("the session goes on")},
+                           std::pair{SessionAction::undo, tr("a stroke was undone")},
+                           std::pair{SessionAction::redo, tr("a stroke was redone")},
+                           std::pair{SessionAction::reset, tr("all strokes were undone")},
+                           std::pair{SessionAction::save, tr("the server saves the bone")},
+                           std::pair{SessionAction::finish, tr("the session ends;")},
+                           std::pair{SessionAction::place, tr("the tool is")},
+                           std::pair{SessionAction::speed, tr("the spindle's speed:")}};
+    for (const auto& [action, word] : words)
+        if (action == done) return word;
     return tr("the server did what this program does not know");
 }
 
@@ -60,26 +67,13 @@ Commands::Commands(SessionPicture& session, HandInput& desk, SessionSource& sour
 
 void Commands::take(Action action) {
     ViewSettings& view = session_.view();
+    for (const auto& [switching, is_on] : switches)
+        if (action == switching) view.*is_on = !(view.*is_on);
+    for (const auto& [asking, question] : questions)
+        if (action == asking && session_.link().controls.may_control) view.question = question;
     switch (action) {
-        case Action::none:
-            break;
-        case Action::help:
-            view.help_shown = !view.help_shown;
-            break;
         case Action::theme:
             view.theme = other_theme(view.theme);
-            break;
-        case Action::panels:
-            view.panels_shown = !view.panels_shown;
-            break;
-        case Action::cuts_panel:
-            view.cuts_panel_shown = !view.cuts_panel_shown;
-            break;
-        case Action::transfer_panel:
-            view.transfer_panel_shown = !view.transfer_panel_shown;
-            break;
-        case Action::slices:
-            view.slices_shown = !view.slices_shown;
             break;
         case Action::cut_x:
         case Action::cut_y:
@@ -95,15 +89,6 @@ void Commands::take(Action action) {
         case Action::widen:
             magnify_by_step(session_.camera(), action == Action::magnify);
             break;
-        case Action::light_field:
-            view.light_field = !view.light_field;
-            break;
-        case Action::sound:
-            view.sound = !view.sound;
-            break;
-        case Action::warnings:
-            view.warns = !view.warns;
-            break;
         case Action::inset:
             view.inset = static_cast<InsetKind>((static_cast<int>(view.inset) + 1) % 3);
             break;
@@ -113,27 +98,15 @@ void Commands::take(Action action) {
         case Action::export_frames:
             export_wanted_ = !export_wanted_;
             break;
-        case Action::details:
-            view.details_shown = !view.details_shown;
-            break;
-        case Action::fullscreen:
-            view.is_fullscreen = !view.is_fullscreen;
-            break;
         case Action::end:
             view.question == SessionQuestion::none ? ask_to_end()
                                                    : void(view.question = SessionQuestion::none);
-            break;
-        case Action::tilt:
-            view.drag_tilts = !view.drag_tilts;
             break;
         case Action::place:
             view.click_places = !view.click_places && session_.link().controls.may_control;
             break;
         case Action::move_bone:
             view.moves_bone = !view.moves_bone && session_.link().controls.may_control;
-            break;
-        case Action::save_surface:
-            if (session_.link().controls.may_control) view.question = SessionQuestion::surface;
             break;
         case Action::undo:
             ask(SessionAction::undo);
@@ -144,14 +117,8 @@ void Commands::take(Action action) {
         case Action::hold:
             ask(session_.link().controls.is_paused ? SessionAction::resume : SessionAction::pause);
             break;
-        case Action::mark:
-            if (session_.link().controls.may_control) view.question = SessionQuestion::mark;
-            break;
         case Action::save:
             ask(SessionAction::save);
-            break;
-        case Action::finish:
-            if (session_.link().controls.may_control) view.question = SessionQuestion::finish;
             break;
         case Action::next_burr:
             desk_.choose_next_burr();
@@ -174,6 +141,8 @@ void Commands::take(Action action) {
         case Action::on_5_s:
             player_->seek(player_->time_s() + seek_s);
             break;
+        default:
+            break;
     }
 }
 
@@ -184,8 +153,9 @@ void Commands::ask(SessionAction action) {
 void Commands::change_speed(double factor) {
     const auto& tool = session_.tool();
     const SessionInfo* scene = source_.session();
-    if (!tool || scene == nullptr || tool->burr >= scene->burrs.size()) return;
-    const double rpm = factor * spindle_rpm(*tool, scene->burrs[tool->burr]);
+    const Burr* burr = tool && scene ? scene->burr_of(tool->burr) : nullptr;
+    if (burr == nullptr) return;
+    const double rpm = factor * spindle_rpm(*tool, *burr);
     source_.send_control({.action = SessionAction::speed,
                           .spindle_rpm = std::clamp(rpm, least_spindle_rpm, most_spindle_rpm)});
 }
@@ -214,8 +184,8 @@ std::optional<ToolPose> Commands::over_bone(const glm::dvec2& pixel) const {
         pick_surface(*bone, session_.camera(), pixel, session_.size_px(), session_.view().cuts.planes());
     if (!found) return std::nullopt;
     const SessionInfo* scene = source_.session();
-    const double radius_mm =
-        scene != nullptr && tool->burr < scene->burrs.size() ? scene->burrs[tool->burr].radius_mm() : 0.0;
+    const Burr* burr = scene ? scene->burr_of(tool->burr) : nullptr;
+    const double radius_mm = burr ? burr->radius_mm() : 0.0;
     return ToolPose{found->position_mm + (radius_mm + gap_mm) * found->normal, found->normal};
 }
 

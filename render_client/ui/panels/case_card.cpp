@@ -58,7 +58,7 @@ void draw_case_card(StartPage& page, CardPictures& pictures, std::size_t index, 
     canvas.AddRect(first, {first.x + size.x, first.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border), 3.0f);
     const ImVec2 picture_size{1.4f * (size.y - 2.0f * gap), 1.4f / 1.5f * (size.y - 2.0f * gap)};
     const ImVec2 inner{first.x + gap, first.y + gap};
-    if (const gl::PictureTexture* picture = pictures.of(shelved))
+    if (const gl::Texture2D* picture = pictures.of(shelved))
         canvas.AddImageRounded(texture_of(picture->id()), inner,
                                {inner.x + picture_size.x, inner.y + picture_size.y}, {0, 0}, {1, 1},
                                IM_COL32_WHITE, 3.0f);
@@ -73,7 +73,7 @@ void draw_case_card(StartPage& page, CardPictures& pictures, std::size_t index, 
         write_in_card(trf("protected: {}", shelved.protected_names).c_str(), {left, y}, width, end_y, plain);
 }
 
-const gl::PictureTexture* CardPictures::of(const ShelvedCase& shelved) {
+const gl::Texture2D* CardPictures::of(const ShelvedCase& shelved) {
     const auto [held, is_new] = held_.try_emplace(shelved.argument);
     if (is_new)
         if (const auto picture = picture_of(shelved)) held->second.emplace().upload(*picture);

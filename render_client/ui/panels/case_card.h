@@ -9,18 +9,18 @@
 #include <string>
 
 #include "render_client/ui/start/start_page.h"
-#include "render_client/volume/gl/picture_texture.h"
+#include "render_client/volume/gl/texture2d.h"
 
 namespace osteomill {
 
-/// Pictures of cases on the GPU. Needs the OpenGL context, as a PictureTexture does.
+/// Pictures of cases on the GPU. Needs the OpenGL context, as a Texture2D does.
 class CardPictures {
   public:
     /// The program's own of a built-in case, else picture.png in the case's folder; null where there is none.
-    const gl::PictureTexture* of(const ShelvedCase& shelved);
+    const gl::Texture2D* of(const ShelvedCase& shelved);
 
   private:
-    std::map<std::string, std::optional<gl::PictureTexture>> held_;  // by what --case takes
+    std::map<std::string, std::optional<gl::Texture2D>> held_;  // by what --case takes
 };
 
 /// Of page.cases()[index]. A click, or Return, chooses it; another starts it. Needs an ImGui window to be

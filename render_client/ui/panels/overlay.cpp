@@ -170,8 +170,7 @@ std::optional<PanelPlace> burr_in(const OverlayContent& content, const glm::ivec
     const Burr* burr = content.burr_in_tool();
     if (burr == nullptr || !content.has_bone) return std::nullopt;
     const glm::dvec3& burr_mm = content.tool->burr_position_mm;
-    if (glm::dot(burr_mm - content.camera->eye_mm(), content.camera->forward()) < content.camera->near_mm)
-        return std::nullopt;
+    if (!content.camera->has_in_front(burr_mm)) return std::nullopt;
     const auto radius =
         static_cast<float>(burr->radius_mm() / mm_per_px_at(*content.camera, burr_mm, size_px));
     return PanelPlace{glm::vec2(pixel_of(*content.camera, burr_mm, size_px)) - radius,

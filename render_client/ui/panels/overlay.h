@@ -48,9 +48,7 @@ struct OverlayContent {
     bool has_bone = false;
 
     /// Null where there is no tool, or the server has announced no such burr.
-    const Burr* burr_in_tool() const {
-        return session && tool && tool->burr < session->burrs.size() ? &session->burrs[tool->burr] : nullptr;
-    }
+    const Burr* burr_in_tool() const { return session && tool ? session->burr_of(tool->burr) : nullptr; }
 };
 
 void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px);

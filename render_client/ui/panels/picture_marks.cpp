@@ -47,7 +47,7 @@ void draw_force_label(const PanelPainter& painter, const ToolState& tool, double
                       const Camera& camera, const glm::ivec2& size_px,
                       std::span<const std::optional<PanelPlace>> panels) {
     const auto arrow = force_arrow(tool, burr_radius_mm, camera, size_px);
-    if (!arrow || glm::dot(arrow->head_mm - camera.eye_mm(), camera.forward()) < camera.near_mm) return;
+    if (!arrow || !camera.has_in_front(arrow->head_mm)) return;
     const double force_n = glm::length(tool.force_n);
     const glm::vec2 head(pixel_of(camera, arrow->head_mm, size_px));
     const float beside = 8.0f * painter.scale();
@@ -81,7 +81,7 @@ void draw_touch_ring(const PanelPainter& painter, const Bone& bone, const ToolSt
     for (int i = 0; i < corners; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / corners;
         const glm::dvec3 at_mm = middle_mm + burr_radius_mm * (std::cos(angle) * u + std::sin(angle) * v);
-        if (glm::dot(at_mm - camera.eye_mm(), camera.forward()) < camera.near_mm) return;
+        if (!camera.has_in_front(at_mm)) return;
         points[static_cast<std::size_t>(i)] = to_imgui(glm::vec2(pixel_of(camera, at_mm, size_px)));
     }
     painter.canvas().AddDrawCmd();

@@ -179,8 +179,7 @@ void draw_slices_cross(const OverlayContent& content, const PanelPainter& painte
                        const glm::ivec2& size_px) {
     if (content.slices == nullptr || !content.slices->cross_mm()) return;
     const glm::dvec3 at_mm = *content.slices->cross_mm();
-    if (glm::dot(at_mm - content.camera->eye_mm(), content.camera->forward()) < content.camera->near_mm)
-        return;
+    if (!content.camera->has_in_front(at_mm)) return;
     const glm::vec2 at(pixel_of(*content.camera, at_mm, size_px));
     const float arm = 10.0f * painter.scale();
     const ImU32 ink = IM_COL32(90, 200, 255, 255);

@@ -9,14 +9,14 @@
 #include "render_client/ui/panels/layout.h"
 #include "render_client/ui/panels/panel_painter.h"
 #include "render_client/ui/start/start_page.h"
-#include "render_client/volume/gl/picture_texture.h"
+#include "render_client/volume/gl/texture2d.h"
 
 namespace osteomill {
 
 /// Pictures on the GPU: of the scan that is looked at, and of the cases. Needs the OpenGL context, as a
-/// PictureTexture does.
+/// Texture2D does.
 struct StartPicture {
-    std::optional<gl::PictureTexture> texture{};
+    std::optional<gl::Texture2D> texture{};
     glm::ivec2 size_px{0};
     std::uint64_t number = 0;              ///< of the page's voxels that it has,
     glm::dvec3 slices_at_mm{0.0};          ///< where the slices in it meet,

@@ -43,7 +43,7 @@ std::optional<std::size_t> burr_in_use(const OverlayContent& content) {
     std::optional<std::size_t> burr;
     if (content.tool) burr = content.tool->burr;
     if (content.operator_command) burr = content.operator_command->burr;
-    return burr && *burr < content.session->burrs.size() ? burr : std::nullopt;
+    return burr && content.session->burr_of(*burr) ? burr : std::nullopt;
 }
 
 std::vector<ToolButton> buttons(const OverlayContent& content) {

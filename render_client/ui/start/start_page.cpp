@@ -105,6 +105,15 @@ void StartPage::go_to(const std::string& path) {
         message_ = trf("{}: is not there", path);
 }
 
+/// Says what goes wrong.
+void StartPage::attempt(const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+}
+
 void StartPage::start() {
     if (is_session_running() || chosen >= cases_.size()) return;
     const ShelvedCase& wanted = cases_[chosen];
@@ -125,13 +134,11 @@ void StartPage::start() {
     look_file_ = std::filesystem::is_directory(wanted.argument, failed)
                      ? std::filesystem::path(wanted.argument) / "look.toml"
                      : places_.home / "looks" / (wanted.name + ".toml");
-    try {
+    attempt([&] {
         server_ = std::make_unique<ChildProgram>(command, longest_report);
         has_address_ = false;
         message_ = trf("{} is being made ready ...", wanted.name);
-    } catch (const std::exception& error) {
-        message_ = error.what();
-    }
+    });
 }
 
 void StartPage::note_end_of_session() {
@@ -149,13 +156,11 @@ void StartPage::open_page(const std::filesystem::path& page) {
 }
 
 void StartPage::replay(const std::filesystem::path& recording) {
-    try {
+    attempt([&] {
         players_.push_back(std::make_unique<ChildProgram>(
             std::vector<std::string>{program("render_client"), "--replay=" + recording.string()}));
         message_ = recording.string() + tr(" opens in a window of its own");
-    } catch (const std::exception& error) {
-        message_ = error.what();
-    }
+    });
 }
 
 void StartPage::compare_sessions() {
@@ -168,13 +173,11 @@ void StartPage::compare_sessions() {
     std::vector<std::string> command{program("osteomill_study"), "sessions", "--out",
                                      (places_.home / "comparison").string()};
     for (const auto& session : sessions) command.push_back(session.string());
-    try {
+    attempt([&] {
         work_ = Work::compare;
         worker_ = std::make_unique<ChildProgram>(command);
         message_ = tr("comparing ...");
-    } catch (const std::exception& error) {
-        message_ = error.what();
-    }
+    });
 }
 
 void StartPage::take(const std::filesystem::path& path) {
@@ -200,7 +203,7 @@ void StartPage::take(const std::filesystem::path& path) {
 
 void StartPage::look_at_scan(bool is_another_scan) {
     give_up_work();
-    try {
+    attempt([&] {
         scratch_ = scratch_folder();
         work_ = Work::look;
         is_another_scan_ = is_another_scan;
@@ -208,9 +211,7 @@ void StartPage::look_at_scan(bool is_another_scan) {
             std::make_unique<ChildProgram>(look_command(program("bone_import"), form, scratch_ / "look.raw"));
         began_looking_ = std::chrono::steady_clock::now();
         message_ = tr("looking at the scan ...");
-    } catch (const std::exception& error) {
-        message_ = error.what();
-    }
+    });
 }
 
 void StartPage::import() {
@@ -224,14 +225,12 @@ void StartPage::import() {
                 1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
         return;
     }
-    try {
+    attempt([&] {
         work_ = Work::import;
         worker_ = std::make_unique<ChildProgram>(
             import_command(program("bone_import"), form, cases_of(places_) / form.name));
         message_ = tr("importing ...");
-    } catch (const std::exception& error) {
-        message_ = error.what();
-    }
+    });
 }
 
 void StartPage::give_up_work() {
@@ -270,12 +269,10 @@ void StartPage::take_in_look(const std::string& said) {
     if (!look_) return;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began_looking_;
     look_->took_s = took.count();
-    try {
+    attempt([&] {
         voxels_ = read_scan_voxels(scratch_ / "look.raw", look_->covers, preview_mm_per_px);
         ++voxels_number_;
-    } catch (const std::exception& error) {
-        message_ = error.what();
-    }
+    });
     form.available_bytes = available_memory_bytes().value_or(0);
     if (is_another_scan_) slices_at_mm = 0.5 * (look_->covers.low_mm + look_->covers.high_mm);
     take_look(form, *look_, is_another_scan_);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -105,6 +106,7 @@ class StartPage {
 
   private:
     std::string program(const char* name) const { return (places_.programs / name).string(); }
+    void attempt(const std::function<void()>& act);
     void open_page(const std::filesystem::path& page);
     void look_at_scan(bool is_another_scan);
     void look_at_home();

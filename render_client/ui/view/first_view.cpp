@@ -26,10 +26,8 @@ constexpr double least_part_without_target = 0.45;
 constexpr std::array angles_rad{0.9, 0.6, 0.3, 0.05};
 
 void look_from(Camera& camera, const glm::dvec3& to_eye) {
-    const glm::dvec3 forward = -to_eye;
-    camera.elevation_rad = 0.0;
-    camera.azimuth_rad = std::atan2(-forward.x, forward.y);
-    orbit(camera, 0.0, std::asin(std::clamp(-forward.z, -1.0, 1.0)));
+    look_along(camera, -to_eye);
+    orbit(camera, 0.0, 0.0);  // no nearer to straight up or down than it may
 }
 
 /// Unit: `to_eye`, or where it is more than `angle_rad` from `axis`, what is so far from it in their plane.
@@ -124,9 +122,8 @@ Camera first_view(const Bone& bone, const BoneTextures& textures, const SessionI
                   const ToolState* tool) {
     std::optional<ToolPose> pose;
     if (tool) pose = ToolPose{tool->burr_position_mm, tool->spindle_axis};
-    const bool has_burr = tool && session && tool->burr < session->burrs.size();
-    return first_view(bone, ball_round(textures), pose,
-                      has_burr ? session->burrs[tool->burr].radius_mm() : 0.0,
+    const Burr* burr = tool && session ? session->burr_of(tool->burr) : nullptr;
+    return first_view(bone, ball_round(textures), pose, burr ? burr->radius_mm() : 0.0,
                       session ? target_in_view(bone, *session) : std::nullopt);
 }
 

@@ -28,14 +28,13 @@ Camera endoscope_camera(const glm::dvec3& burr_mm, const glm::dvec3& spindle_axi
     const glm::dvec3 towards = std::abs(spindle_axis.y) < 0.9 ? front : above;
     const glm::dvec3 aside = glm::normalize(towards - glm::dot(towards, spindle_axis) * spindle_axis);
     const glm::dvec3 to_eye_mm = up_the_handpiece_mm * spindle_axis + beside_it_mm * aside;
-    const glm::dvec3 forward = -glm::normalize(to_eye_mm);
-    return {.target_mm = burr_mm,
-            .distance_mm = glm::length(to_eye_mm),
-            .azimuth_rad = std::atan2(-forward.x, forward.y),
-            .elevation_rad = std::asin(std::clamp(-forward.z, -1.0, 1.0)),
-            .field_of_view_rad = endoscope_angle_rad,
-            .near_mm = 0.5,
-            .far_mm = 300.0};
+    Camera camera{.target_mm = burr_mm,
+                  .distance_mm = glm::length(to_eye_mm),
+                  .field_of_view_rad = endoscope_angle_rad,
+                  .near_mm = 0.5,
+                  .far_mm = 300.0};
+    look_along(camera, -glm::normalize(to_eye_mm));
+    return camera;
 }
 
 Camera axial_camera(const glm::dvec3& burr_mm) {

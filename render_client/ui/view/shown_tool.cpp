@@ -33,8 +33,8 @@ bool ShownTool::has_turning_burr() const {
 void ShownTool::turn(double elapsed_s, const SessionInfo* session) {
     age_s_ += elapsed_s;
     if (!has_turning_burr()) return;
-    const bool clockwise = !session || state_->burr >= session->burrs.size() ||
-                           session->burrs[state_->burr].sense == SpindleSense::clockwise;
+    const Burr* burr = session ? session->burr_of(state_->burr) : nullptr;
+    const bool clockwise = !burr || burr->sense == SpindleSense::clockwise;
     // Clockwise seen from the shank is negative about the axis from tip to shank.
     const double change = (clockwise ? -1.0 : 1.0) * 2.0 * std::numbers::pi * shown_rev_per_s * elapsed_s;
     spin_rad_ = std::remainder(spin_rad_ + change, 2.0 * std::numbers::pi);
@@ -51,10 +51,8 @@ std::optional<ToolState> ShownTool::shown() const {
 DrawnTool ShownTool::drawn(const ToolState& shown, const SessionInfo* session,
                            const std::optional<OperatorCommand>& command) const {
     DrawnTool drawn{.state = shown, .spin_rad = spin_rad_};
-    if (session && shown.burr < session->burrs.size()) {
-        const Burr& burr = session->burrs[shown.burr];
-        drawn.burr = {burr.diameter_mm, burr.head, burr.edges, burr.sense == SpindleSense::clockwise};
-    }
+    if (const Burr* burr = session ? session->burr_of(shown.burr) : nullptr)
+        drawn.burr = {burr->diameter_mm, burr->head, burr->edges, burr->sense == SpindleSense::clockwise};
     if (command && !shown_pose_ &&
         glm::distance(command->hand_target_mm, shown.burr_position_mm) > nearest_shown_target_mm)
         drawn.hand_target_mm = command->hand_target_mm;

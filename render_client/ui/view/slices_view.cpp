@@ -59,8 +59,8 @@ SliceView SlicesView::view(SlicePlane plane, int edge_px) const {
     return view;
 }
 
-const gl::PictureTexture& SlicesView::picture(SlicePlane plane, int edge_px, const Bone* bone,
-                                              std::uint64_t bone_version) {
+const gl::Texture2D& SlicesView::picture(SlicePlane plane, int edge_px, const Bone* bone,
+                                         std::uint64_t bone_version) {
     std::optional<DrawnSlice>& drawn = drawn_[static_cast<std::size_t>(plane)];
     const SliceView wanted = view(plane, edge_px);
     const bool is_fresh = drawn && drawn->view == wanted && drawn->window == window_ &&

@@ -12,13 +12,13 @@
 #include "common/bone/ct_volume.h"
 #include "common/scene/scene.h"
 #include "render_client/volume/ct_slice.h"
-#include "render_client/volume/gl/picture_texture.h"
+#include "render_client/volume/gl/texture2d.h"
 
 namespace osteomill {
 
 /// A slice's picture, and what it was made of.
 struct DrawnSlice {
-    gl::PictureTexture texture;
+    gl::Texture2D texture;
     SliceView view;
     HuWindow window;
     const CtVolume* ct = nullptr;
@@ -48,8 +48,7 @@ class SlicesView {
 
     /// The slice's picture as it is now, made anew only where something has changed. `bone_version` goes up
     /// with each change of the bone.
-    const gl::PictureTexture& picture(SlicePlane plane, int edge_px, const Bone* bone,
-                                      std::uint64_t bone_version);
+    const gl::Texture2D& picture(SlicePlane plane, int edge_px, const Bone* bone, std::uint64_t bone_version);
     SliceView view(SlicePlane plane, int edge_px) const;
 
   private:

@@ -5,26 +5,15 @@
 
 namespace osteomill::gl {
 
-namespace {
-
-void store(GLuint texture, const glm::ivec2& size_px, GLint internal_format, GLenum format, GLenum type,
-           GLint filter) {
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, internal_format, size_px.x, size_px.y, 0, format, type, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
-}  // namespace
-
 Framebuffer::Framebuffer(const glm::ivec2& size_px) : size_px_(size_px) {
-    store(colour_, size_px, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_LINEAR);
-    store(depth_, size_px, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, GL_NEAREST);
+    colour_.store(size_px, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, nullptr, GL_LINEAR, GL_LINEAR);
+    depth_.store(size_px, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr, GL_NEAREST,
+                 GL_NEAREST);
+    colour_.end_at_edges();
+    depth_.end_at_edges();
     glBindFramebuffer(GL_FRAMEBUFFER, id_);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_, 0);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_, 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.id(), 0);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
     throw std::runtime_error("the OpenGL driver cannot draw into a picture of " + std::to_string(size_px.x) +
                              " x " + std::to_string(size_px.y) + " pixels");
@@ -61,10 +50,8 @@ void Framebuffer::copy_colour_to_window(GLenum buffer) const {
 }
 
 void Framebuffer::bind_textures(int unit) const {
-    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    glBindTexture(GL_TEXTURE_2D, colour_);
-    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit + 1));
-    glBindTexture(GL_TEXTURE_2D, depth_);
+    colour_.bind(unit);
+    depth_.bind(unit + 1);
 }
 
 Picture Framebuffer::read_back() const {

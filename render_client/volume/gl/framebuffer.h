@@ -3,7 +3,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "render_client/volume/gl/name.h"
+#include "render_client/volume/gl/texture2d.h"
 #include "render_client/volume/passes/pixel_box.h"
 #include "render_client/volume/picture.h"
 
@@ -27,7 +27,7 @@ class Framebuffer {
     /// not interpolated, to the next unit.
     void bind_textures(int unit) const;
     /// OpenGL's name of the colour, for who draws it elsewhere.
-    GLuint colour_texture() const { return colour_; }
+    GLuint colour_texture() const { return colour_.id(); }
     /// glReadPixels of the colour; the first row is the top one.
     Picture read_back() const;
     /// Depth (0 near to 1 far) of a pixel counted from the lower left corner.
@@ -38,8 +38,8 @@ class Framebuffer {
   private:
     glm::ivec2 size_px_;
     FramebufferName id_;
-    TextureName colour_;
-    TextureName depth_;
+    Texture2D colour_;
+    Texture2D depth_;
 };
 
 }  // namespace osteomill::gl

@@ -8,12 +8,9 @@ namespace osteomill::gl {
 LightLayer::LightLayer(const glm::ivec2& size_px) : size_px_(size_px) {
     GLint bound = 0;
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
-    glBindTexture(GL_TEXTURE_2D, colour_);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, size_px.x, size_px.y, 0, GL_RGBA, GL_FLOAT, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    colour_.store(size_px, GL_RGBA16F, GL_RGBA, GL_FLOAT, nullptr, GL_NEAREST, GL_NEAREST);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id_);
-    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_, 0);
+    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
     const bool complete = glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(bound));
     if (complete) return;
@@ -35,11 +32,6 @@ void LightLayer::end() {
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(previous_));
-}
-
-void LightLayer::bind_texture(int unit) const {
-    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    glBindTexture(GL_TEXTURE_2D, colour_);
 }
 
 }  // namespace osteomill::gl

@@ -4,7 +4,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "render_client/volume/gl/name.h"
+#include "render_client/volume/gl/texture2d.h"
 
 namespace osteomill::gl {
 
@@ -19,14 +19,14 @@ class LightLayer {
     /// The framebuffer that was bound before, without blending, is drawn to again.
     void end();
     /// Binds what was gathered to GL_TEXTURE0 + unit.
-    void bind_texture(int unit) const;
+    void bind_texture(int unit) const { colour_.bind(unit); }
 
     const glm::ivec2& size_px() const { return size_px_; }
 
   private:
     glm::ivec2 size_px_;
     FramebufferName id_;
-    TextureName colour_;
+    Texture2D colour_;
     GLint previous_ = 0;
 };
 

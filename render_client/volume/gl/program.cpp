@@ -56,6 +56,11 @@ Program::Program(const std::string& vertex_source, const std::string& fragment_s
 void Program::use() const {
     glUseProgram(id_);
 }
+void Program::fill_picture() const {
+    glBindVertexArray(no_attributes_);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindVertexArray(0);
+}
 void Program::set(const char* name, int value) const {
     glUniform1i(glGetUniformLocation(id_, name), value);
 }

@@ -19,6 +19,9 @@ class Program {
 
     /// glUseProgram; the setters below need it.
     void use() const;
+    /// Draws one triangle over the whole viewport: without attributes, the vertex shader makes its corners of
+    /// gl_VertexID. Needs use().
+    void fill_picture() const;
     /// glUniform*. A name that the linker removed as unused is ignored, as OpenGL does.
     void set(const char* name, int value) const;
     void set(const char* name, float value) const;
@@ -38,6 +41,7 @@ class Program {
     }
 
     Name<create, remove> id_;
+    VertexArrayName no_attributes_;
 };
 
 }  // namespace osteomill::gl

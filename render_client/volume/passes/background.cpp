@@ -13,7 +13,7 @@ void Background::draw(const SceneAppearance& look, const glm::ivec2& size_px) {
     set_background_uniforms(program_, look);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
-    full_screen_.draw();
+    program_.fill_picture();
     glDepthFunc(GL_LESS);
 }
 

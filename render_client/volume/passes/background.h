@@ -3,7 +3,6 @@
 
 #include <glm/vec2.hpp>
 
-#include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/program.h"
 #include "render_client/volume/scene_appearance.h"
 
@@ -17,7 +16,6 @@ class Background {
 
   private:
     gl::Program program_;
-    gl::FullScreen full_screen_;
 };
 
 }  // namespace osteomill

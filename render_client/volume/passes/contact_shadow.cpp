@@ -42,7 +42,7 @@ void ContactShadow::draw(const gl::Framebuffer& bone, const glm::dvec3& burr_mm,
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-    full_screen_.draw();
+    program_.fill_picture();
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_SCISSOR_TEST);

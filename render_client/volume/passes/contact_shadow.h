@@ -11,7 +11,6 @@
 
 #include "render_client/volume/camera.h"
 #include "render_client/volume/gl/framebuffer.h"
-#include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/program.h"
 #include "render_client/volume/passes/tile_mask.h"
 
@@ -28,7 +27,6 @@ class ContactShadow {
 
   private:
     gl::Program program_;
-    gl::FullScreen full_screen_;
 };
 
 }  // namespace osteomill

@@ -13,7 +13,7 @@ void LightField::draw(const glm::ivec2& size_px, double pixel_aspect) const {
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-    full_screen_.draw();
+    program_.fill_picture();
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
 }

@@ -1,7 +1,6 @@
 // A microscope's round field of light over a picture: black beyond it, as seen through the eyepieces.
 #pragma once
 
-#include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/program.h"
 
 namespace osteomill {
@@ -14,7 +13,6 @@ class LightField {
 
   private:
     gl::Program program_;
-    gl::FullScreen full_screen_;
 };
 
 }  // namespace osteomill

@@ -11,7 +11,7 @@ std::optional<PixelBox> pixels_of_box(const Camera& camera, const glm::dvec3& lo
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 place(corner & 1 ? high_mm.x : low_mm.x, corner & 2 ? high_mm.y : low_mm.y,
                                corner & 4 ? high_mm.z : low_mm.z);
-        if (glm::dot(place - camera.eye_mm(), camera.forward()) < camera.near_mm) return std::nullopt;
+        if (!camera.has_in_front(place)) return std::nullopt;
         const glm::dvec2 pixel = pixel_of(camera, place, size_px);
         first = glm::min(first, pixel);
         last = glm::max(last, pixel);

@@ -39,7 +39,7 @@ void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const
 
     // What one sees through has no depth, that is, the background's.
     glDepthFunc(GL_LEQUAL);
-    full_screen_.draw();
+    program.fill_picture();
     glDepthFunc(GL_LESS);
 }
 

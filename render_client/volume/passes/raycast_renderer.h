@@ -2,7 +2,6 @@
 // fraction reaches one half or, in translucent bone, where hardly any light comes through.
 #pragma once
 
-#include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/passes/background.h"
 #include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/shaders/bone_program.h"
@@ -32,7 +31,6 @@ class RaycastRenderer final : public BoneRenderer {
   private:
     Background background_;
     BoneProgram bone_program_;
-    gl::FullScreen full_screen_;
     RaycastSettings settings_;
 };
 

@@ -65,7 +65,7 @@ void SliceRenderer::draw_translucent(const BoneTextures& bone, const Camera& cam
     set_background_uniforms(blend_program_, look());
     light_->bind_texture(light_unit);
     glDisable(GL_DEPTH_TEST);
-    full_screen_.draw();
+    blend_program_.fill_picture();
     glEnable(GL_DEPTH_TEST);
 }
 

@@ -8,7 +8,6 @@
 
 #include <optional>
 
-#include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/light_layer.h"
 #include "render_client/volume/gl/triangle_stream.h"
 #include "render_client/volume/passes/background.h"
@@ -37,7 +36,6 @@ class SliceRenderer final : public BoneRenderer {
     BoneProgram slice_program_;
     Background background_;
     gl::Program blend_program_;
-    gl::FullScreen full_screen_;
     gl::TriangleStream slices_;
     std::optional<gl::LightLayer> light_;  ///< of the size that was last drawn translucent
 };

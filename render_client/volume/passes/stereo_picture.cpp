@@ -134,7 +134,7 @@ const gl::Framebuffer& StereoPicture::compose() {
         interleave_->set("right_eye", 2);
         interleave_->set("height", size_px_.y);
         glDisable(GL_DEPTH_TEST);
-        full_screen_.draw();
+        interleave_->fill_picture();
         glEnable(GL_DEPTH_TEST);
     }
     whole_->bind();

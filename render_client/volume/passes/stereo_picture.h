@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "render_client/volume/gl/draw_timer.h"
-#include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/passes/scene_picture.h"
 #include "render_client/volume/stereo.h"
 
@@ -56,7 +55,6 @@ class StereoPicture {
     std::vector<const gl::Framebuffer*> pictures_;
     std::optional<gl::Framebuffer> whole_;
     std::optional<gl::Program> interleave_;
-    gl::FullScreen full_screen_;
 };
 
 }  // namespace osteomill

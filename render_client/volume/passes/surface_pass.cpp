@@ -87,7 +87,7 @@ void SurfacePass::draw_bone(const BoneTextures& bone, const Camera& camera) {
         glClearBufferfv(GL_COLOR, 0, no_surface);
         glClearBufferuiv(GL_COLOR, 1, no_thing);
         glClearBufferfv(GL_DEPTH, 0, &farthest);
-        full_screen_.draw();
+        program.fill_picture();
     }
     glDisable(GL_SCISSOR_TEST);
 }

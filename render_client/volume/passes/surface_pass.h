@@ -15,7 +15,6 @@
 #include <span>
 #include <vector>
 
-#include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/mesh.h"
 #include "render_client/volume/gl/name.h"
 #include "render_client/volume/passes/raycast_renderer.h"
@@ -69,7 +68,6 @@ class SurfacePass {
     gl::RenderbufferName depth_;
     BoneProgram bone_program_;
     gl::Program mesh_program_;
-    gl::FullScreen full_screen_;
     BurrShape burr_shape_;
     gl::Mesh head_;
     gl::Mesh shank_;

@@ -25,7 +25,7 @@ void Upscaler::draw(const gl::Framebuffer& coarse, const gl::Framebuffer& fine,
     glEnable(GL_SCISSOR_TEST);
     for (const PixelBox& box : boxes) {
         glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
-        full_screen_.draw();
+        program_.fill_picture();
     }
     glDisable(GL_SCISSOR_TEST);
     glDepthFunc(GL_LESS);

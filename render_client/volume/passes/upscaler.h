@@ -5,7 +5,6 @@
 #include <span>
 
 #include "render_client/volume/gl/framebuffer.h"
-#include "render_client/volume/gl/full_screen.h"
 #include "render_client/volume/gl/program.h"
 
 namespace osteomill {
@@ -19,7 +18,6 @@ class Upscaler {
 
   private:
     gl::Program program_;
-    gl::FullScreen full_screen_;
 };
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-// A triangle over the whole picture (gl::FullScreen), with the camera's ray through each pixel.
+// A triangle over the whole picture (Program::fill_picture), with the camera's ray through each pixel.
 
 uniform vec3 middle_ray, right, up;  // middle_ray is 1 forward; right and up reach from the picture's middle to its edge at distance 1
 out vec3 ray;

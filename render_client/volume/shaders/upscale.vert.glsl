@@ -1,4 +1,4 @@
-// A triangle over the whole picture (gl::FullScreen), in the middle of its depth.
+// A triangle over the whole picture (Program::fill_picture), in the middle of its depth.
 
 void main() {
     gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);

@@ -12,7 +12,6 @@
 namespace osteomill {
 
 inline constexpr int block_edge_voxels = 4;
-inline constexpr int blocks_per_brick_edge = brick_edge_voxels / block_edge_voxels;
 inline constexpr std::size_t blocks_per_brick = 64;
 
 /// Which parts of a block hold a voxel that is at least half full. Bit (dx + 1) + 3 (dy + 1) + 9 (dz + 1),

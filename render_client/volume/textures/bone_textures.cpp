@@ -44,8 +44,9 @@ BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, con
       copy_(std::move(copy)),
       grid_(copied(bone).grid()),
       places_(copied(bone).content(), plan.layout, longest_edge_texels),
-      empty_space_(places_.box()),
-      colours_(table_.by_code) {}
+      empty_space_(places_.box()) {
+    colours_.store({256, 1}, GL_RGBA32F, GL_RGBA, GL_FLOAT, table_.by_code.data(), GL_NEAREST, GL_NEAREST);
+}
 
 Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
     // All are requested at first: while they are made, what needs none is done.

@@ -10,8 +10,8 @@
 #include <span>
 
 #include "common/bone/bone.h"
-#include "render_client/volume/gl/lookup_table.h"
 #include "render_client/volume/gl/storage_thread.h"
+#include "render_client/volume/gl/texture2d.h"
 #include "render_client/volume/gl/texture3d.h"
 #include "render_client/volume/shading_settings.h"
 #include "render_client/volume/steps.h"
@@ -58,7 +58,8 @@ class BoneTextures {
     const std::optional<gl::Texture3D>& colour_code() const { return colour_code_; }
     /// Whether neighbours mostly have the same, as within a tissue.
     bool codes_are_mostly_alike() const { return table_.codes.are_mostly_alike(); }
-    const gl::LookupTable& colours() const { return colours_; }
+    /// Linear RGB and opacity of code i in texel (i, 0).
+    const gl::Texture2D& colours() const { return colours_; }
     /// Display RGB times alpha, and alpha, of the surface voxels; none unless the look shades them.
     const gl::Texture3D* surface_colours() const { return surface_ ? &surface_->texture() : nullptr; }
     /// Whether one sees through the bone: opacities are then per millimetre.
@@ -100,7 +101,7 @@ class BoneTextures {
     std::optional<gl::Texture3D> blocks_;
     std::optional<gl::Texture3D> tile_table_;
     std::optional<gl::Texture3D> colour_code_;
-    gl::LookupTable colours_;
+    gl::Texture2D colours_;
     std::optional<SmoothedTexture> smoothed_;
     std::optional<SurfaceTexture> surface_;
     std::vector<VoxelBox> changed_;  ///< by the last update

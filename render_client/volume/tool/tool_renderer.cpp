@@ -41,8 +41,7 @@ constexpr double edge_radii = 2.5;  // as in tool.frag.glsl
 
 HiddenField field_of(const DrawnTool& tool, const Camera& camera, const glm::ivec2& size_px) {
     const glm::dvec3& burr_mm = tool.state.burr_position_mm;
-    if (tool.is_only_a_thing || glm::dot(burr_mm - camera.eye_mm(), camera.forward()) < camera.near_mm)
-        return {};
+    if (tool.is_only_a_thing || !camera.has_in_front(burr_mm)) return {};
     const double mm_per_px = mm_per_px_at(camera, burr_mm, size_px);
     const double radius_px = std::max(0.5 * tool.burr.diameter_mm / mm_per_px, least_radius_px);
     const glm::dvec2 down = pixel_of(camera, burr_mm, size_px);
@@ -62,8 +61,7 @@ std::optional<ForceArrow> force_arrow(const ToolState& tool, double burr_radius_
     constexpr double mm_per_n = 4.0, shortest_px = 40.0, least_force_n = 0.02;
     const double force_n = glm::length(tool.force_n);
     const glm::dvec3& burr_mm = tool.burr_position_mm;
-    if (!std::isfinite(force_n) || force_n < least_force_n ||
-        glm::dot(burr_mm - camera.eye_mm(), camera.forward()) < camera.near_mm)
+    if (!std::isfinite(force_n) || force_n < least_force_n || !camera.has_in_front(burr_mm))
         return std::nullopt;
     const glm::dvec3 along = tool.force_n / force_n;
     // Seen from its end it would have to be endless.

@@ -41,16 +41,12 @@ double stable_up_to(const WholeMap& map, const MethodScore& score, MapGrip grip)
         return is_of(point, MapPart::map, score) && point.run.grip == grip &&
                point.run.milling_rate_hz == 1000.0 && point.run.delay_ticks == 0;
     });
-    const auto x_of = [&](const MapResult& result) {
-        return score.scene == MapScene::cutting ? result.outcome.resistance_n_s_per_m
-                                                : result.point.run.wall_n_per_mm;
-    };
     double least_unstable = std::numeric_limits<double>::infinity();
     for (const MapResult& result : results)
-        if (!result.outcome.is_stable) least_unstable = std::fmin(least_unstable, x_of(result));
+        if (!result.outcome.is_stable) least_unstable = std::fmin(least_unstable, result.x());
     double largest = 0.0;
     for (const MapResult& result : results)
-        if (x_of(result) < least_unstable) largest = std::fmax(largest, x_of(result));
+        if (result.x() < least_unstable) largest = std::fmax(largest, result.x());
     return largest;
 }
 

@@ -23,15 +23,8 @@ const std::array<OutcomeNumber, 13> outcome_numbers{{
 }};
 
 std::string name_of(MapPart part) {
-    switch (part) {
-        case MapPart::map:
-            return "map";
-        case MapPart::bars:
-            return "bars";
-        case MapPart::real_device:
-            return "real-device";
-    }
-    return "unknown";
+    constexpr std::array names{"map", "bars", "real-device"};
+    return names.at(static_cast<std::size_t>(part));
 }
 
 std::string name_of(MapScene scene) {
@@ -39,15 +32,8 @@ std::string name_of(MapScene scene) {
 }
 
 std::string name_of(MapGrip grip) {
-    switch (grip) {
-        case MapGrip::bare_arm:
-            return "bare-arm";
-        case MapGrip::light:
-            return "light";
-        case MapGrip::firm:
-            return "firm";
-    }
-    return "unknown";
+    constexpr std::array names{"bare-arm", "light", "firm"};
+    return names.at(static_cast<std::size_t>(grip));
 }
 
 MapGrip grip_named(const std::string& name) {

@@ -15,6 +15,11 @@ inline constexpr double no_share = std::numeric_limits<double>::quiet_NaN();
 struct MapResult {
     const MapPoint& point;
     const MapOutcome& outcome;
+
+    /// What the scene is varied by: resistance, N s/m, or the wall's stiffness, N/mm.
+    double x() const {
+        return point.run.scene == MapScene::cutting ? outcome.resistance_n_s_per_m : point.run.wall_n_per_mm;
+    }
 };
 
 /// In the list's order. `map` must outlive what is returned.

@@ -48,16 +48,11 @@ class Rows {
     std::vector<int> delays_ticks_;
 };
 
-double x_of(const MapResult& result) {
-    return result.point.run.scene == MapScene::cutting ? result.outcome.resistance_n_s_per_m
-                                                       : result.point.run.wall_n_per_mm;
-}
-
 /// Values of x that are apart by more than how a run may measure one resistance.
 std::vector<double> columns_of(const std::vector<MapResult>& results) {
     constexpr double one_column = 1.03;
     std::vector<double> all;
-    for (const MapResult& result : results) all.push_back(x_of(result));
+    for (const MapResult& result : results) all.push_back(result.x());
     std::sort(all.begin(), all.end());
     std::vector<double> columns;
     for (const double x : all)
@@ -89,10 +84,10 @@ std::vector<Run> runs_of(const std::vector<MapResult>& results, const std::vecto
     std::vector<const MapResult*> strip;
     for (const MapResult& result : results) strip.push_back(&result);
     std::stable_sort(strip.begin(), strip.end(),
-                     [](const MapResult* a, const MapResult* b) { return x_of(*a) < x_of(*b); });
+                     [](const MapResult* a, const MapResult* b) { return a->x() < b->x(); });
     std::vector<Run> runs;
     for (const MapResult* result : strip) {
-        const auto above = std::upper_bound(edges.begin(), edges.end(), x_of(*result));
+        const auto above = std::upper_bound(edges.begin(), edges.end(), result->x());
         const Run box{*(above - 1), *above, result->outcome.is_stable};
         if (!runs.empty() && runs.back().is_stable == box.is_stable && runs.back().high == box.low)
             runs.back().high = box.high;
