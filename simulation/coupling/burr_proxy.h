@@ -174,7 +174,7 @@ class BurrProxy {
     glm::dvec3 carving_mm_{0.0};
     glm::dvec3 target_mm_{0.0};  // of the last tick
     glm::dvec3 hand_mm_{0.0};    // of the last tick
-    double apart_mj_ = 0.0;    // that bone lately spent on setting burr and hand apart
+    double apart_mj_ = 0.0;      // that bone lately spent on setting burr and hand apart
     std::uint64_t map_step_ = 0;
     ForceCorrection correction_;
     SolveCounts counts_;
