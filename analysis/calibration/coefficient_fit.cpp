@@ -213,12 +213,13 @@ std::vector<std::optional<Eigen::Vector3d>> predictions_without_each_run(const F
     std::vector<std::optional<Eigen::Vector3d>> predictions;
     for (Eigen::Index run = 0; run < input.force_n.size() / forces_of_a_run; ++run) {
         const FitInput rest = without_run(input, run);
-        if (scaled_condition(rest) > largest_condition) {
-            predictions.emplace_back();
-            continue;
-        }
-        predictions.emplace_back(input.regressors.middleRows<forces_of_a_run>(forces_of_a_run * run) *
-                                 ScaledDesign(whitened(rest)).least_squares(rest));
+        const Design design = whitened(rest);
+        std::optional<Eigen::Vector3d>& prediction = predictions.emplace_back();
+        if (!sees_all(design)) continue;
+        const ScaledDesign scaled(design);
+        if (scaled.condition() > largest_condition) continue;
+        prediction =
+            input.regressors.middleRows<forces_of_a_run>(forces_of_a_run * run) * scaled.least_squares(rest);
     }
     return predictions;
 }
