@@ -99,7 +99,7 @@ TEST_F(BridgePrograms, AnArmThatIsKilledTurnsAllOffAndItsSuccessorGoesOn) {
     expect_no_jump(hand.out());
     EXPECT_GT(told(hand.out(), "largest force"), 0.05) << "it feels again";
     EXPECT_EQ(count(running.err(), device_lost), measured().at("faults").at("device_lost"))
-        << "each is told once";
+        << "each is logged once";
 }
 
 TEST_F(BridgePrograms, AServerThatStandsStillTakesTheForceAwayWithoutAJump) {
