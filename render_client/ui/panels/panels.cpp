@@ -129,6 +129,8 @@ void Panels::load_letters(float scale) {
         atlas.AddFontFromFileTTF(font_file, std::round(letter_px * scale), nullptr, letters.data());
     } else {
         config.SizePixels = std::round(built_in_letter_px * scale);
+        // Its strokes are a pixel high: in small print one row of the texture would be passed over, and every minus lost.
+        config.OversampleV = 2;
         atlas.AddFontDefault(&config);
     }
     // The first ones the back end uploads by itself. Not all of its objects are made anew for others: it
