@@ -12,7 +12,7 @@ namespace osteomill {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 WakeUps wake_ups() {
     static constexpr int count = 500;
@@ -21,11 +21,11 @@ WakeUps wake_ups() {
     late_us.reserve(count);
     std::jthread([&late_us] {
         (void)ask_for_real_time(haptic_priority);
-        Clock::time_point due = Clock::now();
+        SteadyClock::time_point due = SteadyClock::now();
         for (int i = 0; i < count; ++i) {
             due += period;
             std::this_thread::sleep_until(due);
-            late_us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - due).count());
+            late_us.push_back(std::chrono::duration<double, std::micro>(SteadyClock::now() - due).count());
         }
     }).join();
     return {count, percentile(late_us, 0.99), *std::ranges::max_element(late_us)};
@@ -33,9 +33,9 @@ WakeUps wake_ups() {
 
 double clock_ns() {
     constexpr int reads = 10'000;
-    const Clock::time_point begin = Clock::now();
-    Clock::time_point last;
-    for (int i = 0; i < reads; ++i) last = Clock::now();
+    const SteadyClock::time_point begin = SteadyClock::now();
+    SteadyClock::time_point last;
+    for (int i = 0; i < reads; ++i) last = SteadyClock::now();
     return std::chrono::duration<double, std::nano>(last - begin).count() / reads;
 }
 

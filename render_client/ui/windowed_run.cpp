@@ -19,6 +19,7 @@
 #include "render_client/ui/input/commands.h"
 #include "render_client/ui/input/hand_input.h"
 #include "render_client/ui/input/input_mailbox.h"
+#include "render_client/ui/input/window_input.h"
 #include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/view/drawing_thread.h"
 #include "render_client/ui/view/kept_settings.h"
@@ -38,7 +39,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr glm::ivec2 default_size_px(1280, 800);
 constexpr double orbit_rad_per_px = 0.008;
-constexpr double zoom_per_notch = 0.88;
 /// Of the picture's height, for as long as a key is held.
 constexpr double view_motion_a_s = 0.5;
 constexpr double cut_mm_per_notch = 0.5;

@@ -356,7 +356,8 @@ class WindowPermissions : public Permissions {
         command.insert(command.end(), more.begin(), more.end());
         window_.emplace(display_->shown_here(command));
         ASSERT_TRUE(
-            display_->xdotool({"search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus"}));
+            display_->xdotool({"search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus"}))
+            << window_->err();
         ASSERT_TRUE(gets_spindle_by_key()) << window_->err();
     }
     bool gets_spindle_by_key() {

@@ -10,6 +10,9 @@
 
 namespace osteomill {
 
+/// What is seen becomes so many times as wide with each notch of the wheel.
+inline constexpr double zoom_per_notch = 0.88;
+
 struct WindowInput {
     static constexpr std::size_t most_keys = 512;  ///< GLFW numbers fewer
     enum Button : std::size_t { left, right, middle, buttons };

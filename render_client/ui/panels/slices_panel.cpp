@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "render_client/ui/input/window_input.h"
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/words/translation.h"
 
@@ -18,7 +19,6 @@ namespace {
 
 /// Edges of a slice's picture, in heights of a letter.
 constexpr std::array<float, 3> edges{17.0f, 13.0f, 9.0f};
-constexpr double zoom_per_notch = 0.88;
 constexpr double window_hu_per_px = 8.0;
 constexpr float narrowest_window_hu = 50.0f;
 constexpr float widest_window_hu = 5000.0f;
