@@ -118,7 +118,7 @@ class Operator {
 };
 
 TEST_P(HeldUpLog, DoesNotKeepTheBurrOfAnOperatorTurningWhoHasLeft) {
-    // A machine that is busy may not have read the last frame when it came: often is a defect.
+    // A machine that is busy may not have read the last frame when it came, nor ended a step in a millisecond: often is a defect.
     for (int attempt = 1;; ++attempt) {
         const Output log(GetParam());
         ChildProcess server(this->server({"--device", "client"}), {.err = log.descriptor()});
@@ -145,9 +145,11 @@ TEST_P(HeldUpLog, DoesNotKeepTheBurrOfAnOperatorTurningWhoHasLeft) {
             removed_at_off_mm3 = tick.removed_mm3;
         }
         std::printf("spindle off %.0f ms after the last message at the latest\n", 1e3 * (off_s - left_s));
-        if (off_s > left_s + 0.25 && attempt < 10) continue;
+        // But for the step under way.
+        const double removed_later_mm3 = ticks.back().removed_mm3 - removed_at_off_mm3;
+        if ((off_s > left_s + 0.25 || removed_later_mm3 > 0.01) && attempt < 10) continue;
         EXPECT_LE(off_s, left_s + 0.25);
-        EXPECT_NEAR(ticks.back().removed_mm3, removed_at_off_mm3, 0.01) << "but for the step under way";
+        EXPECT_LE(removed_later_mm3, 0.01);
         return;
     }
 }
