@@ -1,4 +1,4 @@
-# osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ... [LOOPS]): one static library per folder of the house.
+# osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ... [LOOPS]): one static library of a folder of the house, or of several.
 # Includes are written from the repository root ("common/bone/grid.h"). LOOPS: it has inner loops that
 # somebody waits for, see osteomill_optimisation.cmake.
 function(osteomill_module name)
