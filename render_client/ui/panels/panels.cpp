@@ -1,8 +1,6 @@
 #include "render_client/ui/panels/panels.h"
 
 #include <backends/imgui_impl_opengl3.h>
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 // Which windows there are, only this header knows.
 #include <imgui_internal.h>
@@ -15,6 +13,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "render_client/ui/panels/panel_input.h"
 #include "render_client/ui/panels/panel_painter.h"
 
 namespace osteomill {
@@ -25,18 +24,6 @@ namespace {
 constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float letter_px = 14.0f;
 constexpr float built_in_letter_px = 13.0f;
-
-/// Keys that texts are edited with and pages are gone through, of GLFW and of Dear ImGui.
-constexpr std::array panel_keys{
-    std::pair{GLFW_KEY_BACKSPACE, ImGuiKey_Backspace}, std::pair{GLFW_KEY_DELETE, ImGuiKey_Delete},
-    std::pair{GLFW_KEY_LEFT, ImGuiKey_LeftArrow}, std::pair{GLFW_KEY_RIGHT, ImGuiKey_RightArrow},
-    std::pair{GLFW_KEY_HOME, ImGuiKey_Home}, std::pair{GLFW_KEY_END, ImGuiKey_End},
-    std::pair{GLFW_KEY_ENTER, ImGuiKey_Enter}, std::pair{GLFW_KEY_UP, ImGuiKey_UpArrow},
-    std::pair{GLFW_KEY_DOWN, ImGuiKey_DownArrow}, std::pair{GLFW_KEY_TAB, ImGuiKey_Tab},
-    std::pair{GLFW_KEY_SPACE, ImGuiKey_Space},
-    // With Ctrl: all, copy, paste, cut, redo, undo.
-    std::pair{GLFW_KEY_A, ImGuiKey_A}, std::pair{GLFW_KEY_C, ImGuiKey_C}, std::pair{GLFW_KEY_V, ImGuiKey_V},
-    std::pair{GLFW_KEY_X, ImGuiKey_X}, std::pair{GLFW_KEY_Y, ImGuiKey_Y}, std::pair{GLFW_KEY_Z, ImGuiKey_Z}};
 
 /// Latin letters, and the signs on the tool bar.
 constexpr std::array<ImWchar, 11> letters{0x20,   0x17F,  0x2190, 0x21FF, 0x2300, 0x231F,
@@ -94,8 +81,7 @@ Panels::Panels() {
     ImGui::CreateContext();
     // No file is written beside the program.
     ImGui::GetIO().IniFilename = nullptr;
-    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-    for (const auto& [key, in_imgui] : panel_keys) ImGui::GetIO().KeyMap[in_imgui] = in_imgui;
+    prepare_panel_input(ImGui::GetIO());
     if (ImGui_ImplOpenGL3_Init("#version 330 core")) return;
     ImGui::DestroyContext();
     throw std::runtime_error("Dear ImGui finds no OpenGL 3 (libGL.so.1); install it: apt-get install libgl1");
@@ -141,30 +127,7 @@ void Panels::load_letters(float scale) {
 }
 
 void Panels::feed(const WindowInput& input) {
-    ImGuiIO& io = ImGui::GetIO();
-    constexpr float nowhere = -std::numeric_limits<float>::max();
-    const glm::vec2 at(input.cursor * input.px_per_unit());
-    io.MousePos = input.has_cursor ? ImVec2(at.x, at.y) : ImVec2(nowhere, nowhere);
-    // A click that is shorter than a frame is one all the same.
-    const auto is_down = [&](WindowInput::Button button) {
-        return input.is_down[button] || input.went_down[button];
-    };
-    io.MouseDown[ImGuiMouseButton_Left] = is_down(WindowInput::left);
-    io.MouseDown[ImGuiMouseButton_Right] = is_down(WindowInput::right);
-    io.MouseDown[ImGuiMouseButton_Middle] = is_down(WindowInput::middle);
-    io.MouseWheel += static_cast<float>(input.wheel.y);
-    io.MouseWheelH += static_cast<float>(input.wheel.x);
-    for (const char32_t character : input.typed) io.AddInputCharacter(character);
-    for (const auto& [key, in_imgui] : panel_keys) {
-        const bool was_pressed =
-            std::find(input.presses.begin(), input.presses.end(), key) != input.presses.end();
-        io.KeysDown[in_imgui] = was_pressed || input.keys_down[static_cast<std::size_t>(key)];
-    }
-    // Dear ImGui presses what has the focus by SPACE alone.
-    if (io.KeysDown[ImGuiKey_Enter] && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1.0f;
-    io.KeyShift = input.shift;
-    io.KeyCtrl = input.ctrl;
-    io.KeyAlt = input.alt;
+    feed_panel_input(input, ImGui::GetIO());
 }
 
 void Panels::begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s, ThemeName theme,

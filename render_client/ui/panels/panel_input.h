@@ -1,0 +1,18 @@
+// A window's mouse and keys as Dear ImGui takes them. The one place that knows how its versions differ: up
+// to 1.86 (Debian 12) a program writes the state of keys into tables, from 1.87 on (Debian 13) it reports
+// events, and the tables are refused.
+#pragma once
+
+#include <imgui.h>
+
+#include "render_client/ui/input/window_input.h"
+
+namespace osteomill {
+
+/// Once for each context, before its first frame.
+void prepare_panel_input(ImGuiIO& io);
+
+/// Mouse and keys for the next frame. A press that is shorter than a frame lasts for one.
+void feed_panel_input(const WindowInput& input, ImGuiIO& io);
+
+}  // namespace osteomill

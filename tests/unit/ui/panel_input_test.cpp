@@ -1,0 +1,113 @@
+#include "render_client/ui/panels/panel_input.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+namespace osteomill::panel_input_test {
+namespace {
+
+/// A page of one text and one button, without anything to draw on.
+class PanelInput : public ::testing::Test {
+  protected:
+    PanelInput() {
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.DisplaySize = {400.0f, 300.0f};
+        unsigned char* pixels = nullptr;
+        io.Fonts->GetTexDataAsRGBA32(&pixels, nullptr, nullptr);
+        prepare_panel_input(io);
+        input_.size = {400.0, 300.0};
+        input_.framebuffer_size_px = {400, 300};
+        for (int i = 0; i < 3; ++i) draw();
+    }
+    ~PanelInput() override { ImGui::DestroyContext(); }
+
+    void draw() {
+        feed_panel_input(input_, ImGui::GetIO());
+        input_.forget_events();
+        ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
+        ImGui::NewFrame();
+        ImGui::SetNextWindowPos({0.0f, 0.0f});
+        ImGui::SetNextWindowSize({400.0f, 300.0f});
+        ImGui::Begin("page", nullptr, ImGuiWindowFlags_NoDecoration);
+        ImGui::InputText("text", text_.data(), text_.size());
+        text_at_ = ImGui::GetItemRectMin();
+        if (ImGui::Button("button")) ++presses_;
+        button_at_ = ImGui::GetItemRectMin();
+        ImGui::End();
+        ImGui::Render();
+    }
+
+    /// A key that is down and up again between two frames.
+    void strike(int key) {
+        input_.presses.push_back(key);
+        for (int i = 0; i < 3; ++i) draw();
+    }
+    void click(ImVec2 at) {
+        input_.has_cursor = true;
+        input_.cursor = {at.x + 4.0, at.y + 4.0};
+        draw();
+        input_.went_down[WindowInput::left] = true;
+        for (int i = 0; i < 3; ++i) draw();
+    }
+    std::string text() const { return text_.data(); }
+
+    WindowInput input_;
+    std::array<char, 32> text_{};
+    ImVec2 text_at_{}, button_at_{};
+    int presses_ = 0;
+};
+
+TEST_F(PanelInput, ClickShorterThanAFramePresses) {
+    click(button_at_);
+    EXPECT_EQ(presses_, 1);
+}
+
+TEST_F(PanelInput, KeysEditATextThatWasClicked) {
+    click(text_at_);
+    input_.typed = {U'a', U'\u00fc', U'c'};
+    draw();
+    EXPECT_EQ(text(), "a\u00fcc");
+    strike(GLFW_KEY_BACKSPACE);
+    EXPECT_EQ(text(), "a\u00fc");
+    strike(GLFW_KEY_HOME);
+    strike(GLFW_KEY_DELETE);
+    EXPECT_EQ(text(), "\u00fc");
+}
+
+TEST_F(PanelInput, CtrlWithALetterIsACommandOfTheText) {
+    click(text_at_);
+    input_.typed = {U'a', U'b'};
+    draw();
+    input_.ctrl = true;
+    strike(GLFW_KEY_A);
+    input_.ctrl = false;
+    strike(GLFW_KEY_BACKSPACE);
+    EXPECT_EQ(text(), "");
+}
+
+TEST_F(PanelInput, EnterAndSpacePressWhatHasTheFocus) {
+    click(button_at_);  // which gets the focus
+    input_.cursor = {300.0, 250.0};
+    strike(GLFW_KEY_DOWN);  // shows the focus
+    const int before = presses_;
+    strike(GLFW_KEY_ENTER);
+    EXPECT_EQ(presses_, before + 1);
+    strike(GLFW_KEY_SPACE);
+    EXPECT_EQ(presses_, before + 2);
+}
+
+TEST_F(PanelInput, CursorOutsideOfTheWindowIsNowhere) {
+    click(button_at_);
+    input_.has_cursor = false;
+    draw();
+    EXPECT_FALSE(ImGui::IsMousePosValid());
+}
+
+}  // namespace
+}  // namespace osteomill::panel_input_test
