@@ -146,8 +146,8 @@ void add_samples(const std::vector<std::uint8_t>& line, std::size_t count, bool 
 
 SlicePicture read_png_slice(const std::filesystem::path& path) {
     { const InputFile is_one(path); }
-    const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rb"),
-                                                                  &std::fclose);
+    constexpr auto close = [](std::FILE* opened) { std::fclose(opened); };
+    const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"));
     if (!file) throw ImagingError(path, "cannot be opened");
     PngRows rows;
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &rows.message, note_png_error,
