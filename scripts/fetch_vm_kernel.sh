@@ -8,7 +8,7 @@ folder=${1:-build/vm-kernel}
 [ -e "$folder/vmlinuz" ] && exit
 
 package=$(apt-cache depends linux-image-cloud-amd64 | sed -n 's/^ *Depends: \(linux-image-[0-9].*\)$/\1/p' | head -n 1)
-[ -n "$package" ] || { echo "apt knows no linux-image-cloud-amd64: is this Debian 12, and has apt-get update been run?" >&2; exit 1; }
+[ -n "$package" ] || { echo "apt knows no linux-image-cloud-amd64: is this Debian, and has apt-get update been run?" >&2; exit 1; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 (cd "$scratch" && apt-get download -q "$package" >download.log 2>&1) || { cat "$scratch/download.log" >&2; exit 1; }
