@@ -10,7 +10,7 @@ void VerifiedReplica::begin(SessionInfo session) {
 }
 
 std::optional<BoneReplica> VerifiedReplica::take(BoneArrived arrived) {
-    std::optional<BoneReplica> before = std::exchange(replica_, std::nullopt);
+    std::optional<BoneReplica> before = std::move(replica_);
     replica_.emplace(std::move(arrived.bone), std::move(arrived.checksum));
     return before;
 }
