@@ -1,10 +1,11 @@
-# Warnings for every target of the project; third-party headers are SYSTEM and exempt. They are errors where
-# CMAKE_COMPILE_WARNING_AS_ERROR is set: by the preset `debug`, and by OSTEOMILL_WARNINGS_AS_ERRORS=ON in the environment, as continuous
-# integration does. A user's compiler may be newer than any that was tried, and its new warnings must not stop his build.
+# Warnings for every target of the project; third-party headers are SYSTEM and exempt. They are errors for developers and in continuous
+# integration: in the preset `debug`, and where OSTEOMILL_WARNINGS_AS_ERRORS=ON is in the environment. A user's compiler may be newer than
+# any that was tried, and its new warnings must not stop his build.
+option(OSTEOMILL_WARNINGS_AS_ERRORS "A warning stops the build" OFF)
 add_library(osteomill_warnings INTERFACE)
 target_compile_options(osteomill_warnings INTERFACE
     -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-    -Woverloaded-virtual)
+    -Woverloaded-virtual $<$<BOOL:${OSTEOMILL_WARNINGS_AS_ERRORS}>:-Werror>)
 # A name within a function hides nothing of its own file where what it hides belongs to a file that is joined with it; clang cannot tell
 # these from names that a function hides of itself.
 target_compile_options(osteomill_warnings INTERFACE
