@@ -23,16 +23,26 @@ CREATE TABLE IF NOT EXISTS metric(digest TEXT NOT NULL REFERENCES session ON DEL
 /// Whoever adds sessions has this lock until its transaction ends; any number that is always the same.
 constexpr const char* one_at_a_time = "SELECT pg_advisory_xact_lock(1869836397)";
 
+/// $1, $2 ... of the command are the values; libpqxx 7.10 (Debian 13) deprecates what 6.4 (Debian 12) has for
+/// it.
+template <typename... Values>
+void execute(pqxx::work& work, const char* command, const Values&... values) {
+#if PQXX_VERSION_MAJOR > 7 || (PQXX_VERSION_MAJOR == 7 && PQXX_VERSION_MINOR >= 10)
+    work.exec(command, pqxx::params{values...});
+#else
+    work.exec_params(command, values...);
+#endif
+}
+
 void add(pqxx::work& work, const SessionRecord& session) {
-    work.exec_params("DELETE FROM session WHERE digest = $1", session.digest);
-    work.exec_params("INSERT INTO session VALUES($1, $2, $3, $4, $5)", session.digest, session.file,
-                     session.trainee, session.case_name, session.began_unix_ns);
+    execute(work, "DELETE FROM session WHERE digest = $1", session.digest);
+    execute(work, "INSERT INTO session VALUES($1, $2, $3, $4, $5)", session.digest, session.file,
+            session.trainee, session.case_name, session.began_unix_ns);
     int place = 0;
     for (const MetricRow& metric : session.metrics) {
         const std::string value = metric.value ? fmt::format("{}", *metric.value) : "";
-        work.exec_params("INSERT INTO metric VALUES($1, $2, $3, $4, $5, $6, $7)", session.digest, place++,
-                         metric.key, metric.of, metric.value ? value.c_str() : nullptr, metric.unit,
-                         metric.text);
+        execute(work, "INSERT INTO metric VALUES($1, $2, $3, $4, $5, $6, $7)", session.digest, place++,
+                metric.key, metric.of, metric.value ? value.c_str() : nullptr, metric.unit, metric.text);
     }
 }
 
