@@ -8,6 +8,8 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
+import sysconfig
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
@@ -22,7 +24,10 @@ class BuildWithCMake(build_ext):
         to = pathlib.Path(self.get_ext_fullpath(extension.name))
         to.parent.mkdir(parents=True, exist_ok=True)
         folder = pathlib.Path(os.environ.get("OSTEOMILL_MODULES") or self.built_modules())
-        [built] = folder.glob(f"{extension.name.rpartition('.')[2]}.*.so")
+        built = folder / (extension.name.rpartition(".")[2] + sysconfig.get_config_var("EXT_SUFFIX"))
+        if not built.exists():
+            there = ", ".join(sorted(file.name for file in folder.glob("*.so"))) or "no module"
+            sys.exit(f"{built} is missing, the module for this Python ({sys.executable}); {there} is there: use the Python of that")
         shutil.copy(built, to)
 
     def built_modules(self):

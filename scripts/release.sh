@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Makes a release of what is committed: packages, source, wheel, bill of materials, checksums and their signature in out/release/VERSION,
-# and then the signed tag. Publishing is copying that folder and pushing the tag; the last lines say how.
+# Makes a release of what is committed: packages, source, wheel and bill of materials for each system of suite.sh, checksums and their
+# signature in out/release/VERSION, and then the signed tag. Publishing is copying that folder and pushing the tag; the last lines say how.
 #   scripts/release.sh [--dry-run] [--minisign SECRET_KEY]
 #     --dry-run    all of it but the tag
 #     --minisign   signs the checksums; a key is made by: minisign -G
-# Takes packages of out/packages that are of this commit, else has scripts/package.sh build them.
+# Takes what scripts/package.sh has left in out/packages/SUITE, if it is of this commit; has it build those for this system otherwise.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. scripts/suite.sh
 fail() { echo "release: $*" >&2; exit 1; }
 
 dry_run= key=
@@ -28,21 +29,18 @@ awk -v heading="## $version" '$0 == heading { found = 1; next } /^## / { found =
 ! git rev-parse -q --verify "refs/tags/v$version" >/dev/null || fail "v$version is tagged already: raise the version in CMakeLists.txt and debian/changelog"
 [ -z "$key" ] || command -v minisign >/dev/null || fail "minisign is not installed (apt-get install minisign)"
 
-packages=out/packages
-[ "$(cat "$packages/commit" 2>/dev/null)" = "$commit" ] || scripts/package.sh "$packages"
+of_this_commit() { [ "$(cat "out/packages/$1/commit" 2>/dev/null)" = "$commit" ]; }
+to_build=
+for each in "${supported_suites[@]}"; do
+    of_this_commit "$each" && continue
+    [ "$each" = "$suite" ] || fail "out/packages/$each holds no packages of this commit: build them by scripts/package.sh on a Debian $each, and bring the folder here"
+    to_build=1
+done
+[ -z "$to_build" ] || scripts/package.sh
 
 out=out/release/$version
 rm -rf "$out" && mkdir -p "$out"
-cp "$packages"/*_"$version"[_.]* "$out"
-installed=$(mktemp -d)
-trap 'rm -rf "$installed"' EXIT
-for package in "$out"/*.deb; do dpkg-deb -x "$package" "$installed"; done
-SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
-export SOURCE_DATE_EPOCH
-# Of the package's modules, which need Debian 12's libraries: there is nothing to compile anew.
-OSTEOMILL_MODULES=$(dirname "$(find "$installed" -name "_core.*.so")") \
-    /usr/bin/python3 -m pip --quiet wheel --no-build-isolation --no-index --no-deps --wheel-dir "$out" ./python
-scripts/bill_of_materials.py "$installed"/usr/bin/* >"$out/osteomill-$version.spdx.json"
+for each in "${supported_suites[@]}"; do cp "out/packages/$each"/*osteomill* "$out"; done
 (cd "$out" && LC_ALL=C sha256sum -- * >SHA256SUMS)
 [ -z "$key" ] || minisign -S -s "$key" -m "$out/SHA256SUMS" -t "osteomill $version, commit $commit" >/dev/null
 ls -s --block-size=1k "$out"
@@ -52,5 +50,5 @@ if [ -n "$dry_run" ]; then
     echo "dry run: v$version of $commit is not tagged"
 else
     git tag --sign "v$version" -m "Osteomill $version"
-    echo "to publish: git push origin v$version; scripts/apt_repository.sh FOLDER; copy both folders to the server"
+    echo "to publish: git push origin v$version; scripts/apt_repository.sh FOLDER KEY; copy both folders to the server"
 fi

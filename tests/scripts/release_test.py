@@ -1,4 +1,5 @@
-"""scripts/release.sh in a small repository of its own, with a package that is there already: what it makes and what it refuses."""
+"""scripts/release.sh in a small repository of its own, with packages that are there already: what it makes and what it refuses. And what
+depends on the system beside the packages, by scripts/wheel_of_packages.sh."""
 
 import pathlib
 import shutil
@@ -12,7 +13,9 @@ import zipfile
 SOURCE = pathlib.Path(sys.argv.pop())
 RENDER = "_render" + sysconfig.get_config_var("EXT_SUFFIX")
 CORE = "_core" + sysconfig.get_config_var("EXT_SUFFIX")
-WHEEL = f"osteomill-1.2.3-cp311-cp311-{sysconfig.get_platform().replace('-', '_')}.whl"
+PYTHON = f"cp{sys.version_info.major}{sys.version_info.minor}"
+WHEEL = f"osteomill-1.2.3-{PYTHON}-{PYTHON}-{sysconfig.get_platform().replace('-', '_')}.whl"
+SUITES = {"bookworm": "osteomill-server_1.2.3+deb12u1_all.deb", "trixie": "osteomill-server_1.2.3+deb13u1_all.deb"}
 
 
 def run(*command, cwd):
@@ -26,7 +29,7 @@ class Release(unittest.TestCase):
         self.key = pathlib.Path(self.keep.name) / "release.key"
         self.tree = pathlib.Path(self.keep.name) / "tree"
         (self.tree / "scripts").mkdir(parents=True)
-        for script in ("release.sh", "bill_of_materials.py"):
+        for script in ("release.sh", "suite.sh", "wheel_of_packages.sh", "bill_of_materials.py"):
             shutil.copy(SOURCE / "scripts" / script, self.tree / "scripts")
         (self.tree / "python").mkdir()
         for file in ("setup.py", "pyproject.toml"):
@@ -43,8 +46,8 @@ class Release(unittest.TestCase):
         self.assertEqual(said.returncode, 0, said.stderr)
         return said.stdout.strip()
 
-    def commit(self):
-        """And a package of what is committed, as scripts/package.sh leaves one."""
+    def commit(self, core=CORE):
+        """And packages of what is committed for both systems, as scripts/package.sh leaves them."""
         self.git("add", "--all")
         self.git("commit", "--quiet", "--allow-empty", "-m", "a change")
         made = self.tree / "out" / "made"
@@ -52,16 +55,22 @@ class Release(unittest.TestCase):
         modules = made / "usr/lib/python3/dist-packages/osteomill"
         for folder in (made / "usr/bin", modules):
             folder.mkdir(parents=True, exist_ok=True)
-        shutil.copy("/bin/false", modules / CORE)
+        for module in modules.iterdir():
+            module.unlink()
+        shutil.copy("/bin/false", modules / core)
         shutil.copy("/bin/true", modules / RENDER)
         shutil.copy("/bin/true", made / "usr/bin/haptic_server")
         (made / "DEBIAN/control").write_text("Package: osteomill-server\nVersion: 1.2.3\nArchitecture: all\n"
                                              "Maintainer: a <a@b.example>\nDescription: a\n")
-        packages = self.tree / "out/packages"
-        packages.mkdir(exist_ok=True)
-        built = run("dpkg-deb", "--build", str(made), str(packages / "osteomill-server_1.2.3_all.deb"), cwd=self.tree)
-        self.assertEqual(built.returncode, 0, built.stderr)
-        (packages / "commit").write_text(self.git("rev-parse", "HEAD") + "\n")
+        for suite, package in SUITES.items():
+            packages = self.tree / "out/packages" / suite
+            packages.mkdir(parents=True, exist_ok=True)
+            built = run("dpkg-deb", "--build", str(made), str(packages / package), cwd=self.tree)
+            self.assertEqual(built.returncode, 0, built.stderr)
+            (packages / "commit").write_text(self.git("rev-parse", "HEAD") + "\n")
+
+    def complete(self, suite):
+        return run("scripts/wheel_of_packages.sh", f"out/packages/{suite}", cwd=self.tree)
 
     def release(self, *options):
         return run("scripts/release.sh", "--dry-run", *options, cwd=self.tree)
@@ -78,10 +87,9 @@ class Release(unittest.TestCase):
         said = self.release("--minisign", str(self.key))
         self.assertEqual(said.returncode, 0, said.stderr)
         out = self.tree / "out/release/1.2.3"
-        self.assertEqual({file.name for file in out.iterdir()},
-                         {"osteomill-server_1.2.3_all.deb", WHEEL, "osteomill-1.2.3.spdx.json", "SHA256SUMS", "SHA256SUMS.minisig"})
+        self.assertEqual({file.name for file in out.iterdir()}, {*SUITES.values(), "SHA256SUMS", "SHA256SUMS.minisig"})
         self.assertEqual(run("sha256sum", "--check", "--strict", "SHA256SUMS", cwd=out).returncode, 0)
-        self.assertEqual(len((out / "SHA256SUMS").read_text().splitlines()), 3)
+        self.assertEqual(len((out / "SHA256SUMS").read_text().splitlines()), 2)
         check = ("minisign", "-V", "-p", str(public), "-m", "SHA256SUMS")
         self.assertIn(self.git("rev-parse", "HEAD"), run(*check, cwd=out).stdout)
         self.assertEqual(self.git("tag"), "")
@@ -89,18 +97,42 @@ class Release(unittest.TestCase):
             sums.write("more\n")
         self.assertNotEqual(run(*check, cwd=out).returncode, 0)
 
-    def test_has_a_wheel_of_the_core_in_the_package(self):
+    def test_has_the_wheel_and_the_bill_that_are_beside_the_packages(self):
+        packages = self.tree / "out/packages/bookworm"
         bytes_of_wheel = []
         for _ in range(2):
-            said = self.release()
+            said = self.complete("bookworm")
             self.assertEqual(said.returncode, 0, said.stderr)
-            file = self.tree / "out/release/1.2.3" / WHEEL
-            bytes_of_wheel.append(file.read_bytes())
-            with zipfile.ZipFile(file) as wheel:
+            bytes_of_wheel.append((packages / WHEEL).read_bytes())
+            with zipfile.ZipFile(packages / WHEEL) as wheel:
                 self.assertEqual(wheel.read(f"osteomill/{CORE}"), pathlib.Path("/bin/false").read_bytes())
                 self.assertEqual(wheel.read(f"osteomill/{RENDER}"), pathlib.Path("/bin/true").read_bytes())
                 self.assertIn("osteomill/_core.pyi", wheel.namelist())
         self.assertEqual(*bytes_of_wheel)
+        said = self.release()
+        self.assertEqual(said.returncode, 0, said.stderr)
+        names = {file.name for file in (self.tree / "out/release/1.2.3").iterdir()}
+        self.assertIn(WHEEL, names)
+        [bill] = [name for name in names if name.endswith(".spdx.json")]
+        self.assertRegex(bill, r"osteomill-1\.2\.3-\w+\.spdx\.json")
+
+    def test_makes_no_wheel_for_a_python_that_the_modules_are_not_for(self):
+        other = CORE.replace(f"-{sys.version_info.major}{sys.version_info.minor}-", "-399-")
+        self.assertNotEqual(other, CORE)
+        self.commit(core=other)
+        said = self.complete("bookworm")
+        self.assertNotEqual(said.returncode, 0)
+        self.assertIn(f"{CORE} is missing, the module for this Python", said.stderr)
+        self.assertIn(other, said.stderr)
+        self.assertEqual(list((self.tree / "out/packages/bookworm").glob("*.whl")), [])
+
+    def test_refuses_packages_that_are_of_another_commit_or_of_one_system_alone(self):
+        here = run("bash", "-c", ". scripts/suite.sh && echo $suite", cwd=self.tree).stdout.strip()
+        [other] = SUITES.keys() - {here} if here in SUITES else ["trixie"]
+        (self.tree / "out/packages" / other / "commit").write_text("an older one\n")
+        self.assertIn(f"out/packages/{other} holds no packages of this commit", self.refusal())
+        shutil.rmtree(self.tree / "out/packages" / other)
+        self.assertIn(f"out/packages/{other} holds no packages of this commit", self.refusal())
 
     def test_says_that_it_is_not_signed_without_a_key(self):
         said = self.release()
