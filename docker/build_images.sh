@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Builds the images osteomill-server and osteomill-client of the project's Debian packages.
 #   docker/build_images.sh [--base IMAGE] [--packages FOLDER]
-# IMAGE is a Debian 12: debian:bookworm-slim unless said otherwise, or what make_base_image.sh made. FOLDER is as scripts/package.sh
-# leaves it: out/packages unless said otherwise. DOCKER=podman builds them with Podman.
+# FOLDER is as scripts/package.sh leaves it: out/packages/SUITE of the newest suite unless said otherwise. IMAGE is the Debian that they
+# are for: debian:SUITE-slim unless said otherwise, or what make_base_image.sh made. DOCKER=podman builds them with Podman.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-base=debian:bookworm-slim
-packages=out/packages
+. scripts/suite.sh
+packages=out/packages/${supported_suites[-1]}
+base=
 while [ $# -gt 0 ]; do
     case $1 in
         --base) base=${2:?"--base needs an image"}; shift 2 ;;
@@ -15,7 +16,8 @@ while [ $# -gt 0 ]; do
         *) echo "unknown argument '$1'; choose from --base IMAGE, --packages FOLDER" >&2; exit 2 ;;
     esac
 done
-[ -e "$packages/commit" ] || { echo "$packages holds no packages: scripts/package.sh $packages builds them" >&2; exit 1; }
+[ -e "$packages/commit" ] || { echo "$packages holds no packages: scripts/package.sh builds them, on the Debian that they are for" >&2; exit 1; }
+base=${base:-debian:$(sed -n 's/^Distribution: //p' "$packages"/osteomill_*.changes)-slim}
 
 context=$(mktemp -d)
 trap 'rm -rf "$context"' EXIT

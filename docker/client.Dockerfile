@@ -1,6 +1,6 @@
 # render_client, of the project's Debian package, drawing offscreen on the processor: docker/build_images.sh
-# BASE: a Debian 12.
-ARG BASE=debian:bookworm-slim
+# BASE: the Debian that the packages are for.
+ARG BASE=debian:trixie-slim
 FROM ${BASE}
 ARG DEBIAN_FRONTEND=noninteractive
 COPY osteomill-client_*.deb /packages/

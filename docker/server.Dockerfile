@@ -1,6 +1,6 @@
 # haptic_server and packet_replay, of the project's Debian packages: docker/build_images.sh
-# BASE: a Debian 12.
-ARG BASE=debian:bookworm-slim
+# BASE: the Debian that the packages are for.
+ARG BASE=debian:trixie-slim
 FROM ${BASE}
 ARG DEBIAN_FRONTEND=noninteractive
 COPY osteomill-server_*.deb osteomill-tools_*.deb /packages/
