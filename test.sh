@@ -2,13 +2,15 @@
 # Installs, builds and runs the tests: optimised, then under AddressSanitizer and UBSan; those of code with threads under
 # ThreadSanitizer, too. With AddressSanitizer, a minute of hostile input under libFuzzer.
 #   ./test.sh             what continuous integration runs: all of these, without the tests of the label `nightly`
-#   ./test.sh all         those, too, more programs under the sanitizers and longer fuzzing; and the benchmarks are built
+#   ./test.sh all         those, too, more programs under the sanitizers and longer fuzzing; the benchmarks are built, and demo, tests and
+#                         packages are tried in a bare root of the other Debian, where one can be made
 #   ./test.sh release     one (or several) of: release debug asan tsan; `all` before them as above
 set -euo pipefail
 cd "$(dirname "$0")"
 source scripts/prepare.sh
 
 left_out=(-LE nightly)
+everything=
 more=()
 configure=()
 fuzzing_s=6  # each of the eleven targets
@@ -17,6 +19,7 @@ if [ "${1:-}" = all ]; then
     more=(all benchmarks)
     configure=(-DOSTEOMILL_NIGHTLY=ON)
     fuzzing_s=60
+    everything=yes
     shift
 fi
 presets=("$@")
@@ -43,3 +46,4 @@ for preset in "${presets[@]}"; do
         tests/fuzz/run.sh "$fuzzing_s"
     fi
 done
+if [ -n "$everything" ]; then try_other_debian demo test packages; fi

@@ -19,19 +19,16 @@ suite_of() {
     sed -n 's/^Distribution: //p' "${changes[0]}"
 }
 
-# make_bare_root SUITE
-make_bare_root() {
-    [ "$(id -u)" -eq 0 ] || { echo "debootstrap needs root" >&2; exit 1; }
-    command -v debootstrap >/dev/null || { echo "debootstrap is not installed (apt-get install debootstrap)" >&2; exit 1; }
-    local roots=${OSTEOMILL_ROOTS:-/var/tmp/osteomill-roots}
-    local tar=$roots/$1.tar
+# unpack_bare_root SUITE: into the folder `root`. False where there is none and debootstrap makes none; it has said why.
+unpack_bare_root() {
+    local roots=${OSTEOMILL_ROOTS:-/var/tmp/osteomill-roots} tar
+    tar=$roots/$1.tar
     mkdir -p "$roots"
-    root=$(mktemp -d)
-    export GNUPGHOME=$root.keys
-    trap remove_bare_root EXIT
     if [ ! -e "$tar" ]; then
         say "a bare Debian $1"
-        debootstrap --variant=minbase "$1" "$root" "${OSTEOMILL_MIRROR:-http://deb.debian.org/debian}" >"$root.log" 2>&1 || { tail "$root.log" >&2; exit 1; }
+        debootstrap --variant=minbase "$1" "$root" "${OSTEOMILL_MIRROR:-http://deb.debian.org/debian}" >"$root.log" 2>&1 ||
+            { tail -3 "$root.log" >&2; rm "$root.log"; return 1; }
+        rm "$root.log"
         tar -C "$root" -cf "$root.tar" . && mv "$root.tar" "$tar"
     else
         tar -C "$root" -xf "$tar"
@@ -40,6 +37,16 @@ make_bare_root() {
     chmod 755 "$root"  # apt fetches as a user of its own
     cp /etc/resolv.conf "$root/etc/"
     printf '#!/bin/sh\nexit 101\n' >"$root/usr/sbin/policy-rc.d" && chmod +x "$root/usr/sbin/policy-rc.d"  # no daemon starts
+}
+
+# make_bare_root SUITE
+make_bare_root() {
+    [ "$(id -u)" -eq 0 ] || { echo "debootstrap needs root" >&2; exit 1; }
+    command -v debootstrap >/dev/null || { echo "debootstrap is not installed (apt-get install debootstrap)" >&2; exit 1; }
+    root=$(mktemp -d)
+    export GNUPGHOME=$root.keys
+    trap remove_bare_root EXIT
+    unpack_bare_root "$1" || exit 1
     mount --bind /dev "$root/dev"
     mount -t proc proc "$root/proc"
 }
@@ -47,7 +54,7 @@ make_bare_root() {
 remove_bare_root() {
     gpgconf --kill all
     umount -q "$root/proc" "$root/dev" || true
-    rm -rf --one-file-system "$root" "$root.log" "$GNUPGHOME"
+    rm -rf --one-file-system "$root" "$GNUPGHOME"
 }
 
 # serve_packages FOLDER...: a repository of them in the root, signed by a key of today, and the root's apt told of the first one's suite.

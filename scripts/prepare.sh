@@ -1,6 +1,9 @@
 # Sourced by demo.sh and test.sh: installs what is missing, then configures and builds a preset. Works offline once the packages
 # are there.
 
+# While ninja builds: how far it is, and since when.
+export NINJA_STATUS="[%p after %e s] "
+
 say() { printf '\n== %s\n' "$*"; }
 
 # install_packages LIST...: installs what the lists name and is not there yet; asks for root only then.
@@ -33,4 +36,20 @@ build() {
     cmake --preset "$preset" "${configure[@]}" >"build-$preset.log" 2>&1 || { cat "build-$preset.log"; rm "build-$preset.log"; exit 1; }
     rm "build-$preset.log"
     cmake --build --preset "$preset" ${1:+--target "$@"}
+}
+
+# about_minutes CORE_S: so many seconds of a core, on this machine's cores.
+about_minutes() {
+    local minutes=$((($1 + 59) / 60 / $(nproc)))
+    echo "about $((minutes > 0 ? minutes : 1)) minutes on $(nproc) cores"
+}
+
+# try_other_debian WHAT...: scripts/try_debian.sh for the Debian that this machine is not. Where no bare root can be made it says why, and
+# that is no failure.
+try_other_debian() {
+    local other=13 result=0
+    [ "$(. /etc/os-release && echo "${VERSION_ID:-}")" != 13 ] || other=12
+    install_packages <(echo debootstrap)
+    scripts/try_debian.sh "$other" "$@" || result=$?
+    [ "$result" -eq 0 ] || [ "$result" -eq 3 ]
 }
