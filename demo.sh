@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Drills the caries out of the built-in jaw: the server with a simulated hand and arm, the client in a window if
-# there is a display, else offscreen. Ends by itself; leaves everything in out/demo/, and the other programs in build/release/bin.
+# there is a display, else offscreen. Ends by itself; leaves everything in out/demo/, the other programs in build/release/bin and
+# the Python module in build/release/python.
 set -euo pipefail
 cd "$(dirname "$0")"
 source scripts/prepare.sh
 
 install_packages scripts/packages.txt
+say "compiling the two programs of the drilling: $(about_minutes 600), the first time"
 build release haptic_server render_client
 
 out=out/demo
@@ -40,7 +42,8 @@ gnuplot -e "forces='$out/forces.csv'; plot_file='$out/forces.png'" scripts/plot_
 printf '{"server": %s,\n"client": %s}\n' "$(cat "$out/server.json")" "$(cat "$out/client.json")" >"$out/summary.json"
 rm "$out/server.json" "$out/client.json"
 
-build release packet_replay bone_import bone_export osteomill_slicer osteomill_study
+say "compiling the other programs and the Python module: $(about_minutes 300), the first time"
+build release packet_replay bone_import bone_export osteomill_slicer osteomill_study osteomill_python
 
-say "done: look into $out/; the programs are in $bin/"
+say "done: look into $out/; the programs are in $bin/, the Python module in build/release/python"
 ls "$out"
