@@ -56,7 +56,7 @@ void SessionControls::end_frame(const Bone& bone, const ToolState& tool) {
     restoration_.clear();
     queue_restored();
     const bool wants_stillness = is_paused_ || is_restoring() || !waiting_.empty();
-    gate_.holds_still.store(wants_stillness, std::memory_order_release);
+    gate_.stillness.set(wants_stillness);
 }
 
 std::string SessionControls::act(const Waiting& waiting, const Bone& bone, const ToolState& tool) {
@@ -77,6 +77,8 @@ std::string SessionControls::act(const Waiting& waiting, const Bone& bone, const
         case SessionAction::pause:
         case SessionAction::resume:
             is_paused_ = control.action == SessionAction::pause;
+            // At once: a pause that ends in the same frame has been one.
+            if (is_paused_) gate_.stillness.set(true);
             break;
         case SessionAction::speed:
             choose_speed(control);

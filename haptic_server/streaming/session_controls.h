@@ -53,7 +53,7 @@ class SessionControls {
     /// Of a streaming server, at 30 Hz: less than a second until the client has its answer.
     static constexpr int longest_wait_frames = 25;
 
-    /// The one writer of gate.holds_still and gate.spindle_rev_per_s, of `restored` and of `placements`; all
+    /// The one writer of gate.stillness and gate.spindle_rev_per_s, of `restored` and of `placements`; all
     /// outlive it.
     SessionControls(SessionGate& gate, ChangeQueue& restored, TripleBuffer<Placement>& placements,
                     Requests requests)

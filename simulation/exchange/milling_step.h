@@ -38,8 +38,10 @@ struct MillingResult {
     double removed_mm3 = 0.0;  ///< by this step
     double total_removed_mm3 = 0.0;  ///< since the start
     bool touches_protected = false;  ///< the step removed protected tissue
-    bool has_restored = false;       ///< bone was given back, by undo, since the last result
-    bool valid = true;               ///< false: the command was refused (not finite), force is zero
+    /// Changes that gave bone back, by undo, since the start: counted, so that a reader who skips results
+    /// misses none.
+    std::uint64_t restored_changes = 0;
+    bool valid = true;  ///< false: the command was refused (not finite), force is zero
     /// Only of models without an engagement, with the spindle off: bone lies inside the burr.
     bool has_bone_inside = false;
     /// How far the tool may move from `pose` with neither its burr nor the wanted one meeting bone; 0: that

@@ -4,13 +4,39 @@
 
 #include <atomic>
 #include <cstdint>
+#include <utility>
 
 #include "common/scene/scene.h"
 
 namespace osteomill {
 
+/// A request that lasts, and that its reader cannot miss, however short it was and however late the reader
+/// is.
+class StillnessRequest {
+  public:
+    /// The one writer's.
+    void set(bool is_wanted) noexcept {
+        const std::uint64_t turns = turns_.load(std::memory_order_relaxed);
+        if (is_wanted != is_on(turns)) turns_.store(turns + 1, std::memory_order_release);
+    }
+    /// Any thread.
+    bool is_wanted() const noexcept { return is_on(turns_.load(std::memory_order_acquire)); }
+    /// The one reader's: it is wanted, or was since the last call. Real-time safe.
+    bool was_wanted() noexcept {
+        const std::uint64_t turns = turns_.load(std::memory_order_acquire);
+        const std::uint64_t before = std::exchange(seen_, turns);
+        return is_on(turns) || turns - before > 1;
+    }
+
+  private:
+    static bool is_on(std::uint64_t turns) noexcept { return turns % 2 == 1; }
+
+    std::atomic<std::uint64_t> turns_{0};  // on and off
+    std::uint64_t seen_ = 0;               // of the reader
+};
+
 struct SessionGate {
-    std::atomic<bool> holds_still{false};
+    StillnessRequest stillness;
     /// Number of restored changes that the milling loop has applied since the start. Written after the change
     /// itself, so that a reader of this number finds all of them in the queue of changes.
     std::atomic<std::uint64_t> restored_changes{0};

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
+#include <utility>
 
 #include "common/bone/finite.h"
 #include "common/scene/device_mapping.h"
@@ -33,26 +34,29 @@ HandState HapticLoop::hand_state(double now_s, double elapsed_s, const DeviceSta
             .burr = burr_.burr()};
 }
 
-bool HapticLoop::holds_still(const MillingResult& latest) const noexcept {
+bool HapticLoop::holds_still(const MillingResult& latest) noexcept {
     // Bone may come back round the burr: in that very tick nothing may be felt of it.
-    if (latest.has_restored) return true;
-    return parts_.gate != nullptr && parts_.gate->holds_still.load(std::memory_order_acquire);
+    const bool is_restored =
+        std::exchange(restored_changes_, latest.restored_changes) != latest.restored_changes;
+    const bool is_asked = parts_.gate != nullptr && parts_.gate->stillness.was_wanted();
+    return is_restored || is_asked;
 }
 
-void HapticLoop::place(const DeviceState& device) noexcept {
-    if (parts_.placements == nullptr) return;
+bool HapticLoop::place(const DeviceState& device) noexcept {
+    if (parts_.placements == nullptr) return false;
     parts_.placements->refresh();
     const Placement& wanted = parts_.placements->front();
     const bool is_done = wanted.number == parts_.gate->placed.load(std::memory_order_relaxed);
     // Only where nobody feels anything: the force has faded out, and comes back when the burr is clear.
     if (is_done || safety_.state() != ForceGuard::State::off || !device.connected ||
         !is_finite(device.position_mm) || !is_finite(device.spindle_axis))
-        return;
+        return false;
     options_.mapping = placed(options_.mapping, device.position_mm, device.spindle_axis, wanted.pose);
     parts_.device.set_mapping(options_.mapping);
     has_met_bone_ = false;
     removed_before_mm3_ = parts_.results.front().total_removed_mm3;
     parts_.gate->placed.store(wanted.number, std::memory_order_release);
+    return true;
 }
 
 double HapticLoop::speed_share(double elapsed_s) noexcept {
@@ -64,7 +68,7 @@ double HapticLoop::speed_share(double elapsed_s) noexcept {
 void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     const double elapsed_s = options_.tick_s * static_cast<double>(1 + missed_periods);
     const DeviceState device = parts_.device.read(now_s);
-    place(device);
+    const bool is_placed = place(device);
     parts_.results.refresh();
     const MillingResult& latest = parts_.results.front();
 
@@ -77,11 +81,11 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
                      .model_valid = latest.valid,
                      .missed_periods = missed_periods,
                      .energy_to_hand_mj = energy_.lately_mj(),
-                     .holds_still = holds_still(latest),
+                     .holds_still = holds_still(latest) || is_placed,
                      .clearance = clearance_of(latest, reading_mm)});
 
     // From where the burr was: the room that the milling loop found reaches beyond this tick's motion.
-    burr_.tick(device.burr, spindle_turned_ || safety_.wants_spindle(), burr_pose_.position_mm, latest);
+    burr_.tick(device.burr, spindle_turned_ || safety_.is_pedal_good(), burr_pose_.position_mm, latest);
 
     HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_.burr()};
     if (safety_.has_hand()) hand = hand_state(now_s, elapsed_s, device);

@@ -85,8 +85,10 @@ class HapticLoop {
 
   private:
     HandState hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept;
-    void place(const DeviceState& device) noexcept;
-    bool holds_still(const MillingResult& latest) const noexcept;
+    /// Whether the tool has just been placed elsewhere.
+    bool place(const DeviceState& device) noexcept;
+    /// Whether the session holds still in this tick, or has since the last one.
+    bool holds_still(const MillingResult& latest) noexcept;
     void publish(const BurrCommand& command, const ToolState& tool) noexcept;
     double speed_share(double elapsed_s) noexcept;
     const char* notice() const noexcept;
@@ -107,7 +109,8 @@ class HapticLoop {
     ToolPose burr_pose_;
     BurrChanger burr_;
     SpindleSpeed speed_;
-    bool spindle_turned_ = false;  // in the last tick
+    bool spindle_turned_ = false;         // in the last tick
+    std::uint64_t restored_changes_ = 0;  // of the last result
     double protected_until_s_ = 0.0;
 
     bool has_met_bone_ = false;

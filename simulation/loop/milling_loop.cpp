@@ -60,7 +60,7 @@ void MillingLoop::restore(double elapsed_s) noexcept {
         },
         static_cast<std::size_t>(most));
     if (count == 0) return;
-    has_restored_ = true;
+    restored_changes_ += count;
     parts_.gate->restored_changes.fetch_add(count, std::memory_order_release);
 }
 
@@ -110,7 +110,7 @@ void MillingLoop::step(double time_s, double elapsed_s) noexcept {
         result.removed_mm3 = removed_mm3_;
         result.touches_protected = touches_protected_;
     }
-    result.has_restored = has_restored_;
+    result.restored_changes = restored_changes_;
     result.wanted_burr = command.wanted_burr;
     result.room_for_change_mm = room_for_change_mm(command);
     published_mm_ = command.pose.position_mm;
@@ -118,7 +118,7 @@ void MillingLoop::step(double time_s, double elapsed_s) noexcept {
     parts_.results.publish();
     elapsed_s_ = removed_mm3_ = 0.0;
     impulse_n_s_ = glm::dvec3(0.0);
-    touches_protected_ = has_restored_ = false;
+    touches_protected_ = false;
 }
 
 }  // namespace osteomill

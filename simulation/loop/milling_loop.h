@@ -66,17 +66,17 @@ class MillingLoop {
     std::vector<std::vector<HullBall>> hulls_{};  // by burr
     CutReport cut_;
     bool has_command_ = false;
-    ToolPose start_;                // where the burr was when the newest command came
-    ToolPose pose_;                 // where it is
-    double underway_s_ = 0.0;       // since then
-    glm::dvec3 published_mm_{0.0};  // where the burr was when the last result was published
+    ToolPose start_;                      // where the burr was when the newest command came
+    ToolPose pose_;                       // where it is
+    double underway_s_ = 0.0;             // since then
+    glm::dvec3 published_mm_{0.0};        // where the burr was when the last result was published
+    std::uint64_t restored_changes_ = 0;  // since the start
 
     // Since the last result was published.
     double elapsed_s_ = 0.0;
     glm::dvec3 impulse_n_s_{0.0};
     double removed_mm3_ = 0.0;
     bool touches_protected_ = false;
-    bool has_restored_ = false;
 };
 
 }  // namespace osteomill

@@ -22,6 +22,32 @@ inline constexpr std::array all_faults{Fault::device_lost,    Fault::model_stall
                                        Fault::overrun,        Fault::device_jumped, Fault::in_bone,
                                        Fault::energy_to_hand, Fault::paused};
 
+/// In the order in which people are told of them, where there are several. Nothing else depends on it.
+inline constexpr std::array told_first{Fault::device_lost,  Fault::device_jumped,  Fault::model_stalled,
+                                       Fault::not_a_number, Fault::energy_to_hand, Fault::paused,
+                                       Fault::overrun,      Fault::in_bone};
+static_assert(told_first.size() == all_faults.size());
+
+/// Whether it ends the permission of a pedal that is held: the pedal was pressed for other bone than the bone
+/// that the burr is in afterwards, or by a hand that did not move it there. Each does so by itself, whatever
+/// else is wrong (fault_set.h).
+constexpr bool withdraws_pedal(Fault fault) noexcept {
+    switch (fault) {
+        case Fault::device_lost:
+        case Fault::device_jumped:
+        case Fault::energy_to_hand:
+        case Fault::paused:
+            return true;
+        case Fault::none:
+        case Fault::model_stalled:
+        case Fault::not_a_number:
+        case Fault::overrun:
+        case Fault::in_bone:
+            return false;
+    }
+    return true;
+}
+
 /// One line for people; empty for Fault::none.
 const char* describe(Fault fault) noexcept;
 

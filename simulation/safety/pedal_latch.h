@@ -64,6 +64,8 @@ class PedalLatch {
     /// The spindle may turn.
     bool is_pressed() const { return seen_ == PedalSeen::down && !is_locked_; }
     bool is_locked() const { return is_locked_; }
+    /// The pedal is held and may turn the spindle, now or once it is no longer PedalSeen::waiting.
+    bool is_good() const { return !is_locked_ && (seen_ == PedalSeen::down || seen_ == PedalSeen::waiting); }
     /// The pedal is held, and has no effect before it has been up.
     bool awaits_release() const {
         return is_locked_ && (seen_ == PedalSeen::down || seen_ == PedalSeen::waiting);

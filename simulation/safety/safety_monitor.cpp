@@ -4,20 +4,19 @@
 
 namespace osteomill {
 
-void SafetyMonitor::begin(Fault found, PedalSeen pedal, Clearance clearance) noexcept {
+void SafetyMonitor::begin(FaultSet found, PedalSeen pedal, Clearance clearance) noexcept {
     found_ = found;
-    keeps_off_ = found;
-    if (found == Fault::none && guard_.state() == ForceGuard::State::off && clearance != Clearance::clear)
+    keeps_off_ = found.first();
+    if (found.is_empty() && guard_.state() == ForceGuard::State::off && clearance != Clearance::clear)
         keeps_off_ = clearance == Clearance::in_bone ? Fault::in_bone : guard_.fault();
-    if (is_untried_ && found == Fault::none && clearance == Clearance::in_bone) keeps_off_ = Fault::in_bone;
-    if (found != Fault::none || clearance != Clearance::unknown) is_untried_ = false;
-    const bool withdraws =
-        found == Fault::device_jumped || found == Fault::energy_to_hand || found == Fault::paused;
-    pedal_.tick(has_hand() ? pedal : PedalSeen::lapsed, withdraws);
+    if (is_untried_ && found.is_empty() && clearance == Clearance::in_bone) keeps_off_ = Fault::in_bone;
+    if (!found.is_empty() || clearance != Clearance::unknown) is_untried_ = false;
+    pedal_.tick(has_hand() ? pedal : PedalSeen::lapsed, found.withdraws_pedal());
 }
 
 glm::dvec3 SafetyMonitor::pass(const glm::dvec3& wanted_n, bool is_sound, double elapsed_s) noexcept {
-    if (keeps_off_ == Fault::none && !is_sound) keeps_off_ = found_ = Fault::not_a_number;
+    if (!is_sound) found_.add(Fault::not_a_number);
+    if (keeps_off_ == Fault::none) keeps_off_ = found_.first();
     was_engaged_ = guard_.is_engaged();
     // A force that is no number is a fault, felt or not.
     const glm::dvec3 felt_n = is_untried_ && is_finite(wanted_n) ? glm::dvec3(0.0) : wanted_n;

@@ -34,9 +34,8 @@
 // earlier fault.
 //
 // The spindle turns while the pedal is down, its latch (pedal_latch.h) is free and the tool touches bone.
-// Beside the reasons in pedal_latch.h, it is locked when the device was lost or jumped, the force gave the
-// hand energy, or the session was paused: the pedal was pressed then for other bone than the bone it is in
-// now.
+// Beside the reasons in pedal_latch.h, it is locked by each fault that withdraws_pedal() (fault.h), whatever
+// else is wrong in the same tick: the pedal was pressed then for other bone than the bone it is in now.
 //
 // In no state does a fault lead to a force: from the tick of a fault until settle_s have passed without one
 // and clear of bone, the force only shrinks, and within fade_out_s it is zero. safety_monitor_test.cpp visits
@@ -47,7 +46,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "simulation/safety/fault.h"
+#include "simulation/safety/fault_set.h"
 #include "simulation/safety/force_guard.h"
 #include "simulation/safety/pedal_latch.h"
 #include "simulation/safety/watchdog.h"
@@ -67,12 +66,12 @@ class SafetyMonitor {
 
     /// Begins a tick with given findings, for callers with checks of their own. `pedal` counts only if the
     /// device is there, `clearance` only while the force is off or untried.
-    void begin(Fault found, PedalSeen pedal, Clearance clearance) noexcept;
+    void begin(FaultSet found, PedalSeen pedal, Clearance clearance) noexcept;
 
     /// Whether what the device reads can be used in this tick.
-    bool has_hand() const { return found_ != Fault::device_lost; }
+    bool has_hand() const { return !found_.has(Fault::device_lost); }
     /// Whether the force is to be computed in this tick: no fault, and the hand may feel it.
-    bool may_touch() const { return found_ == Fault::none && guard_.is_engaged(); }
+    bool may_touch() const { return found_.is_empty() && guard_.is_engaged(); }
 
     /// Ends the tick: the force that may be written, for the requested one (not read unless may_touch()).
     /// `is_sound`: everything else computed with it is finite; otherwise it counts as a fault, like a force
@@ -85,6 +84,9 @@ class SafetyMonitor {
     bool has_just_let_go() const { return was_engaged_ && !guard_.is_engaged(); }
     /// After pass(): the spindle turns in this tick.
     bool spindle_turns() const { return holds_tool() && wants_spindle(); }
+    /// The pedal is held and has permission, whatever else keeps the spindle off: it turns as soon as that
+    /// ends.
+    bool is_pedal_good() const { return pedal_.is_good(); }
     /// State of the spindle for the coupling, before pass().
     bool wants_spindle() const { return pedal_.is_pressed() && has_hand() && !is_untried_; }
 
@@ -94,16 +96,16 @@ class SafetyMonitor {
     bool awaits_release() const { return pedal_.awaits_release(); }
     /// Nothing is known yet of bone in the burr, and there was no fault.
     bool is_untried() const { return is_untried_; }
-    /// Why the force is off; none while it is not.
+    /// Why the force is off, the one reason that people are told; none while it is not.
     Fault fault() const { return guard_.fault(); }
-    /// How often each Fault turned the force off.
+    /// How often each Fault was the reason that people were told when the force went off.
     const std::array<std::uint64_t, fault_kinds>& fault_counts() const { return fault_counts_; }
 
   private:
     Watchdog watchdog_;
     ForceGuard guard_;
-    Fault found_ = Fault::none;      // in this tick
-    Fault keeps_off_ = Fault::none;  // the same, and what else keeps an `off` force off
+    FaultSet found_;                 // in this tick
+    Fault keeps_off_ = Fault::none;  // the first of them, or what else keeps an `off` force off
     PedalDate pedal_date_;
     PedalLatch pedal_;
     bool is_untried_ = true;

@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-Fault Watchdog::check(const Observation& seen) noexcept {
+FaultSet Watchdog::check(const Observation& seen) noexcept {
     if (seen.model_step != model_step_) {
         model_step_ = seen.model_step;
         model_changed_s_ = seen.now_s;
@@ -27,14 +27,15 @@ Fault Watchdog::check(const Observation& seen) noexcept {
         position_s_ = seen.now_s;
     }
 
-    if (is_lost) return Fault::device_lost;
-    if (jumped) return Fault::device_jumped;
-    if (seen.now_s - model_changed_s_ > longest_model_age_s) return Fault::model_stalled;
-    if (!seen.model_valid) return Fault::not_a_number;
-    if (seen.energy_to_hand_mj > most_energy_to_hand_mj) return Fault::energy_to_hand;
-    if (seen.holds_still) return Fault::paused;
-    if (static_cast<double>(overrun_periods_) * tick_s_ >= longest_overrun_s) return Fault::overrun;
-    return Fault::none;
+    FaultSet found;
+    if (is_lost) found.add(Fault::device_lost);
+    if (jumped) found.add(Fault::device_jumped);
+    if (seen.now_s - model_changed_s_ > longest_model_age_s) found.add(Fault::model_stalled);
+    if (!seen.model_valid) found.add(Fault::not_a_number);
+    if (seen.energy_to_hand_mj > most_energy_to_hand_mj) found.add(Fault::energy_to_hand);
+    if (seen.holds_still) found.add(Fault::paused);
+    if (static_cast<double>(overrun_periods_) * tick_s_ >= longest_overrun_s) found.add(Fault::overrun);
+    return found;
 }
 
 }  // namespace osteomill

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/device/haptic_device.h"
-#include "simulation/safety/fault.h"
+#include "simulation/safety/fault_set.h"
 
 namespace osteomill {
 
@@ -20,12 +20,12 @@ struct Observation {
     bool model_valid = true;                 ///< that result is one
     std::uint64_t missed_periods = 0;        ///< haptic deadlines that passed unserved just before this tick
     double energy_to_hand_mj = 0.0;          ///< net, lately (energy_meter.h)
-    bool holds_still = false;                ///< the session is paused, or bone is being restored
+    bool holds_still = false;                ///< the session is paused, bone restored or the tool placed
     Clearance clearance = Clearance::clear;  ///< of the burr, were it where the hand is
 };
 
 /// Bone is not its business: that is no fault by itself, see safety_monitor.h.
-/// Checked in this order; the first that applies is the fault of the tick:
+/// Finds every fault of a tick, each by itself:
 ///   device_lost     the device says that it is not connected, or reads what is not finite
 ///   device_jumped   it moved farther than a hand can since the last tick
 ///   model_stalled   no new milling result for longest_model_age_s
@@ -49,7 +49,7 @@ class Watchdog {
     explicit Watchdog(double tick_s) : tick_s_(tick_s) {}
 
     /// Once a tick. Real-time safe.
-    Fault check(const Observation& seen) noexcept;
+    FaultSet check(const Observation& seen) noexcept;
 
   private:
     double tick_s_;

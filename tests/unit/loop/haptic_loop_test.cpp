@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <optional>
 
 #include "analysis/logs/force_log.h"
 #include "tests/unit/loop/scripted_parts.h"
@@ -426,14 +427,14 @@ TEST(HapticLoop, DoesNotShakeAForceThatIsOffOrFades) {
 TEST(HapticLoop, HoldsStillAsLongAsTheGateSaysAndTheSpindleUntilThePedalHasBeenUp) {
     Bench bench;
     bench.mill();
-    bench.gate.holds_still = true;
+    bench.gate.stillness.set(true);
     EXPECT_LE(glm::length(bench.run(1)), 2.0);
     EXPECT_FALSE(bench.shown().spindle_on);
     EXPECT_EQ(bench.run(ticks_to_fade()), glm::dvec3(0.0));
     EXPECT_EQ(bench.shown().fault, describe(Fault::paused));
     bench.run(1000);
     EXPECT_EQ(bench.run(1), glm::dvec3(0.0));
-    bench.gate.holds_still = false;
+    bench.gate.stillness.set(false);
     bench.run(1000);
     EXPECT_EQ(bench.run(1), glm::dvec3(2.0, 0.0, 0.0));
     EXPECT_FALSE(bench.shown().spindle_on) << "the pedal has been down all the time";
@@ -448,12 +449,11 @@ TEST(HapticLoop, NeverFeelsBoneThatComesBackRoundTheBurr) {
     Bench bench;
     bench.mill();
     // The same result that has the bone back says so: nothing of it may reach the hand.
-    bench.next.has_restored = true;
+    ++bench.next.restored_changes;
     bench.coupling.force = [](const HandState&) { return glm::dvec3(0.0, 3.0, 0.0); };
     const glm::dvec3 first = bench.run(1);
     EXPECT_EQ(first.y, 0.0);
     EXPECT_LE(first.x, 2.0);
-    bench.next.has_restored = false;
     for (int i = 0; i < ticks_to_fade(); ++i) EXPECT_EQ(bench.run(1).y, 0.0);
 }
 
@@ -469,7 +469,7 @@ TEST(HapticLoop, PlacesTheToolUnderAHandThatStaysWhereItIs) {
     bench.run(20);
     EXPECT_EQ(bench.gate.placed, 0U) << "not while a force is felt";
 
-    bench.gate.holds_still = true;
+    bench.gate.stillness.set(true);
     bench.run(ticks_to_fade() + 5);
     EXPECT_EQ(bench.gate.placed, 1U);
     EXPECT_LT(glm::distance(bench.shown().hand_position_mm, wanted.position_mm), 1e-9);
@@ -478,12 +478,110 @@ TEST(HapticLoop, PlacesTheToolUnderAHandThatStaysWhereItIs) {
     EXPECT_EQ(bench.shown().depth_mm, 0.0);
 
     // The hand moves on from there, as far as before, and feels what the patient's axes say.
-    bench.gate.holds_still = false;
+    bench.gate.stillness.set(false);
     bench.device.script = [](double) { return DeviceState{.position_mm = {3.0, 4.0, 7.0}}; };
     bench.run(1000);
     EXPECT_NEAR(glm::distance(bench.shown().hand_position_mm, wanted.position_mm), 1.0, 1e-9);
     EXPECT_NEAR(glm::length(bench.run(1)), 0.5, 1e-9);
     EXPECT_LT(glm::distance(bench.shown().force_n, glm::dvec3(0.0, 0.5, 0.0)), 1e-9);
+}
+
+/// What may be wrong with a session whose tool moves relative to the hand's bone, beside that.
+class InterruptedBench : public ::testing::TestWithParam<bool> {
+  public:
+    InterruptedBench() {
+        bench.next.room_for_change_mm = 1.0;
+        bench.mill();
+        // The milling model is late, or the force goes off for a result that is none.
+        is_late = GetParam();
+        (is_late ? bench.model_runs : bench.next.valid) = false;
+        bench.run(100);
+        EXPECT_NE(bench.shown().fault, describe(Fault::none));
+    }
+    /// All is well again, under a pedal that is held.
+    bool spindle_turns_afterwards() {
+        bench.model_runs = bench.next.valid = true;
+        bench.run(1000);
+        EXPECT_EQ(bench.shown().fault, describe(Fault::none));
+        return bench.shown().spindle_on;
+    }
+    void expect_a_fresh_press_to_turn_it() {
+        bench.device.script = [](double) { return DeviceState{}; };
+        bench.run(2);
+        bench.device.script = [](double) { return DeviceState{.pedal = {true}}; };
+        bench.run(2);
+        EXPECT_TRUE(bench.shown().spindle_on);
+    }
+    Bench bench;
+    bool is_late = false;
+};
+
+TEST_P(InterruptedBench, TurnsOnIfNothingElseHappens) {
+    EXPECT_TRUE(spindle_turns_afterwards());
+}
+
+TEST_P(InterruptedBench, WithdrawsThePedalForAPause) {
+    bench.gate.stillness.set(true);
+    bench.run(50);
+    bench.gate.stillness.set(false);
+    EXPECT_FALSE(spindle_turns_afterwards());
+    expect_a_fresh_press_to_turn_it();
+}
+
+TEST_P(InterruptedBench, WithdrawsThePedalForAPauseBetweenTwoTicks) {
+    bench.gate.stillness.set(true);
+    bench.gate.stillness.set(false);
+    EXPECT_FALSE(spindle_turns_afterwards());
+    expect_a_fresh_press_to_turn_it();
+}
+
+TEST_P(InterruptedBench, WithdrawsThePedalForAToolThatIsPlaced) {
+    bench.placements.back() = {.number = 1, .pose = {{7.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}};
+    bench.placements.publish();
+    bench.run(1);
+    EXPECT_EQ(bench.gate.placed, 1U);
+    EXPECT_FALSE(spindle_turns_afterwards());
+    EXPECT_NEAR(bench.shown().hand_position_mm.x, 7.0, 1e-9);
+    expect_a_fresh_press_to_turn_it();
+}
+
+TEST_P(InterruptedBench, WithdrawsThePedalForBoneThatCameBackInAResultThatWasSkipped) {
+    bench.next.restored_changes += 3;
+    EXPECT_FALSE(spindle_turns_afterwards());
+    expect_a_fresh_press_to_turn_it();
+}
+
+TEST_P(InterruptedBench, ChangesNoBurrUnderAPedalThatIsHeld) {
+    bench.device.script = [](double) { return DeviceState{.pedal = {true}, .burr = 2}; };
+    EXPECT_TRUE(spindle_turns_afterwards());
+    EXPECT_EQ(bench.shown().burr, 1U);
+    EXPECT_EQ(bench.shown().notice, describe(BurrChange::spindle));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheModel, InterruptedBench, ::testing::Bool(),
+                         [](const auto& late) { return late.param ? "ThatIsLate" : "ThatIsNone"; });
+
+TEST(HapticLoop, ChangesNoBurrBetweenAPressAndItsEffect) {
+    Bench bench;
+    bench.next.room_for_change_mm = 1.0;
+    std::optional<std::size_t> burr;
+    bool is_down = false;
+    bench.device.script = [&](double) {
+        return DeviceState{.pedal = {.is_down = is_down, .acts_after_s = 0.1}, .burr = burr};
+    };
+    bench.run(10);
+    is_down = true;
+    bench.run(50);
+    ASSERT_FALSE(bench.shown().spindle_on);
+    burr = 2;
+    bench.run(30);
+    EXPECT_EQ(bench.shown().burr, 1U);
+    bench.run(100);
+    EXPECT_TRUE(bench.shown().spindle_on);
+    EXPECT_EQ(bench.shown().burr, 1U);
+    is_down = false;
+    bench.run(5);
+    EXPECT_EQ(bench.shown().burr, 2U);
 }
 
 }  // namespace

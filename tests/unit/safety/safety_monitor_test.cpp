@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -157,7 +158,7 @@ TEST(SafetyMonitor, LeadsFromNoStateByAnyFaultToAForce) {
 TEST(SafetyMonitor, TurnsTheSpindleOnlyInAHandThatIsThereAndHasLetGoOfThePedal) {
     explore([](const Reached& from, const Event& event, const Reached& to) {
         const bool locks = event.fault == Fault::device_lost || event.fault == Fault::device_jumped ||
-                           event.fault == Fault::energy_to_hand;
+                           event.fault == Fault::energy_to_hand || event.fault == Fault::paused;
         if (to.monitor.spindle_turns()) {
             ASSERT_TRUE(event.pedal == PedalSeen::down && !event.is_fault());
             ASSERT_FALSE(from.monitor.is_spindle_locked());
@@ -237,6 +238,100 @@ TEST(SafetyMonitor, ComesBackFromEveryStateOnceAllIsWell) {
         ASSERT_NEAR(now.force_n.x, 1.0, 1e-9);
         ASSERT_FALSE(now.monitor.is_spindle_locked());
     }
+}
+
+/// A session in which what is wrong, tick by tick, is a set of faults; the pedal is held unless a test lets
+/// go.
+class WrongSession {
+  public:
+    /// Of a watchdog's own, all that lie outside the bone.
+    static constexpr std::array reasons{Fault::device_lost,  Fault::device_jumped,  Fault::model_stalled,
+                                        Fault::not_a_number, Fault::energy_to_hand, Fault::paused,
+                                        Fault::overrun};
+
+    WrongSession() {
+        run({}, 100, false);
+        run({}, 100);
+    }
+    void run(FaultSet wrong, int ticks, bool is_pedal_down = true) {
+        for (int i = 0; i < ticks; ++i) tick(wrong, is_pedal_down);
+    }
+    SafetyMonitor monitor{0.001, limit_n};
+
+  private:
+    void tick(FaultSet wrong, bool is_pedal_down) {
+        seen_.missed_periods = wrong.has(Fault::overrun) ? 25 : 0;
+        seen_.now_s += 0.001 * static_cast<double>(1 + seen_.missed_periods);
+        // A model that is late has been so for long enough by now.
+        if (!wrong.has(Fault::model_stalled))
+            model_s_ = seen_.now_s;
+        else
+            seen_.now_s = std::max(seen_.now_s, model_s_ + 0.06);
+        if (!wrong.has(Fault::model_stalled)) ++seen_.model_step;
+        seen_.model_valid = !wrong.has(Fault::not_a_number);
+        seen_.device.connected = !wrong.has(Fault::device_lost);
+        if (wrong.has(Fault::device_jumped)) seen_.device.position_mm.x += 500.0;
+        seen_.energy_to_hand_mj = wrong.has(Fault::energy_to_hand) ? 20.0 : 0.0;
+        seen_.holds_still = wrong.has(Fault::paused);
+        seen_.device.pedal = {.is_down = is_pedal_down, .said_s = seen_.now_s, .speaker = 1};
+        monitor.observe(seen_);
+        monitor.pass({0.0, 0.0, 1.0}, true, 0.001);
+    }
+
+    Observation seen_;
+    double model_s_ = 0.0;
+};
+
+/// Whatever else is wrong, before it, with it and after it: what withdraws the pedal does, and nothing else.
+TEST(SafetyMonitor, LetsNoFaultHideAnotherThatWithdrawsThePedal) {
+    int pairs = 0;
+    for (const Fault first : WrongSession::reasons)
+        for (const Fault second : WrongSession::reasons) {
+            FaultSet both(first);
+            both.add(second);
+            // The second arrives while the first lasts, or with it; and either is the first to leave.
+            for (const FaultSet before : {FaultSet(first), FaultSet()})
+                for (const FaultSet after : {FaultSet(first), FaultSet(second), FaultSet()}) {
+                    WrongSession session;
+                    ASSERT_TRUE(session.monitor.spindle_turns());
+                    session.run(before, before.is_empty() ? 0 : 5);
+                    session.run(both, 5);
+                    ASSERT_TRUE(both.has(session.monitor.fault()));
+                    session.run(after, after.is_empty() ? 0 : 5);
+                    session.run({}, 1000);
+                    const bool withdraws = withdraws_pedal(first) || withdraws_pedal(second);
+                    ASSERT_EQ(session.monitor.fault(), Fault::none);
+                    ASSERT_EQ(session.monitor.spindle_turns(), !withdraws)
+                        << describe(first) << "; " << describe(second);
+                    session.run({}, 2, false);
+                    session.run({}, 2);
+                    ASSERT_TRUE(session.monitor.spindle_turns()) << "pressed anew";
+                    ++pairs;
+                }
+        }
+    EXPECT_EQ(pairs, 7 * 7 * 6);
+}
+
+TEST(SafetyMonitor, WithdrawsThePedalForTheseFaultsAndNoOthers) {
+    for (const Fault fault : all_faults) {
+        const bool withdraws = fault == Fault::device_lost || fault == Fault::device_jumped ||
+                               fault == Fault::energy_to_hand || fault == Fault::paused;
+        EXPECT_EQ(withdraws_pedal(fault), withdraws) << describe(fault);
+    }
+    EXPECT_FALSE(withdraws_pedal(Fault::none));
+}
+
+TEST(SafetyMonitor, CountsEachTimeTheForceWentOffOnceUnderTheFaultThatWasTold) {
+    WrongSession session;
+    FaultSet both(Fault::paused);
+    both.add(Fault::model_stalled);
+    session.run(both, 10);
+    session.run(Fault::paused, 10);
+    session.run({}, 1000);
+    std::uint64_t sum = 0;
+    for (const std::uint64_t count : session.monitor.fault_counts()) sum += count;
+    EXPECT_EQ(sum, 1U);
+    EXPECT_EQ(session.monitor.fault_counts()[static_cast<std::size_t>(Fault::model_stalled)], 1U);
 }
 
 /// The other half of the chain: whatever is wrong, alone or together with anything else, is found.

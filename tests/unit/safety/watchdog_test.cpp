@@ -15,12 +15,12 @@ class Watched {
     Watchdog watchdog{tick_s};
     Observation seen;
 
-    Fault tick(bool model_runs = true) {
+    FaultSet tick(bool model_runs = true) {
         seen.now_s += tick_s * static_cast<double>(1 + seen.missed_periods);
         if (model_runs) ++seen.model_step;
-        const Fault fault = watchdog.check(seen);
+        const FaultSet found = watchdog.check(seen);
         seen.missed_periods = 0;
-        return fault;
+        return found;
     }
 };
 
@@ -85,9 +85,9 @@ TEST(Watchdog, WaitsFiftyMillisecondsForAFreshModelResult) {
 
 TEST(Watchdog, DoesNotWaitForeverForTheFirstResult) {
     Watched watched;
-    Fault fault = Fault::none;
-    for (int i = 0; i < 52; ++i) fault = watched.tick(false);
-    EXPECT_EQ(fault, Fault::model_stalled);
+    FaultSet found;
+    for (int i = 0; i < 52; ++i) found = watched.tick(false);
+    EXPECT_EQ(found, Fault::model_stalled);
 }
 
 TEST(Watchdog, NamesAResultThatIsNoResult) {

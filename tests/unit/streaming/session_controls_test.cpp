@@ -71,7 +71,7 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
             frame();
         }
     }
-    bool holds_still() const { return gate_.holds_still; }
+    bool holds_still() const { return gate_.stillness.is_wanted(); }
 
     std::mt19937 random_{3};
     Bone milled_;
@@ -104,6 +104,16 @@ TEST_F(SessionControlsTest, UndoesAStrokeThroughTheMillingLoop) {
     frames(60);
     EXPECT_EQ(checksum(milled_), milled);
     EXPECT_EQ(checksum(mirror_), milled);
+}
+
+TEST_F(SessionControlsTest, MakesAPauseThatEndsInTheSameFrameOne) {
+    frame();
+    ASSERT_FALSE(gate_.stillness.was_wanted());
+    controls_.control({SessionAction::pause});
+    controls_.control({SessionAction::resume});
+    frame();
+    EXPECT_FALSE(holds_still());
+    EXPECT_TRUE(gate_.stillness.was_wanted()) << "the haptic loop ends what it permitted";
 }
 
 TEST_F(SessionControlsTest, HoldsTheSessionStillUntilAllOfItIsBack) {
