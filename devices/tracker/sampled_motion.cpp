@@ -16,6 +16,11 @@ constexpr double lateness_memory_s = 20.0;
 constexpr double lateness_margin = 1.1;
 /// Stamps that step by more than this were set, not measured.
 constexpr double longest_step_s = 1.0;
+/// And so are those that step back by more than a measurement's noise: a stream is in order.
+constexpr double longest_step_back_s = 0.05;
+/// So long a clock that ran ahead has to keep to ours, about, before it is trusted again.
+constexpr double gain_memory_s = 1.0;
+constexpr double most_gain_s = 2.0 * SampledMotion::longest_behind_s;
 constexpr double silent_periods = 5.0;
 constexpr double delay_periods = 2.0;
 /// Playback that is off by so much of a period is brought back at the full rate.
@@ -56,8 +61,26 @@ void SampledMotion::learn_period(double difference_s) noexcept {
 
 void SampledMotion::learn_lateness(const Sample& sample, double since_last_s) noexcept {
     const double apart_s = sample.arrival_s - sample.stamp_s;
+    const double before_s = offset_s_;
     offset_s_ = std::min(apart_s, offset_s_ + drift_s_per_s * since_last_s);
+    // Samples that came at once tell nothing of the clock's rate.
+    const double gain_s = since_last_s > 0.0 ? std::max(0.0, before_s - offset_s_) : 0.0;
+    gained_s_ = std::min(gained_s_ * std::exp(-since_last_s / gain_memory_s) + gain_s, most_gain_s);
     lateness_s_ = std::max(apart_s - offset_s_, lateness_s_ * std::exp(-since_last_s / lateness_memory_s));
+}
+
+bool SampledMotion::was_set(const Sample& sample) const noexcept {
+    if (!last_) return true;
+    const double step_s = sample.stamp_s - last_->stamp_s;
+    const double waited_s = sample.arrival_s - last_->arrival_s;
+    return std::abs(step_s - waited_s) > longest_step_s || step_s < -longest_step_back_s;
+}
+
+SampledMotion::ClockFault SampledMotion::judge_clock() const noexcept {
+    if (gained_s_ > longest_behind_s) return ClockFault::ahead;
+    const double late_s = newest().arrival_s - newest().stamp_s - offset_s_;
+    const bool is_behind = delay_periods * period_s_ + late_s > longest_delay_s + longest_behind_s;
+    return is_behind ? ClockFault::behind : ClockFault::none;
 }
 
 void SampledMotion::take(Sample sample) noexcept {
@@ -65,31 +88,39 @@ void SampledMotion::take(Sample sample) noexcept {
         sample.stamp_s = sample.arrival_s;
         // Samples that a link held up and gave at once were not measured at once.
         if (count_ > 0 && sample.arrival_s - newest().arrival_s < longest_step_s)
-            sample.stamp_s = std::max(sample.stamp_s, newest().stamp_s + 0.5 * period_s_);
+            sample.stamp_s = std::clamp(newest().stamp_s + 0.5 * period_s_, sample.arrival_s,
+                                        sample.arrival_s + most_silence_s);
     }
-    if (count_ == 0) return keep(sample);
-    const double step_s = sample.stamp_s - newest().stamp_s;
-    const double waited_s = sample.arrival_s - newest().arrival_s;
-    const bool was_set = std::abs(step_s - waited_s) > longest_step_s || waited_s > longest_step_s;
-    if (!was_set && step_s < least_apart_s) return;
-    if (!was_set && is_reachable(newest(), sample)) {
+    if (was_set(sample)) {
+        begin_anew();
+        offset_s_ = sample.arrival_s - sample.stamp_s;
+        return keep(sample);
+    }
+    const double step_s = sample.stamp_s - last_->stamp_s;
+    const double waited_s = sample.arrival_s - last_->arrival_s;
+    if (step_s < least_apart_s) return;
+    if (count_ == 0) {
+        learn_lateness(sample, waited_s);
+        return keep(sample);
+    }
+    if (waited_s <= longest_step_s && is_reachable(newest(), sample)) {
         learn_period(step_s);
         learn_lateness(sample, waited_s);
         return keep(sample);
     }
     const bool is_confirmed = outlier_ && is_reachable(*outlier_, sample);
     outlier_ = sample;
-    if (!was_set && !is_confirmed) return;
+    if (waited_s <= longest_step_s && !is_confirmed) return;
     begin_anew();
+    learn_lateness(sample, waited_s);
     keep(sample);
 }
 
 void SampledMotion::keep(const Sample& sample) noexcept {
     outlier_.reset();
-    if (count_ == 0) {
-        offset_s_ = sample.arrival_s - sample.stamp_s;
-        lateness_s_ = 0.0;
-    }
+    last_ = sample;
+    // A playback that begins has nothing to wait for but this.
+    if (count_ == 0) lateness_s_ = sample.arrival_s - sample.stamp_s - offset_s_;
     if (count_ == most_samples) {
         first_ = (first_ + 1) % most_samples;
         --count_;
@@ -141,11 +172,17 @@ SampledMotion::Pose SampledMotion::pose_between(std::size_t i, double time_s) co
 std::optional<SampledMotion::Pose> SampledMotion::at(double now_s) noexcept {
     const double elapsed_s = std::max(0.0, now_s - at_s_);
     at_s_ = now_s;
+    clock_fault_ = ClockFault::none;
     if (count_ == 0) return std::nullopt;
     const double silence_s = std::clamp(silent_periods * period_s_, least_silence_s, most_silence_s);
     // A loop that stood still itself does not play what it missed.
     if (now_s - newest().arrival_s > silence_s || (plays_ && elapsed_s > silence_s)) begin_anew();
     if (count_ < 3) return std::nullopt;
+    clock_fault_ = judge_clock();
+    if (clock_fault_ != ClockFault::none) {
+        plays_ = false;
+        return std::nullopt;
+    }
 
     delay_s_ = std::min(delay_periods * period_s_ + lateness_margin * lateness_s_, longest_delay_s);
     const double wanted_s = now_s - offset_s_ - delay_s_;
@@ -158,6 +195,12 @@ std::optional<SampledMotion::Pose> SampledMotion::at(double now_s) noexcept {
     const double rate = 1.0 + std::clamp(behind, -1.0, 1.0) * (catch_up - 1.0);
     const double before_s = played_s_;
     played_s_ = std::min(played_s_ + rate * elapsed_s, std::max(last_s, played_s_));
+    if (std::min(wanted_s, last_s) - played_s_ > longest_behind_s) {
+        gained_s_ = most_gain_s;
+        clock_fault_ = ClockFault::ahead;
+        plays_ = false;
+        return std::nullopt;
+    }
 
     while (count_ > 3 && nth(2).stamp_s <= played_s_) {
         first_ = (first_ + 1) % most_samples;

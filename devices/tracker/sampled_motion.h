@@ -25,10 +25,20 @@
 //
 // Playback needs three samples. It ends when none has come for five periods (50 ms at least, 250 ms at most):
 // the tool is lost, and the next sample starts anew. A clock that was set has the same effect.
+//
+// The sender's clock is trusted only as far as ours bears it out: it may run fast, slow, jump, stand or wrap,
+// and a link may hold back more and more of what is sent. More than longest_behind_s behind the delay, the
+// tool is lost, for as long as that lasts:
+//
+//     ahead    the clock gained more on ours lately than longest_behind_s (it runs fast, or jumped), or
+//              playback cannot keep up with it
+//     behind   the newest sample is later than longest_delay_s can hide by more than longest_behind_s: its
+//              clock runs slow, or what comes grows old on the way
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -40,6 +50,7 @@ class SampledMotion {
     static constexpr double fastest_rate_hz = 500.0;
     static constexpr double slowest_rate_hz = 20.0;
     static constexpr double longest_delay_s = 0.4;
+    static constexpr double longest_behind_s = 0.05;
     static constexpr double catch_up = 1.5;
     static constexpr double least_silence_s = 0.05;
     static constexpr double most_silence_s = 0.25;
@@ -65,6 +76,9 @@ class SampledMotion {
         glm::dquat turn{1.0, 0.0, 0.0, 0.0};
     };
 
+    /// Why the tool is lost though samples come.
+    enum class ClockFault : std::uint8_t { none, ahead, behind };
+
     /// One more sample. One that is no newer than the last by least_apart_s does nothing. Real-time safe, as
     /// all here.
     void take(Sample sample) noexcept;
@@ -76,6 +90,8 @@ class SampledMotion {
     /// Of the playback behind the samples' clock, at the last at(); what a hand waits for its picture.
     double delay_s() const noexcept { return delay_s_; }
     double period_s() const noexcept { return period_s_; }
+    /// At the last at().
+    ClockFault clock_fault() const noexcept { return clock_fault_; }
 
   private:
     static constexpr std::size_t most_samples = 512;  // over a second at 500 Hz
@@ -84,6 +100,9 @@ class SampledMotion {
     const Sample& nth(std::size_t i) const noexcept { return samples_[(first_ + i) % most_samples]; }
     const Sample& newest() const noexcept { return nth(count_ - 1); }
     void begin_anew() noexcept;
+    bool was_set(const Sample& sample) const noexcept;
+    /// As the samples' times have it.
+    ClockFault judge_clock() const noexcept;
     void learn_period(double difference_s) noexcept;
     void learn_lateness(const Sample& sample, double since_last_s) noexcept;
     void keep(const Sample& sample) noexcept;
@@ -93,12 +112,15 @@ class SampledMotion {
     std::array<Sample, most_samples> samples_{};
     std::size_t first_ = 0;
     std::size_t count_ = 0;
+    std::optional<Sample> last_;     // the newest that was kept, also where it no longer counts
     std::optional<Sample> outlier_;  // the newest sample, where no hand can have reached it
     std::array<double, period_samples> differences_s_{};
     std::size_t differences_ = 0;
     double period_s_ = 1.0 / slowest_rate_hz;
     double offset_s_ = 0.0;    // the loop's clock less the sender's
     double lateness_s_ = 0.0;  // most of it
+    double gained_s_ = 0.0;    // by the sender's clock on the loop's, lately
+    ClockFault clock_fault_ = ClockFault::none;
     double delay_s_ = 0.0;
     double played_s_ = 0.0;  // the sender's clock
     double at_s_ = 0.0;      // the last at()

@@ -28,10 +28,28 @@ void TrackedTool::take(const TrackerReceiver::Item& item, double now_s) noexcept
                   .turn = sample.turn});
 }
 
+const char* TrackedTool::notice() const noexcept {
+    const char* const of_the_link = receiver_.notice();
+    if (*of_the_link != '\0') return of_the_link;
+    switch (clock_fault_.load(std::memory_order_relaxed)) {
+        case SampledMotion::ClockFault::none:
+            return "";
+        case SampledMotion::ClockFault::ahead:
+            return "the tracker's clock runs faster than this machine's, or has jumped: the tool is not "
+                   "followed";
+        case SampledMotion::ClockFault::behind:
+            return "the tracker's samples come later and later, or its clock runs slower than this "
+                   "machine's: the "
+                   "tool is not followed";
+    }
+    return "";
+}
+
 DeviceState TrackedTool::read(double now_s) noexcept {
     TrackerReceiver::Item item;
     while (receiver_.pop(item)) take(item, now_s);
     const std::optional<SampledMotion::Pose> pose = motion_.at(now_s);
+    clock_fault_.store(motion_.clock_fault(), std::memory_order_relaxed);
     state_.connected = pose.has_value();
     state_.velocity_mm_per_s = glm::dvec3(0.0);
     if (pose) {

@@ -8,6 +8,7 @@
 // (safety/pedal_latch.h).
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <string>
 
@@ -34,7 +35,7 @@ class TrackedTool final : public HapticDevice {
     DeviceState read(double now_s) noexcept override;
     void write(const glm::dvec3&) noexcept override {}
     void stop() noexcept override { receiver_.stop(); }
-    const char* notice() const noexcept override { return receiver_.notice(); }
+    const char* notice() const noexcept override;
 
   private:
     void take(const TrackerReceiver::Item& item, double now_s) noexcept;
@@ -43,6 +44,7 @@ class TrackedTool final : public HapticDevice {
     std::function<double()> clock_s_;
     TrackerReceiver receiver_;
     SampledMotion motion_;
+    std::atomic<SampledMotion::ClockFault> clock_fault_{SampledMotion::ClockFault::none};
     PedalStatement pedal_;
     bool was_there_ = false;
     double came_back_s_ = 0.0;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <random>
@@ -203,6 +204,109 @@ TEST(SampledMotion, FollowsClocksThatDrift) {
         }
         EXPECT_LT(motion.delay_s(), 0.03);
     }
+}
+
+/// A hand that goes steadily, sampled by a tracker whose clock, or whose link, is not ours.
+struct OddClock {
+    const char* name;
+    double rate_hz;
+    std::function<double(double)> stamp_s;  ///< of a sample made at a time of ours
+    std::function<double(double)> arrival_s = [](double made_s) { return made_s + 0.003; };
+};
+
+struct Followed {
+    double oldest_s = 0.0;  ///< of what was played, less the delay that was told
+    int losses = 0;         ///< after the first pose
+    int present = 0;        ///< ticks with a pose
+    bool is_there_at_end = false;
+    bool has_told_of_clock = false;
+};
+
+Followed follow(const OddClock& clock, double duration_s = 20.0) {
+    constexpr double speed_mm_per_s = 20.0;
+    SampledMotion motion;
+    Followed followed;
+    int next = 0;
+    bool was_there = false;
+    for (int tick = 0; tick * tick_s < duration_s; ++tick) {
+        const double now_s = tick * tick_s;
+        for (; clock.arrival_s(next / clock.rate_hz) <= now_s; ++next) {
+            const double made_s = next / clock.rate_hz;
+            motion.take({.stamp_s = clock.stamp_s(made_s),
+                         .arrival_s = now_s,
+                         .position_mm = {speed_mm_per_s * made_s, 0.0, 0.0}});
+        }
+        const auto pose = motion.at(now_s);
+        followed.has_told_of_clock |= motion.clock_fault() != SampledMotion::ClockFault::none;
+        if (was_there && !pose) ++followed.losses;
+        was_there = followed.is_there_at_end = pose.has_value();
+        if (!pose) continue;
+        ++followed.present;
+        const double age_s = now_s - pose->position_mm.x / speed_mm_per_s;
+        followed.oldest_s = std::max(followed.oldest_s, age_s - motion.delay_s());
+    }
+    return followed;
+}
+
+std::vector<OddClock> odd_clocks() {
+    std::vector<OddClock> clocks;
+    const double epoch_s = 1e9;
+    for (const double rate_hz : {20.0, 60.0, 100.0, 250.0}) {
+        for (const double rate : {0.2, 0.5, 0.8, 0.95, 1.1, 1.3, 1.6, 2.0, 3.0, 5.0, 100.0})
+            clocks.push_back({"another rate", rate_hz, [=](double at_s) { return epoch_s + rate * at_s; }});
+        for (const double set_s : {-100.0, -0.9, -0.3, 0.3, 0.9, 100.0})
+            clocks.push_back({"jumps", rate_hz, [=](double at_s) {
+                                  return epoch_s + at_s + (std::fmod(at_s, 4.0) > 2.0 ? set_s : 0.0);
+                              }});
+        for (const double range_s : {0.5, 3.0})
+            clocks.push_back({"wraps", rate_hz, [=](double at_s) { return 1.0 + std::fmod(at_s, range_s); }});
+        clocks.push_back({"stands", rate_hz, [=](double at_s) { return epoch_s + std::min(at_s, 3.0); }});
+        clocks.push_back({"gains more and more", rate_hz,
+                          [=](double at_s) { return epoch_s + at_s + 0.05 * at_s * at_s; }});
+        clocks.push_back({"loses more and more", rate_hz,
+                          [=](double at_s) { return epoch_s + at_s - 0.01 * at_s * at_s; }});
+        clocks.push_back({"grows old on the way", rate_hz, [=](double at_s) { return epoch_s + at_s; },
+                          [](double made_s) { return 1.1 * made_s; }});
+    }
+    return clocks;
+}
+
+TEST(SampledMotion, IsNeverFarBehindTheHandWhateverTheSendersClockDoes) {
+    for (const OddClock& clock : odd_clocks()) {
+        const Followed followed = follow(clock);
+        // Beside what is allowed, by the steps of samples; and where none comes, by the silence.
+        const double step_s = 1.0 / clock.rate_hz;
+        const double silence_s =
+            std::clamp(5.0 * step_s, SampledMotion::least_silence_s, SampledMotion::most_silence_s);
+        EXPECT_LE(followed.oldest_s, std::max(SampledMotion::longest_behind_s + step_s, silence_s) + 0.005)
+            << clock.name << " at " << clock.rate_hz << " Hz";
+        EXPECT_LE(followed.losses, 40) << clock.name << " at " << clock.rate_hz << " Hz: comes and goes";
+    }
+}
+
+TEST(SampledMotion, IsLostAndSaysSoWhileTheSendersClockRunsAtAnotherRate) {
+    for (const double rate : {0.2, 0.5, 0.9, 1.1, 2.0, 5.0}) {
+        const Followed followed =
+            follow({"another rate", 100.0, [=](double at_s) { return 1e9 + rate * at_s; }});
+        EXPECT_FALSE(followed.is_there_at_end) << rate;
+        EXPECT_TRUE(followed.has_told_of_clock) << rate;
+        EXPECT_LE(followed.losses, 2) << rate;
+    }
+    const Followed old = follow({"grows old on the way", 100.0, [](double at_s) { return 1e9 + at_s; },
+                                 [](double made_s) { return 1.1 * made_s; }});
+    EXPECT_FALSE(old.is_there_at_end);
+    EXPECT_TRUE(old.has_told_of_clock);
+}
+
+TEST(SampledMotion, IsBackWhenTheSendersClockIsRightAgain) {
+    for (const double rate : {0.3, 3.0})
+        EXPECT_TRUE(follow({"mends", 100.0,
+                            [=](double at_s) {
+                                const double odd_s = std::clamp(at_s - 5.0, 0.0, 0.3);
+                                return 1e9 + at_s + (rate - 1.0) * odd_s;
+                            }})
+                        .is_there_at_end)
+            << rate;
 }
 
 /// Plays `samples` as they come and gives how far the burr was from the nearest of all straight lines between

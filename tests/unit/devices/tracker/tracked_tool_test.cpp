@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "tests/support/latched_pedal.h"
 #include "tests/support/tracker_server.h"
@@ -45,7 +46,7 @@ class TrackedHand : public ::testing::Test {
             now_s += 0.001;
             if (sends && ticks % 10 == 0) {
                 if (!pedal.empty()) server.send("Pedal", pedal);
-                server.send("Drill", position_mm, turn, 1000.0 + now_s);
+                server.send("Drill", position_mm, turn, 1000.0 + clock_rate * now_s);
             }
             std::this_thread::sleep_for(300us);
             state = tool->read(now_s);
@@ -61,6 +62,7 @@ class TrackedHand : public ::testing::Test {
     glm::dvec3 position_mm{10.0, 20.0, 30.0};
     glm::dquat turn = glm::angleAxis(std::numbers::pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));  // z to -y
     double now_s = 0.0;
+    double clock_rate = 1.0;  // of the tracker's to ours
     int ticks = 0;
     DeviceState state;
 };
@@ -132,6 +134,18 @@ TEST_F(TrackedHand, ConnectsAnewAfterGarbageAndAServerThatWent) {
         "", false));
     ASSERT_TRUE(server.accept());
     ASSERT_TRUE(run([](const DeviceState& seen) { return seen.connected; }));
+}
+
+TEST_F(TrackedHand, IsLostAndSaysSoWhileTheTrackersClockIsNotOurs) {
+    begin();
+    ASSERT_TRUE(server.accept());
+    ASSERT_TRUE(run([](const DeviceState& seen) { return seen.connected; }));
+    for (const auto& [rate, words] : {std::pair(2.0, "runs faster"), std::pair(0.5, "runs slower")}) {
+        clock_rate = rate;
+        ASSERT_TRUE(run([&](const DeviceState& seen) {
+            return !seen.connected && std::string(tool->notice()).find(words) != std::string::npos;
+        })) << rate;
+    }
 }
 
 TEST_F(TrackedHand, SaysWhyNothingComes) {
