@@ -177,9 +177,10 @@ void BridgeHost::take_pose(const omb_header& header, const std::uint8_t* message
     request_clock_ns_ = header.clock_ns;
     awaits_answer_ = true;
     // What we sent, and how long it lay there, is all counted by one clock each: no clocks need agree.
-    // An arm whose clock goes in steps may say that it kept it for longer than it was away.
+    // An arm whose clock goes in steps, or fast, may say that it kept it for longer than it was away.
     const std::uint64_t away_ns = now_ns - pose.echo_clock_ns;
-    const std::uint64_t round_trip_ns = away_ns - std::min(away_ns, pose.kept_ns);
+    const std::uint64_t kept_ns = std::min({away_ns, pose.kept_ns, longest_kept_ns});
+    const std::uint64_t round_trip_ns = away_ns - kept_ns;
     const bool is_late = round_trip_ns > latest_round_trip_ns;
     is_answered_off_ = is_late || now_ns < acts_from_ns_;
     if (is_late) ++counts_.late;
@@ -187,6 +188,7 @@ void BridgeHost::take_pose(const omb_header& header, const std::uint8_t* message
     ++counts_.poses;
     measure(round_trip_ns);
     pose_ = pose;
+    said_ns_ = pose.echo_clock_ns + kept_ns;
     has_fresh_pose_ = true;
 }
 

@@ -54,6 +54,9 @@ class BridgeHost {
     static constexpr std::uint64_t between_arms_ns = 50'000'000;
     /// A pose that answers an older force is too old to act on, and so is the answer to it.
     static constexpr std::uint64_t latest_round_trip_ns = 50'000'000;
+    /// Most that an arm is believed to have kept a force before its pose. Its clock may run at any rate: by
+    /// ours a pose is never taken for fresher than it is by more than this.
+    static constexpr std::uint64_t longest_kept_ns = 50'000'000;
     /// Round trips that the delay is taken from.
     static constexpr std::size_t round_trips_kept = 256;
 
@@ -81,7 +84,7 @@ class BridgeHost {
     const omb_pose& pose() const { return pose_; }
     /// The pose's date by our own clock, which it echoes: it was sent no earlier, however long it lay in a
     /// queue.
-    std::uint64_t said_ns() const { return pose_.echo_clock_ns + pose_.kept_ns; }
+    std::uint64_t said_ns() const { return said_ns_; }
     /// Changes when another arm joins, or the same arm anew.
     std::uint64_t session() const { return session_; }
     /// The arm that is served, or was; nullopt before the first.
@@ -134,6 +137,7 @@ class BridgeHost {
     std::uint64_t heard_ = 0;  // the newest sequence of the arm's
     std::uint64_t heard_ns_ = 0;
     omb_pose pose_{};
+    std::uint64_t said_ns_ = 0;
     bool has_fresh_pose_ = false;
     bool awaits_answer_ = false;
     bool is_answered_off_ = false;        // the pose that awaits an answer: it is not acted on

@@ -306,6 +306,39 @@ TEST(BridgeHost, TakesThePosesOfAnArmWhoseClockGoesInSteps) {
     EXPECT_GT(bridge.host.counts().poses, 100U);
 }
 
+TEST(BridgeHost, TakesNoPoseForFreshBecauseTheArmsClockSaysSo) {
+    using Clock = std::function<std::uint64_t(std::uint64_t)>;
+    const std::uint64_t begin_ns = 1'000'000'000;
+    std::vector<Clock> clocks;
+    for (const double rate : {0.0, 0.2, 0.5, 1.0, 2.0, 5.0})
+        clocks.emplace_back([=](std::uint64_t now_ns) {
+            return begin_ns + static_cast<std::uint64_t>(rate * static_cast<double>(now_ns - begin_ns));
+        });
+    clocks.emplace_back([](std::uint64_t now_ns) { return now_ns % 100'000'000; });  // wraps
+    clocks.emplace_back(
+        [](std::uint64_t now_ns) { return now_ns / 300'000'000 % 2 * 5'000'000'000 + now_ns; });
+    for (std::size_t which = 0; which < clocks.size(); ++which) {
+        // The server stands still for longer and longer; then it finds what the arm has said meanwhile.
+        for (const int away_ms : {20, 120, 500, 3000}) {
+            BridgePair bridge;
+            bridge.arm_clock_ns = clocks[which];
+            bridge.exchange(300);
+            std::vector<std::pair<Datagram, std::uint64_t>> under_way;
+            bridge.pass_on = [&](const Datagram& one) {
+                under_way.emplace_back(one, bridge.now_ns);
+                return Datagrams{};
+            };
+            bridge.exchange(away_ms);
+            for (const auto& [said, at_ns] : under_way) {
+                bridge.deliver(said, bridge.peer);
+                if (!bridge.host.has_fresh_pose()) continue;
+                ASSERT_LE(bridge.now_ns - at_ns, 100 * ms) << "clock " << which;
+                ASSERT_LE(bridge.host.said_ns(), at_ns + BridgeHost::longest_kept_ns) << "clock " << which;
+            }
+        }
+    }
+}
+
 TEST(BridgeHost, WithAKeyHearsOnlyWhoHasIt) {
     const testing::TemporaryFolder folder;
     std::ofstream(folder / "key") << std::string(40, 'k');
