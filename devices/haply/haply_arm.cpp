@@ -194,7 +194,9 @@ void HaplyArm::take_grip(const std::optional<HaplyGrip>& grip) {
     if (next_pressed && !was_next_pressed_)
         newest_.state.burr = (*newest_.state.burr + 1) % parts_.burr_count;
     was_next_pressed_ = next_pressed;
-    newest_.state.pedal.is_down = grip && grip->button_a && !is_clutch_;
+    newest_.state.pedal.is_down = grip && grip->button_a;
+    // Held through the clutch it permits nothing, then and afterwards: the hand was elsewhere.
+    if (is_clutch_) ++newest_.state.pedal.speaker;
 }
 
 void HaplyArm::lose_arm() noexcept {

@@ -10,6 +10,7 @@
 #include "simulation/device/arm_spring.h"
 #include "tests/support/eventually.h"
 #include "tests/support/haply_service.h"
+#include "tests/support/latched_pedal.h"
 
 namespace osteomill {
 namespace {
@@ -299,10 +300,11 @@ TEST_F(HaplyArmOnService, LetsTheHandGoElsewhereWithTheClutch) {
         becomes([&](const DeviceState&) { return *service->force_n() == glm::dvec3(0.0); }, {2.0, 0.0, 0.0}));
     devices.position_m.x += 0.03;
     service->set(devices);
+    testing::LatchedPedal latch;
     for (int i = 0; i < 50; ++i) {
         const DeviceState state = tick({});
         EXPECT_NEAR(state.position_mm.x, 10.0, 1e-9);
-        EXPECT_FALSE(state.pedal.is_down) << "it is for drilling";
+        EXPECT_FALSE(latch.reads(state, now_s)) << "it is for drilling";
         EXPECT_EQ(state.velocity_mm_per_s, glm::dvec3(0.0));
     }
     devices.c = false;
@@ -311,6 +313,37 @@ TEST_F(HaplyArmOnService, LetsTheHandGoElsewhereWithTheClutch) {
     EXPECT_TRUE(becomes([](const DeviceState& state) {
         return state.pedal.is_down && std::abs(state.position_mm.x - 12.0) < 1e-9;
     }));
+    for (int i = 0; i < 50; ++i) EXPECT_FALSE(latch.reads(tick({}), now_s)) << "held through the clutch";
+    devices.a = false;
+    service->set(devices);
+    EXPECT_TRUE(becomes([&](const DeviceState& state) {
+        latch.reads(state, now_s);
+        return !state.pedal.is_down;
+    }));
+    devices.a = true;
+    service->set(devices);
+    EXPECT_TRUE(becomes([&](const DeviceState& state) { return latch.reads(state, now_s); }))
+        << "pressed anew";
+}
+
+TEST_F(HaplyArmOnService, CountsNoPressDuringTheClutch) {
+    begin();
+    testing::LatchedPedal latch;
+    ASSERT_TRUE(
+        becomes([&](const DeviceState& state) { return !latch.reads(state, now_s) && state.connected; }));
+    devices.c = true;
+    service->set(devices);
+    for (int i = 0; i < 50; ++i) latch.reads(tick({}), now_s);
+    devices.a = true;
+    service->set(devices);
+    EXPECT_TRUE(becomes([&](const DeviceState& state) {
+        EXPECT_FALSE(latch.reads(state, now_s));
+        return state.pedal.is_down;
+    }));
+    devices.c = false;
+    devices.position_m.x += 0.002;
+    service->set(devices);
+    for (int i = 0; i < 50; ++i) EXPECT_FALSE(latch.reads(tick({}), now_s));
 }
 
 TEST(HaplyArmAlone, WaitsUntilItIsToldNotTo) {
