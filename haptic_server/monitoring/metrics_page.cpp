@@ -11,9 +11,13 @@
 #include <boost/beast/http.hpp>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
+
+#include "common/text/plain_text.h"
+#include "haptic_server/monitoring/host_name.h"
 
 namespace osteomill {
 
@@ -42,8 +46,8 @@ tcp::acceptor listening(asio::io_context& io, const ListenAddress& where) {
 /// One that asks, from the connection to the answer. Lives as long as something of it is under way.
 class Visit : public std::enable_shared_from_this<Visit> {
   public:
-    Visit(tcp::socket socket, const std::function<std::string()>& text)
-        : stream_(std::move(socket)), text_(text) {}
+    Visit(tcp::socket socket, const std::function<std::string()>& text, const std::vector<std::string>& names)
+        : stream_(std::move(socket)), text_(text), names_(names) {}
 
     void begin() {
         stream_.expires_after(longest_visit);
@@ -60,7 +64,14 @@ class Visit : public std::enable_shared_from_this<Visit> {
         answer_.keep_alive(false);
         answer_.set(http::field::content_type, "text/plain; version=0.0.4; charset=utf-8");
         const std::string_view target(request_.target().data(), request_.target().size());
-        if (target.substr(0, target.find('?')) != path) {
+        if (const std::optional<std::string> stranger = strange_host()) {
+            answer_.result(http::status::misdirected_request);
+            answer_.body() = fmt::format(
+                "this page is not of '{}': ask for it by localhost or by an address, or start haptic_server "
+                "with "
+                "--metrics-host NAME\n",
+                printable(*stranger));
+        } else if (target.substr(0, target.find('?')) != path) {
             answer_.result(http::status::not_found);
             answer_.body() = fmt::format("there is {} alone\n", path);
         } else if (request_.method() != http::verb::get) {
@@ -76,8 +87,19 @@ class Visit : public std::enable_shared_from_this<Visit> {
         });
     }
 
+    /// The name that it was asked for by, where that is not its own.
+    std::optional<std::string> strange_host() const {
+        const auto [first, last] = request_.equal_range(http::field::host);
+        for (auto field = first; field != last; ++field) {
+            const std::string host(field->value().data(), field->value().size());
+            if (!is_own_host(host, names_)) return host;
+        }
+        return std::nullopt;
+    }
+
     beast::tcp_stream stream_;
     const std::function<std::string()>& text_;
+    const std::vector<std::string>& names_;
     beast::flat_buffer buffer_{longest_request_bytes};
     http::request<http::empty_body> request_;
     http::response<http::string_body> answer_;
@@ -87,8 +109,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
 
 class MetricsPage::Impl {
   public:
-    Impl(const ListenAddress& where, std::function<std::string()> text)
-        : text_(std::move(text)), acceptor_(listening(io_, where)) {
+    Impl(const ListenAddress& where, std::function<std::string()> text, std::vector<std::string> names)
+        : text_(std::move(text)), names_(std::move(names)), acceptor_(listening(io_, where)) {
         accept();
         thread_ = std::thread([this] { run(); });
     }
@@ -111,7 +133,7 @@ class MetricsPage::Impl {
     void accept() {
         acceptor_.async_accept([this](error_code error, tcp::socket socket) {
             if (error) return pause();
-            const auto visit = std::make_shared<Visit>(std::move(socket), text_);
+            const auto visit = std::make_shared<Visit>(std::move(socket), text_, names_);
             visit->begin();
             // Who asks for half of it and waits keeps nobody out.
             if (const auto oldest = std::exchange(visits_[next_], visit).lock()) oldest->break_off();
@@ -127,6 +149,7 @@ class MetricsPage::Impl {
     }
 
     std::function<std::string()> text_;
+    std::vector<std::string> names_;
     asio::io_context io_{1};  // what is under way in it goes before what it asks
     tcp::acceptor acceptor_;
     asio::steady_timer timer_{io_};
@@ -135,8 +158,9 @@ class MetricsPage::Impl {
     std::thread thread_;
 };
 
-MetricsPage::MetricsPage(const ListenAddress& where, std::function<std::string()> text)
-    : impl_(std::make_unique<Impl>(where, std::move(text))) {}
+MetricsPage::MetricsPage(const ListenAddress& where, std::function<std::string()> text,
+                         std::vector<std::string> names)
+    : impl_(std::make_unique<Impl>(where, std::move(text), std::move(names))) {}
 MetricsPage::~MetricsPage() = default;
 std::uint16_t MetricsPage::port() const {
     return impl_->port();

@@ -1,12 +1,14 @@
 // A web page of one text, at /metrics of an address that only this machine reaches: for Prometheus, or curl.
 //
-// On a thread of its own; one visitor at a time, for two seconds at most.
+// On a thread of its own; one visitor at a time, for two seconds at most. Who asks for it by a name that is
+// not this machine's is refused (host_name.h).
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/net/listen_address.h"
 
@@ -14,9 +16,11 @@ namespace osteomill {
 
 class MetricsPage {
   public:
-    /// Listens. `text` is called on the page's thread, at each visit, until the page is destroyed. Throws
-    /// std::runtime_error, in one line, if the address cannot be had.
-    MetricsPage(const ListenAddress& where, std::function<std::string()> text);
+    /// Listens. `text` is called on the page's thread, at each visit, until the page is destroyed. `names`:
+    /// by which it may be asked for, beside localhost and addresses. Throws std::runtime_error, in one line,
+    /// if the address cannot be had.
+    MetricsPage(const ListenAddress& where, std::function<std::string()> text,
+                std::vector<std::string> names = {});
     ~MetricsPage();
     MetricsPage(const MetricsPage&) = delete;
     MetricsPage& operator=(const MetricsPage&) = delete;

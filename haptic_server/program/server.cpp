@@ -165,11 +165,12 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
                               .shown = std::move(shown)});
     std::optional<MetricsPage> metrics;
     if (options.metrics) {
-        metrics.emplace(*options.metrics, [&meter, &assembly, &version] {
+        const auto text = [&meter, &assembly, &version] {
             return metrics_text(meter.read(),
                                 assembly.shown() ? assembly.shown()->server().traffic() : StreamingTraffic{},
                                 version);
-        });
+        };
+        metrics.emplace(*options.metrics, text, options.metrics_hosts);
         output.out->write(
             fmt::format("metrics on {}\n", text_of_address(options.metrics->address, metrics->port())));
     }

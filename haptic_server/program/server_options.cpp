@@ -120,6 +120,17 @@ std::optional<ListenAddress> metrics_address(const TypedServerOptions& typed) {
     return where;
 }
 
+void require_host_names(const TypedServerOptions& typed) {
+    const std::vector<std::string>& names = typed.options.metrics_hosts;
+    if (!names.empty() && typed.metrics.empty())
+        throw std::invalid_argument("--metrics-host is of no use without --metrics");
+    for (const std::string& name : names)
+        if (name.empty() || name.find_first_of(":/[] ") != std::string::npos)
+            throw std::invalid_argument(fmt::format(
+                "--metrics-host: '{}' is no host name; take one without port and path, such as monitor.lab",
+                name));
+}
+
 ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& access) {
     const bool is_virtual = typed.clock == "virtual";
     ServerOptions options = typed.options;
@@ -157,6 +168,7 @@ ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& acce
     options.listen = said_of_option("--listen", [&] { return listen_address(typed); });
     if (options.listen) options.access = access.access_to(*options.listen);
     options.metrics = metrics_address(typed);
+    require_host_names(typed);
     if (is_client && !options.listen) {
         throw std::invalid_argument("--device client: the operator connects over --listen, which is none");
     }

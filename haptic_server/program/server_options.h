@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/program/command_line.h"
 #include "devices/simulated/hand_model.h"
@@ -22,7 +23,8 @@ struct ServerOptions {
     LogFiles logs;
     std::optional<ListenAddress> listen;  ///< nullopt: nobody is served
     Access access;
-    std::optional<ListenAddress> metrics;  ///< where Prometheus may ask; of this machine
+    std::optional<ListenAddress> metrics;    ///< where Prometheus may ask; of this machine
+    std::vector<std::string> metrics_hosts;  ///< names by which it may be asked, beside localhost
     bool logs_json = false;
     std::optional<std::filesystem::path> operators;  ///< who of the clients may move the tool; nullopt: any
     std::optional<std::filesystem::path> controls;   ///< a script of them

@@ -117,6 +117,11 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
                    "Where Prometheus or curl may ask how the session goes, at /metrics; an address of this "
                    "machine alone, such as 127.0.0.1:9464")
         ->type_name("ADDRESS:PORT");
+    add_texts(
+        app, "--metrics-host", to.metrics_hosts,
+        "A name by which the page of --metrics may be asked for, beside localhost and addresses, such as "
+        "that of a proxy; once for each name")
+        ->type_name("NAME");
     app.add_flag("--log-json", to.logs_json,
                  "Standard error, with the log, as one JSON object a line: time, level, message");
     app.add_option("--operators", to.operators,

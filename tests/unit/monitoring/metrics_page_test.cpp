@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -58,6 +59,36 @@ TEST(MetricsPage, HasNothingElseAndTakesNothing) {
     EXPECT_THAT(answer_to(page, "GET /"), StartsWith("HTTP/1.1 404 "));
     EXPECT_THAT(answer_to(page, "GET /metrics/../etc"), StartsWith("HTTP/1.1 404 "));
     EXPECT_THAT(answer_to(page, "DELETE /metrics"), StartsWith("HTTP/1.1 405 "));
+}
+
+TEST(MetricsPage, TellsNothingUnderANameThatIsNotItsOwn) {
+    bool was_asked = false;
+    const MetricsPage page({.port = 0},
+                           [&was_asked] {
+                               was_asked = true;
+                               return "text\n";
+                           },
+                           {"monitor.lab"});
+    const auto asked_as = [&](const std::string& fields) {
+        Visitor visitor(page.port());
+        visitor.say("GET /metrics HTTP/1.1\r\n" + fields + "\r\n");
+        return visitor.hear();
+    };
+    for (const char* fields : {"Host: evil.example:9464\r\n", "Host: localhost\r\nHost: evil.example\r\n",
+                               "host: EVIL.example\x01\r\n"}) {
+        const std::string answer = asked_as(fields);
+        EXPECT_THAT(answer, testing::Not(HasSubstr("text\n"))) << fields;
+        if (std::string(fields).find('\x01') == std::string::npos) {
+            EXPECT_THAT(answer, StartsWith("HTTP/1.1 421 Misdirected Request\r\n"));
+            EXPECT_THAT(answer, HasSubstr("this page is not of 'evil.example"));
+            EXPECT_EQ(std::count(answer.begin(), answer.end(), '\n'),
+                      std::count(answer.begin(), answer.end(), '\r') + 1)
+                << "one line";
+        }
+    }
+    EXPECT_FALSE(was_asked);
+    for (const char* fields : {"Host: 127.0.0.1:9464\r\n", "Host: monitor.lab\r\n", ""})
+        EXPECT_THAT(asked_as(fields), StartsWith("HTTP/1.1 200 OK\r\n")) << fields;
 }
 
 TEST(MetricsPage, OutlivesVisitorsThatSayNonsenseTooMuchOrNothing) {
