@@ -1,7 +1,6 @@
 #include "slicer/slicer_port.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <array>
 #include <boost/asio/buffer.hpp>
@@ -54,6 +53,11 @@ std::uint16_t SlicerPort::port() const {
 
 void SlicerPort::run_for(std::chrono::milliseconds time) {
     io_.run_for(time);
+    log_.tell_left_out(std::chrono::steady_clock::now());
+}
+
+void SlicerPort::say(spdlog::level::level_enum level, const std::string& line) {
+    log_.write(level, line, std::chrono::steady_clock::now());
 }
 
 bool SlicerPort::takes_more() const {
@@ -62,8 +66,10 @@ bool SlicerPort::takes_more() const {
 
 void SlicerPort::accept() {
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-        if (!error) {
-            if (receiver_) drop(receiver_, "another one connected");
+        if (!error && receiver_) {
+            say(spdlog::level::warn,
+                "a second connection to the port of 3D Slicer was refused: one is there");
+        } else if (!error) {
             receiver_ = std::make_shared<Receiver>(
                 std::move(socket),
                 IgtlStream::Sinks{
@@ -73,8 +79,9 @@ void SlicerPort::accept() {
                             if (auto text = text_of_string_message(message.content))
                                 sinks_.said(message.name, *text);
                         },
-                    .damaged = [] { spdlog::warn("a damaged STRING message was passed over"); }});
-            spdlog::info("3D Slicer has connected");
+                    .damaged =
+                        [this] { say(spdlog::level::warn, "a damaged STRING message was passed over"); }});
+            say(spdlog::level::info, "3D Slicer has connected");
             read(receiver_);
             sinks_.connected();
         }
@@ -116,7 +123,7 @@ void SlicerPort::write(const std::shared_ptr<Receiver>& receiver) {
 
 void SlicerPort::drop(std::shared_ptr<Receiver> receiver, const char* why) {
     if (receiver != receiver_) return;
-    spdlog::info("the connection to 3D Slicer ends: {}", why);
+    say(spdlog::level::info, fmt::format("the connection to 3D Slicer ends: {}", why));
     receiver_.reset();
     error_code ignored;
     receiver->held_up.cancel();

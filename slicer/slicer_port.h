@@ -1,8 +1,9 @@
 // The port that 3D Slicer connects to: a TCP server on loopback for one receiver. OpenIGTLink has no
 // authentication and no encryption, so that no other machine can reach it.
 //
-// A newer connection takes the place of the older one: Slicer's that was closed, or hangs. A receiver that
-// takes nothing for 10 s is dropped.
+// Who is there keeps the place: a newer connection is closed at once, or any process of this machine could
+// put 3D Slicer out. A receiver that takes nothing for 10 s is dropped. The log says who comes and goes, a
+// line every two seconds at most (limited_log.h).
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -14,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "common/log/limited_log.h"
 #include "slicer/igtl_messages.h"
 
 namespace osteomill {
@@ -49,8 +51,10 @@ class SlicerPort {
     void read(const std::shared_ptr<Receiver>& receiver);
     void write(const std::shared_ptr<Receiver>& receiver);
     void drop(std::shared_ptr<Receiver> receiver, const char* why);
+    void say(spdlog::level::level_enum level, const std::string& line);
 
     Sinks sinks_;
+    LimitedLog log_{};
     boost::asio::io_context io_{1};
     boost::asio::ip::tcp::acceptor acceptor_{io_};
     std::shared_ptr<Receiver> receiver_{};  // null: nobody

@@ -133,8 +133,13 @@ TEST(SlicerProgram, TakesMarksWhereTheServerTakesThem) {
     }));
     viewer.program.read_output();
     EXPECT_THAT(viewer.program.err(), HasSubstr("Pause: is neither 1 nor 0"));
-    // Another receiver takes the place of the first.
+    // Another receiver has the place when the first has left.
     const auto port = viewer.program.out().substr(viewer.program.out().rfind(':') + 1);
+    viewer.receiver.reset();
+    ASSERT_TRUE(eventually([&] {
+        viewer.program.read_output();
+        return viewer.program.err().find("the connection to 3D Slicer ends") != std::string::npos;
+    }));
     SlicerReceiver second(std::stoi(port));
     EXPECT_TRUE(eventually([&] {
         second.import();
