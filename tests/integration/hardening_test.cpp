@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <regex>
+#include <sstream>
 #include <string>
 
 #include "tests/support/child_process.h"
@@ -17,6 +18,7 @@ namespace {
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 bool is_there(const std::string& program) {
     return run_program({"/bin/sh", "-c", "command -v " + program}).status == 0;
@@ -64,6 +66,20 @@ TEST(Confinement, OfTheServiceIsWhatSystemdCallsOk) {
           "SupplementaryGroups=plugdev", "StateDirectory=osteomill", "RuntimeDirectory=osteomill",
           "RestrictAddressFamilies=AF_INET AF_INET6 AF_UNIX"})
         EXPECT_THAT(text, HasSubstr(std::string("\n") + needed + "\n"));
+}
+
+TEST(Confinement, GivesRealTimePriorityToAGroupOfItsOwnAlone) {
+    std::istringstream limits(text_of(std::string(SCRIPTS) + "/limits/60-osteomill.conf"));
+    int rights = 0;
+    for (std::string line; std::getline(limits, line);) {
+        if (line.empty() || line.front() == '#') continue;
+        EXPECT_THAT(line, StartsWith("@osteomill-rt - ")) << "everybody at the machine is in plugdev";
+        ++rights;
+    }
+    EXPECT_EQ(rights, 2);
+    EXPECT_THAT(text_of(std::string(SCRIPTS) + "/../debian/osteomill-server.sysusers"),
+                HasSubstr("\ng osteomill-rt -\n"))
+        << "the package makes it";
 }
 
 TEST(Confinement, OfTheContainersLeavesNoCapabilityAndNothingToWriteOn) {
