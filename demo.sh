@@ -22,13 +22,13 @@ say "drilling: forces at 1 kHz, the bone at 30 Hz"
 server=$!
 trap 'kill "$server" 2>/dev/null || true' EXIT
 port=
-for _ in $(seq 200); do
+for _ in $(seq 1200); do
     port=$(sed -n 's/^listening on .*:\([0-9]*\)$/\1/p' "$out/server.log")
     [ -n "$port" ] && break
     kill -0 "$server" 2>/dev/null || { cat "$out/server.err" >&2; exit 1; }
     sleep 0.1
 done
-[ -n "$port" ] || { echo "the server did not start listening within 20 s" >&2; exit 1; }
+[ -n "$port" ] || { echo "the server did not start listening within two minutes" >&2; exit 1; }
 
 # The server comes first: on a small machine drawing must not take its cores.
 view=(--offscreen --frames 100000)

@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Of a command that is to be found in the PATH.
-Finished outcome_of(Command command, std::chrono::seconds deadline = 60s) {
+Finished outcome_of(Command command, std::chrono::seconds deadline = far_too_long) {
     command.insert(command.begin(), "/usr/bin/env");
     return run_program(command, deadline);
 }
@@ -26,7 +26,7 @@ std::string last_line(std::string text) {
     return text.substr(text.rfind('\n') + 1);
 }
 
-std::string run_or_throw(const Command& command, std::chrono::seconds deadline = 60s) {
+std::string run_or_throw(const Command& command, std::chrono::seconds deadline = far_too_long) {
     const Finished run = outcome_of(command, deadline);
     if (run.status != 0) throw std::runtime_error(command[0] + " " + command[1] + ": " + last_line(run.err));
     return run.out;

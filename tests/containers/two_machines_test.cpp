@@ -34,10 +34,10 @@ nlohmann::json json_of(const std::filesystem::path& file) {
     return nlohmann::json::parse(bytes_of(file));
 }
 
-/// Waits, reading what the server says, until `happened`; false where it does not within a minute.
+/// Waits, reading what the server says, until `happened`; false where it is far too late.
 template <typename Happened>
 bool comes_true(ChildProcess& server, Happened&& happened) {
-    const auto deadline = std::chrono::steady_clock::now() + 60s;
+    const auto deadline = std::chrono::steady_clock::now() + far_too_long;
     while (!happened())
         if (std::chrono::steady_clock::now() > deadline || server.wait(1s)) return false;
     return true;
@@ -133,7 +133,7 @@ TEST_F(TwoMachinesTest, EndWithTheSameBoneAndPictureThoughTheCableWasPulled) {
         machines_->run(Machine::server, "haptic_server",
                        {"--listen", "0.0.0.0:7010", "--insecure-network", "--trajectory", out("drilling.csv"),
                         "--record", out("session.pcap"), "--json", out("server.json")}));
-    ASSERT_TRUE(server.line_after("listening on ", 60s)) << server.err();
+    ASSERT_TRUE(server.line_after("listening on ")) << server.err();
     ChildProcess steady(viewer(Machine::beside_server, "steady"));
     ChildProcess cut(viewer(Machine::viewer, "cut"));
     const std::string far = "client " + machines_->viewer_address() + ":";
@@ -148,9 +148,9 @@ TEST_F(TwoMachinesTest, EndWithTheSameBoneAndPictureThoughTheCableWasPulled) {
     ASSERT_TRUE(is_said(server, far, "joined", 2)) << server.err() << cut.err();
     ASSERT_TRUE(comes_true(server, [&] { return progress_of(server).time_s > out_s; })) << server.err();
     server.send_signal(SIGINT);
-    ASSERT_EQ(server.wait(60s), 0) << server.err();
-    ASSERT_EQ(steady.wait(60s), 0) << steady.err();
-    ASSERT_EQ(cut.wait(60s), 0) << cut.err();
+    ASSERT_EQ(server.wait(), 0) << server.err();
+    ASSERT_EQ(steady.wait(), 0) << steady.err();
+    ASSERT_EQ(cut.wait(), 0) << cut.err();
 
     const auto served = json_of(folder_ / "server.json");
     EXPECT_GT(served.at("removed_mm3").at("total"), removed_before_mm3 + is_drilling_mm3)

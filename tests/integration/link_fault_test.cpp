@@ -44,7 +44,7 @@ class LinkFaults : public FolderTest {
                         file("motion.csv"), "--json", file("server.json")};
         command.insert(command.end(), options.begin(), options.end());
         server_ = std::make_unique<ChildProcess>(command);
-        const auto address = server_->line_after("listening on ", 60s);
+        const auto address = server_->line_after("listening on ");
         ASSERT_TRUE(address) << server_->err();
         port_ = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
     }
@@ -72,7 +72,7 @@ class LinkFaults : public FolderTest {
         server_->send_signal(SIGINT);
         EXPECT_TRUE(poll_until(
             links, [](const LinkUpdate& update) { return update.status == LinkStatus::finished; }));
-        ASSERT_EQ(server_->wait(60s), 0) << server_->err();
+        ASSERT_EQ(server_->wait(), 0) << server_->err();
         EXPECT_TRUE(has_cut) << server_->err();
         const std::string served = json("server.json").at("bone_checksum");
         for (const auto& link : links) {
@@ -165,7 +165,7 @@ TEST_F(LinkFaults, OfAServerKilledWhileItRecordsLeaveAFileAndClientsForTheNext) 
     const auto by_then = recorded();
     ASSERT_TRUE(eventually([&] { return recorded() > by_then; }));
     server_->send_signal(SIGKILL);
-    ASSERT_EQ(server_->wait(60s), 128 + SIGKILL);
+    ASSERT_EQ(server_->wait(), 128 + SIGKILL);
     ASSERT_TRUE(
         poll_until(links, [](const LinkUpdate& update) { return update.status == LinkStatus::lost; }));
 

@@ -144,8 +144,8 @@ class Soak {
             server_program_, "--bone", file("block.nrrd"), "--trajectory", file("motion.csv"), "--listen",
             "127.0.0.1:0", "--record", file("session.pcap"), "--metrics", "127.0.0.1:0", "--json",
             file("server.json")});
-        const auto metrics = server_->line_after("metrics on 127.0.0.1:", 60s);
-        const auto address = server_->line_after("listening on ", 60s);
+        const auto metrics = server_->line_after("metrics on 127.0.0.1:");
+        const auto address = server_->line_after("listening on ");
         if (!metrics || !address) throw std::runtime_error("the server did not begin: " + server_->err());
         const auto port = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
         for (std::size_t i = 0; i < clients; ++i) stations_.push_back(std::make_unique<Station>(port));
@@ -238,7 +238,7 @@ class Soak {
         server_->send_signal(SIGINT);
         const bool finished = all(&Station::is_finished);
         if (!finished) print_stations("not all have finished");
-        const auto status = server_->wait(60s);
+        const auto status = server_->wait();
         if (status != 0) throw std::runtime_error("the server failed: " + server_->err());
         const std::string served = json("server.json").at("bone_checksum");
         const auto equal = std::ranges::count_if(stations_, [&](const auto& s) { return s->has(served); });
