@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
+
 #include "devices/hid/hid_arm.h"
 #include "devices/hid/hidapi_transport.h"
 #include "devices/hid/profile_file.h"
@@ -21,7 +23,7 @@ DeviceParts make_hid_arm(const std::string& name) {
     parts.home_mm = home_position_mm(profile);
     parts.transport = std::make_unique<HidapiTransport>();
     parts.device = std::make_unique<HidArm>(
-        profile, *parts.transport, [clock = RealClock()] { return clock.now_s(); },
+        profile, *parts.transport, [clock = std::make_shared<const RealClock>()] { return clock->now_s(); },
         [] { ask_for_real_time(device_priority); });
     return parts;
 }

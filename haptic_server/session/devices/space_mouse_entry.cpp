@@ -1,3 +1,5 @@
+#include <memory>
+
 #include "devices/hid/hidapi_transport.h"
 #include "devices/hid/space_mouse.h"
 #include "devices/simulated/arm_model.h"
@@ -15,7 +17,8 @@ DeviceParts make_space_mouse(const DeviceContext& context) {
     parts.transport = std::make_unique<HidapiTransport>();
     parts.device = std::make_unique<SpaceMouse>(
         context.scene, ArmModel{}, hand_model(context.grip.value_or(Grip::firm)), *parts.transport,
-        [clock = RealClock()] { return clock.now_s(); }, [] { ask_for_real_time(device_priority); });
+        [clock = std::make_shared<const RealClock>()] { return clock->now_s(); },
+        [] { ask_for_real_time(device_priority); });
     return parts;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <memory>
 #include <stdexcept>
 
 #include "common/scene/device_mapping.h"
@@ -32,11 +33,12 @@ DeviceParts make_tracked_tool(const TrackerChoice& choice, const DeviceContext& 
     parts.mapping = setup.registration.mapping;
     const ToolPose& start = context.scene.start_pose;
     parts.device = std::make_unique<TrackedTool>(
-        TrackerReceiver::Parts{.server = choice.server,
-                               .name = choice.name,
-                               .pedal = {},
-                               .now_s = [clock = RealClock()] { return clock.now_s(); },
-                               .on_thread_start = [] { ask_for_real_time(device_priority); }},
+        TrackerReceiver::Parts{
+            .server = choice.server,
+            .name = choice.name,
+            .pedal = {},
+            .now_s = [clock = std::make_shared<const RealClock>()] { return clock->now_s(); },
+            .on_thread_start = [] { ask_for_real_time(device_priority); }},
         std::move(setup.handpiece),
         ToolPose{position_in_device_mm(*parts.mapping, start.position_mm),
                  direction_in_device(*parts.mapping, start.spindle_axis)});
