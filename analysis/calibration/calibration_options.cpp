@@ -92,13 +92,16 @@ StudyCommand add_calibration(CLI::App& app) {
         if (shared->data.empty() && !shared->designs)
             throw CLI::RequiredError("a table of runs, or --design");
     });
-    return {calibrate, [shared](const StudySurroundings& surroundings) {
-                if (shared->designs) {
-                    shared->design.out = shared->out;
-                    return design_runs(shared->design, surroundings);
-                }
-                study::calibrate({.data = shared->data, .out = shared->out}, surroundings);
-            }};
+    return {.subcommand = calibrate,
+            .run =
+                [shared](const StudySurroundings& surroundings) {
+                    if (shared->designs) {
+                        shared->design.out = shared->out;
+                        return design_runs(shared->design, surroundings);
+                    }
+                    study::calibrate({.data = shared->data, .out = shared->out}, surroundings);
+                },
+            .writes = {"calibration.json", "calibration_*.svg", "residuals.csv", "scene.toml"}};
 }
 
 }  // namespace osteomill::study

@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <stdexcept>
+#include <vector>
 
 #include "analysis/hdf5/all_of_recording.h"
 #include "analysis/hdf5/fivrs_recording.h"
+#include "common/files/distinct_files.h"
 #include "common/recording/packet_reader.h"
 
 namespace osteomill {
@@ -38,6 +40,9 @@ std::filesystem::path fivrs_v3_file(const std::filesystem::path& file) {
 
 std::string write_hdf5(const std::filesystem::path& recording, const std::filesystem::path& file,
                        Hdf5Layout layout, const ReportProgress& on_frame) {
+    std::vector<NamedFile> files{{"the recording", recording, false}, {"the HDF5 file", file}};
+    if (layout == Hdf5Layout::fivrs_v3) files.push_back({"its second file", fivrs_v3_file(file)});
+    require_distinct(files);
     Playhead playhead(recording);
     const double began_s = began_unix_s(recording);
     if (layout == Hdf5Layout::osteomill)

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "analysis/output/surroundings.h"
 
@@ -23,7 +24,13 @@ struct StudyCommand {
     int jobs = 1;
     bool runs_one_by_one = false;   ///< whatever --jobs says: it draws, or measures this machine
     bool writes_elsewhere = false;  ///< than into the folder of --out: `repeat` does not run it
+    /// Names (fnmatch) of what it writes into that folder, of a study that reads files.
+    std::vector<const char*> writes{};
 };
+
+/// Throws std::invalid_argument where a file that an option of a parsed study names is one of those that it
+/// will write (distinct_files.h).
+void require_distinct_files(const StudyCommand& study);
 
 /// For cases that measure no times: as many as there are processors.
 inline int jobs_of_processors() {

@@ -50,7 +50,10 @@ int open_direct(const fs::path& path, const fs::path& named) {
 /// Closes its descriptor.
 class Descriptor {
   public:
-    Descriptor(const fs::path& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC)) {}
+    Descriptor(const fs::path& path, int flags) : Descriptor(AT_FDCWD, path, flags) {}
+    /// `path` within an opened folder.
+    Descriptor(int folder, const fs::path& path, int flags)
+        : number_(::openat(folder, path.c_str(), flags | O_CLOEXEC)) {}
     ~Descriptor() {
         if (number_ >= 0) ::close(number_);
     }
@@ -65,8 +68,8 @@ class Descriptor {
 };
 
 /// 0, or why not. Not every file system can sync a folder, and none that cannot would lose the rename.
-int sync(const fs::path& path, int flags) {
-    const Descriptor file(path, flags);
+int sync(int folder, const fs::path& path, int flags) {
+    const Descriptor file(folder, path, flags);
     if (!file.is_open()) return errno;
     while (::fsync(file.number()) != 0) {
         if (errno == EINTR) continue;
@@ -75,11 +78,15 @@ int sync(const fs::path& path, int flags) {
     return 0;
 }
 
-fs::path folder_of(const fs::path& path) {
-    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+int opened_folder_of(const fs::path& path) {
+    return ::open(folder_of(path).c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
 }
 
 }  // namespace
+
+fs::path folder_of(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
 
 fs::path end_of_links(fs::path path) {
     constexpr int most_links = 40;  // as the system follows
@@ -89,9 +96,17 @@ fs::path end_of_links(fs::path path) {
     return path;
 }
 
+std::string why_no_target(const fs::path& path) {
+    std::error_code failed;
+    if (!fs::is_symlink(fs::symlink_status(path, failed)) || fs::exists(fs::status(path, failed))) return {};
+    return fmt::format("{}: is a link to {}, where nothing is; take the link away or give another name",
+                       path.string(), end_of_links(path).string());
+}
+
 WriteTarget write_target(const fs::path& path, Link link) {
     WriteTarget target{.path = path};
     if (link == Link::replace) return target;
+    if (const std::string why = why_no_target(path); !why.empty()) throw std::runtime_error(why);
     std::error_code ignored;  // what cannot be looked at cannot be written either, and that is reported
     const fs::file_status status = fs::status(path, ignored);
     target.is_direct = fs::exists(status) && !fs::is_regular_file(status);
@@ -105,7 +120,10 @@ int open_new(const fs::path& path) {
 
 AtomicFile::AtomicFile(const fs::path& path, WriteTarget target, const fs::path& part)
     : path_(path), target_(std::move(target)), part_(part), owns_part_(!target_.is_direct) {
-    if (target_.is_direct) descriptor_ = open_direct(target_.path, path_);
+    if (target_.is_direct)
+        descriptor_ = open_direct(target_.path, path_);
+    else
+        folder_ = opened_folder_of(target_.path);
 }
 
 AtomicFile::AtomicFile(const fs::path& path, Link link)
@@ -114,6 +132,7 @@ AtomicFile::AtomicFile(const fs::path& path, Link link)
         descriptor_ = open_direct(target_.path, path_);
         return;
     }
+    folder_ = opened_folder_of(target_.path);
     std::random_device random;
     for (bool is_made = false; !is_made;) {
         part_.replace_filename(fmt::format("{}{}{:08x}{}", target_.path.stem().string(), before_random,
@@ -130,13 +149,13 @@ AtomicFile::AtomicFile(const fs::path& path, Link link)
 }
 
 AtomicFile::~AtomicFile() {
-    std::error_code ignored;
-    if (owns_part_) fs::remove(part_, ignored);
+    if (owns_part_) ::unlinkat(folder_, part_.filename().c_str(), 0);
     if (descriptor_ >= 0) ::close(descriptor_);
+    if (folder_ >= 0) ::close(folder_);
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
-    if (descriptor_ < 0) descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) descriptor_ = ::openat(folder_, part_.filename().c_str(), O_WRONLY | O_CLOEXEC);
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
@@ -151,16 +170,15 @@ void AtomicFile::rewind() {
 
 void AtomicFile::commit() {
     if (!owns_part_) return;
-    if (const int reason = sync(part_, O_RDONLY)) fail(path_, reason);
+    if (const int reason = sync(folder_, part_.filename(), O_RDONLY)) fail(path_, reason);
     commit_unsynced();
-    if (const int reason = sync(folder_of(target_.path), O_RDONLY | O_DIRECTORY)) fail(path_, reason);
+    if (const int reason = sync(folder_, ".", O_RDONLY | O_DIRECTORY)) fail(path_, reason);
 }
 
 void AtomicFile::commit_unsynced() {
     if (!owns_part_) return;
-    std::error_code failed;
-    fs::rename(part_, target_.path, failed);
-    if (failed) fail(path_, failed.value());
+    if (::renameat(folder_, part_.filename().c_str(), folder_, target_.path.filename().c_str()) != 0)
+        fail(path_, errno);
     owns_part_ = false;
 }
 

@@ -10,16 +10,20 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace osteomill {
 
 /// What a link under the file's own name means.
 enum class Link {
-    follow,  ///< of a name that a user gave: the target of the link is replaced
+    follow,  ///< of a name that a user gave: the target of the link is replaced, if there is one
     replace  ///< of a name that this program chose, in a folder that may be from elsewhere: the link is
              ///< replaced
 };
+
+/// Where a file lies: "." where its path does not say.
+std::filesystem::path folder_of(const std::filesystem::path& path);
 
 /// What a link at this path leads to in the end, also where nothing is there yet.
 std::filesystem::path end_of_links(std::filesystem::path path);
@@ -29,7 +33,12 @@ struct WriteTarget {
     std::filesystem::path path;  ///< links resolved, where they are followed
     bool is_direct = false;      ///< no regular file (/dev/null, a pipe): written itself, without a part
 };
+/// Throws std::runtime_error, as why_no_target says, for a link to follow that leads to nothing.
 WriteTarget write_target(const std::filesystem::path& path, Link link);
+
+/// One line for a link that leads to nothing: it may be an old one, or one of somebody else's, and to make a
+/// file where it leads is what nobody asked for. Empty for all other paths.
+std::string why_no_target(const std::filesystem::path& path);
 
 class AtomicFile {
   public:
@@ -52,8 +61,8 @@ class AtomicFile {
     void write(std::span<const std::byte> bytes);
     void rewind();
 
-    /// Syncs the part and makes it the file. Throws std::runtime_error with one line that names the file and
-    /// the reason; the old file is then as it was.
+    /// Syncs the part and makes it the file, also in a folder that has another name by now. Throws
+    /// std::runtime_error with one line that names the file and the reason; the old file is then as it was.
     void commit();
     /// The same without a sync, which waits for the disk: for files that may be lost with the machine but not
     /// with the program, such as a picture written between two frames.
@@ -67,6 +76,7 @@ class AtomicFile {
     WriteTarget target_;
     std::filesystem::path part_;
     bool owns_part_;
+    int folder_ = -1;      // of the part and the target: it may get another name while the part is written
     int descriptor_ = -1;  // of the part, locked, where this has made it; of what is written itself
 };
 

@@ -1,22 +1,31 @@
-// Files of a command line that must differ: of two outputs at one path, one would be lost.
+// Files of a run that must differ: of two outputs at one path one would be lost, and so would an input at the
+// path of an output. Every program, and the module of Python, asks here before it writes.
 #pragma once
 
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace osteomill {
 
-/// A file of the command line, as what `option` named it.
+/// A file of a run, as what `option` named it.
 struct NamedFile {
     std::string option;
-    std::filesystem::path path;
-    bool is_written = true;  ///< otherwise it is read
+    std::filesystem::path path;    ///< where it is read, a folder stands for all that is in it
+    bool is_written = true;        ///< otherwise it is read
+    std::string names{};           ///< `path` is a folder in which files of these names (fnmatch) are written
+    std::string is_replaced_by{};  ///< an option whose file may take the place of this one, once it is whole
 };
 
+/// Files of names that the program chose, in a folder of `option`.
+std::vector<NamedFile> files_written_in(const std::string& option, const std::filesystem::path& folder,
+                                        std::span<const char* const> names);
+
 /// Throws std::invalid_argument with one line for the first two that are one file, also by way of links or of
-/// another spelling of a folder, where either of them is written; and where one is what the other is called
-/// while it is written (NAME.part.EXT). Devices and pipes may be written to by all.
+/// another spelling of a folder, where either of them is written; where one is what the other is called while
+/// it is written (NAME.part.EXT); where one is written into a folder that is read; and for a link to write to
+/// that leads to nothing. Devices and pipes may be written to by all.
 void require_distinct(std::span<const NamedFile> files);
 
 }  // namespace osteomill

@@ -66,9 +66,11 @@ std::vector<NamedFile> files_of(const ReplayOptions& options, const AccessOption
             files.push_back({output.option, *(options.*output.file)});
     if (options.hdf5 && options.layout == Hdf5Layout::fivrs_v3)
         files.push_back({"--layout", fivrs_v3_file(*options.hdf5)});
-    if (options.report)
-        for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
-            files.push_back({"--report", *options.report / name});
+    if (options.report) {
+        constexpr std::array names{"report.html", "metrics.csv", "metrics.json"};
+        const std::vector<NamedFile> report = files_written_in("--report", *options.report, names);
+        files.insert(files.end(), report.begin(), report.end());
+    }
     return files;
 }
 

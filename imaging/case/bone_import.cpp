@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/files/distinct_files.h"
 #include "common/program/available_memory.h"
 #include "common/program/command_line.h"
 #include "common/program/option_checks.h"
@@ -190,6 +191,25 @@ void add_options(CLI::App& app, ImportCommand& command, Texts& texts) {
         ->excludes(rescale);
 }
 
+void require_distinct_files(const ImportCommand& command) {
+    std::vector<NamedFile> files;
+    const auto add_image = [&files](const char* option, const std::filesystem::path& image) {
+        for (const auto& file : files_of_image(image)) files.push_back({option, file, false});
+    };
+    if (command.parts.labels.empty()) add_image("INPUT", command.options.input);
+    for (const auto& labels : command.parts.labels) add_image("--labels", labels);
+    for (const auto& segmentation : command.parts.segmentations) add_image("--segmentation", segmentation);
+    if (command.parts.colours) files.push_back({"--colours", *command.parts.colours, false});
+    if (command.preview) {
+        files.push_back({"--preview", *command.preview});
+    } else if (command.case_folder) {
+        for (const auto& file : files_of_case(*command.case_folder)) files.push_back({"--case", file});
+    } else {
+        files.push_back({"OUTPUT", command.options.output});
+    }
+    require_distinct(files);
+}
+
 /// Of labels, which have no CT numbers.
 void parse_labels(const CLI::App& app, const Texts& texts, ImportCommand& command) {
     ImportOptions& options = command.options;
@@ -280,6 +300,7 @@ ParseResult<ImportCommand> parse(int argc, const char* const* argv) {
     add_options(app, command, texts);
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     parse_texts(app, texts, command);
+    require_distinct_files(command);
     return {std::move(command), {}};
 }
 

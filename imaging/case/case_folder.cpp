@@ -50,10 +50,6 @@ constexpr const char* preface =
     "each\n"
     "# session says that it is unsigned.\n\n";
 
-std::vector<std::filesystem::path> files_of_case(const std::filesystem::path& folder) {
-    return {folder / scene_name, bone_of_case(folder), folder / segmentation_name, folder / picture_name};
-}
-
 /// Of a folder the label maps in it, by name.
 std::vector<std::filesystem::path> label_maps(const std::vector<std::filesystem::path>& paths) {
     std::vector<std::filesystem::path> maps;
@@ -282,6 +278,10 @@ OpenedImage scan_of_labels(const BegunCase& begun, std::ostream& messages, bool 
     return bone_of_labels(maps, [&](const Segment& segment) {
         return (is_to_look_at && !is_any_bone) || material_of(segment.name, begun.parts, true) != nullptr;
     });
+}
+
+std::vector<std::filesystem::path> files_of_case(const std::filesystem::path& folder) {
+    return {folder / scene_name, bone_of_case(folder), folder / segmentation_name, folder / picture_name};
 }
 
 std::filesystem::path bone_of_case(const std::filesystem::path& folder) {

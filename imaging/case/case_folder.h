@@ -72,6 +72,9 @@ class UnfinishedCase {
 /// look at, all are where none is.
 OpenedImage scan_of_labels(const BegunCase& begun, std::ostream& messages, bool is_to_look_at = false);
 
+/// All that is made in a case's folder, whether it is there or not.
+std::vector<std::filesystem::path> files_of_case(const std::filesystem::path& folder);
+
 /// Where a case's bone lies.
 std::filesystem::path bone_of_case(const std::filesystem::path& folder);
 

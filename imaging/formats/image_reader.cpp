@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -93,9 +94,13 @@ OpenedImage opened(const std::filesystem::path& path, ImageHeader header, ImageP
         throw ImagingError(path, fmt::format("is a single slice ({} x {} x {} voxels), which is no volume",
                                              size.x, size.y, size.z));
     const glm::ivec3 size_of_values = size * glm::ivec3(header.layers, 1, 1);
+    std::vector<std::filesystem::path> data_files;
+    for (const VoxelPart& part : data.parts)
+        if (part.file != path) data_files.push_back(part.file);
     return {.image = std::move(header.image),
             .layers = header.layers,
             .key_values = std::move(header.key_values),
+            .data_files = std::move(data_files),
             .read_slices =
                 [data = std::move(data), voxels = header.voxels, size_of_values](
                     const TakeSlice& take, const ReportProgress& report) {
@@ -189,6 +194,20 @@ std::string name_without_ending(const std::filesystem::path& path) {
     for (const ImageFormat& one : image_formats) std::ranges::for_each(one.endings, take_off);
     take_off(".seg");
     return name;
+}
+
+std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& path) {
+    std::vector<std::filesystem::path> files{path};
+    std::error_code failed;
+    if (std::filesystem::is_directory(path, failed)) return files;
+    try {
+        if (is_nifti_voxel_file(path)) files.push_back(nifti_header_file(path));
+        const OpenedImage image = open_labels(path);
+        files.insert(files.end(), image.data_files.begin(), image.data_files.end());
+    } catch (const std::runtime_error&) {
+        // Whoever reads it says so.
+    }
+    return files;
 }
 
 OpenedImage open_labels(const std::filesystem::path& path, const ImageChoice& choice) {

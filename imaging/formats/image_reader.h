@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "imaging/formats/opened_image.h"
 
@@ -28,6 +29,10 @@ bool is_image_name(const std::filesystem::path& path);
 
 /// The file's name without what tells its format: "mandible" of "mandible.seg.nrrd".
 std::string name_without_ending(const std::filesystem::path& path);
+
+/// What is read of an image or a label map: the path itself, and the files that its header names. A folder
+/// stands for all that is in it.
+std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& path);
 
 /// As open_image, of a label map, which may have layers or colours: in any of the formats, and a DICOM
 /// segmentation.

@@ -159,9 +159,12 @@ NiftiHeader parse_nifti_header(std::span<const std::uint8_t> bytes, const std::f
     return header;
 }
 
+std::filesystem::path nifti_header_file(const std::filesystem::path& path) {
+    return is_half(path, ".img") ? other_of_pair(path, ".hdr") : path;
+}
+
 ImageHeader open_nifti(const std::filesystem::path& path) {
-    const bool is_image_half = is_half(path, ".img");
-    const std::filesystem::path header_file = is_image_half ? other_of_pair(path, ".hdr") : path;
+    const std::filesystem::path header_file = nifti_header_file(path);
     NiftiHeader header = parse_nifti_header(
         first_bytes_inflated(InputFile(header_file), most_nifti_header_bytes), header_file);
     std::filesystem::path voxel_file = path;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <span>
@@ -28,6 +29,8 @@ struct OpenedImage {
     bool is_coloured = false;  ///< its values are colours, 0xRRGGBB, which a float holds
     /// "key:=value" of a NRRD; the segments of a DICOM segmentation in the words of Slicer's .seg.nrrd.
     std::map<std::string, std::string> key_values{};
+    /// Where the values lie, where that is not the one file that was opened.
+    std::vector<std::filesystem::path> data_files{};
     /// Reads the values slice by slice and hands on each, k ascending, with the file's own rescale (slice by
     /// slice in DICOM) applied. What the file says was not measured (padding) is not a number. Throws
     /// ImagingError, too, where what was compressed is damaged.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -172,6 +173,10 @@ std::string contradiction(const RenderOptions& options) {
     return {};
 }
 
+/// Names of the files of --screenshots and of --dataset, a folder for each camera in it.
+constexpr std::array screenshot_names{"frame_*.png", "final.png"};
+constexpr std::array dataset_names{"dataset*.json", "*/[0-9]*_*.png", "*/[0-9]*_*.npy"};
+
 /// Says which two are one; empty where none are.
 std::string same_files(const RenderOptions& options, const TlsOptions& tls) {
     std::vector<NamedFile> files = tls.files_read();
@@ -180,6 +185,19 @@ std::string same_files(const RenderOptions& options, const TlsOptions& tls) {
     if (options.film) files.push_back({"--film", *options.film});
     if (!options.look_file.empty()) files.push_back({"--look", options.look_file});
     if (!options.json.empty()) files.push_back({"--json", options.json});
+    const auto add_folder = [&files](const char* option, const std::filesystem::path& folder,
+                                     std::span<const char* const> names) {
+        const std::vector<NamedFile> written = files_written_in(option, folder, names);
+        files.insert(files.end(), written.begin(), written.end());
+    };
+    if (!options.screenshots.empty()) add_folder("--screenshots", options.screenshots, screenshot_names);
+    // A camera's name may be "trainee", which is no file.
+    if (!options.camera.empty()) files.push_back({"--camera", options.camera, false});
+    if (options.dataset) {
+        add_folder("--dataset", options.dataset->folder, dataset_names);
+        if (!options.dataset->cameras.empty())
+            files.push_back({"--cameras", options.dataset->cameras, false});
+    }
     try {
         require_distinct(files);
     } catch (const std::invalid_argument& same) {

@@ -66,6 +66,15 @@ class Converted(unittest.TestCase):
 
 
 class AllOfRecordingTest(Converted):
+    def test_is_never_the_recording_itself(self):
+        before = self.pcap.read_bytes()
+        os.symlink(self.folder, self.folder / "link")
+        for file in (self.pcap, self.folder / "link" / self.pcap.name):
+            for layout in ("osteomill", "fivrs"):
+                with self.assertRaisesRegex(ValueError, "the recording and the HDF5 file are the same"):
+                    self.recording.to_hdf5(file, layout)
+        self.assertEqual(self.pcap.read_bytes(), before)
+
     def test_every_tick_is_that_of_the_log(self):
         file = self.open()
         for name in self.log.dtype.names:

@@ -98,17 +98,26 @@ TEST(AtomicFile, ReplacesWhatALinkPointsTo) {
     EXPECT_EQ(content(real), "new");
 }
 
-TEST(AtomicFile, IsWhereALinkPointsThatLeadsToNothingYet) {
+TEST(AtomicFile, GoesThroughLinksToTheFileAtTheirEnd) {
     const TemporaryFolder folder;
     fs::create_directory(folder / "disk");
+    write(folder / "disk/real.json", "old");
     fs::create_symlink("disk/second.json", folder / "first.json");
     fs::create_symlink("real.json", folder / "disk/second.json");
     write_atomic_file(folder / "first.json", "new");
     EXPECT_TRUE(fs::is_symlink(folder / "first.json") && fs::is_symlink(folder / "disk/second.json"));
     EXPECT_EQ(content(folder / "disk/real.json"), "new");
-    fs::create_symlink("nowhere/real.json", folder / "lost.json");
-    EXPECT_THROW(write_atomic_file(folder / "lost.json", "new"), std::runtime_error);
-    EXPECT_TRUE(fs::is_symlink(folder / "lost.json"));
+}
+
+TEST(AtomicFile, IsRefusedAtALinkThatLeadsToNothing) {
+    const TemporaryFolder folder;
+    fs::create_symlink("second.json", folder / "first.json");
+    fs::create_symlink("real.json", folder / "second.json");
+    EXPECT_THAT([&] { write_atomic_file(folder / "first.json", "new"); },
+                ThrowsMessage<std::runtime_error>(HasSubstr(
+                    (folder / "first.json").string() + ": is a link to " + (folder / "real.json").string())));
+    EXPECT_TRUE(fs::is_symlink(folder / "first.json") && fs::is_symlink(folder / "second.json"));
+    EXPECT_FALSE(fs::exists(folder / "real.json"));
 }
 
 TEST(AtomicFile, IsWrittenThroughNoLinkInAFolderFromElsewhere) {

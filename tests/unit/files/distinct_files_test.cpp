@@ -66,6 +66,61 @@ TEST_F(DistinctFiles, AreRefusedWhereOneIsRead) {
     EXPECT_NO_THROW(require_distinct(read));
 }
 
+TEST_F(DistinctFiles, MayTakeThePlaceOfTheOneThatTheyContinue) {
+    std::ofstream(folder_ / "a") << "old";
+    const NamedFile bone{
+        .option = "--bone", .path = folder_ / "a", .is_written = false, .is_replaced_by = "--save-bone"};
+    const std::vector<NamedFile> saved{bone, {"--save-bone", folder_ / "a"}};
+    EXPECT_NO_THROW(require_distinct(saved));
+    const std::vector<NamedFile> recorded{bone, {"--record", folder_ / "a"}};
+    EXPECT_THROW(require_distinct(recorded), std::invalid_argument);
+}
+
+TEST_F(DistinctFiles, AreRefusedInAFolderThatIsRead) {
+    fs::create_directories(folder_ / "dicom/series");
+    fs::create_symlink(folder_ / "dicom", folder_ / "link");
+    std::ofstream(folder_ / "dicom/series/1.dcm") << "a slice";
+    std::ofstream(folder_ / "elsewhere.dcm") << "a slice";
+    fs::create_hard_link(folder_ / "dicom/series/1.dcm", folder_ / "second.dcm");
+    fs::create_symlink("../elsewhere.dcm", folder_ / "dicom/2.dcm");
+    for (const char* output :
+         {"dicom/new.nrrd", "dicom/series/new.nrrd", "link/new.nrrd", "dicom/series/1.dcm",
+          "link/series/1.dcm", "second.dcm", "elsewhere.dcm", "dicom/none/../new.nrrd"}) {
+        const std::vector<NamedFile> files{{"INPUT", folder_ / "dicom", false}, {"OUT", folder_ / output}};
+        EXPECT_THAT([&] { require_distinct(files); },
+                    ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("OUT"), HasSubstr("INPUT"))))
+            << output;
+    }
+    const std::vector<NamedFile> beside{{"INPUT", folder_ / "dicom", false}, {"OUT", folder_ / "new.nrrd"}};
+    EXPECT_NO_THROW(require_distinct(beside));
+}
+
+TEST_F(DistinctFiles, AreRefusedUnderTheNamesThatAProgramChooses) {
+    fs::create_directories(folder_ / "shots/left");
+    std::ofstream(folder_ / "shots/frame_0001.png") << "a recording";
+    fs::create_hard_link(folder_ / "shots/frame_0001.png", folder_ / "second.pcap");
+    const std::vector<const char*> names{"frame_*.png", "left/*.npy"};
+    const auto require = [&](const fs::path& read) {
+        std::vector<NamedFile> files = files_written_in("--screenshots", folder_ / "shots", names);
+        files.push_back({"--replay", read, false});
+        require_distinct(files);
+    };
+    EXPECT_NO_THROW(require(folder_ / "shots/session.pcap"));
+    EXPECT_NO_THROW(require(folder_ / "frame_0001.png"));
+    for (const char* read : {"shots/frame_0001.png", "shots/left/1.npy", "second.pcap"})
+        EXPECT_THAT([&] { require(folder_ / read); },
+                    ThrowsMessage<std::invalid_argument>(HasSubstr("--screenshots and --replay")))
+            << read;
+}
+
+TEST_F(DistinctFiles, AreRefusedWhereALinkLeadsToNothing) {
+    fs::create_symlink("gone", folder_ / "dangling");
+    EXPECT_THAT([&] { require(folder_ / "dangling", folder_ / "a.csv"); },
+                ThrowsMessage<std::invalid_argument>(
+                    AllOf(HasSubstr("--json"), HasSubstr("is a link to " + (folder_ / "gone").string()))));
+    EXPECT_NO_THROW(require(folder_ / "a.json", folder_ / "dangling", true));
+}
+
 TEST_F(DistinctFiles, AreRefusedWhereOneIsThePartOfTheOther) {
     expect_refused(folder_ / "a.csv", folder_ / "a.part.csv");
     expect_refused(folder_ / "a.part.csv", folder_ / "a.csv");
