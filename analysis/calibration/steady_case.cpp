@@ -16,6 +16,7 @@
 #include "common/files/input_file.h"
 #include "common/scene/burr_frame.h"
 #include "common/scene/burr_profile.h"
+#include "common/text/foreign_json.h"
 
 namespace osteomill::study {
 
@@ -117,7 +118,7 @@ SteadyCase case_of(const CaseObject& object) {
 json parsed(const std::filesystem::path& file) {
     const std::string text = read_text(file, json_kind);
     try {
-        return json::parse(text);
+        return parse_foreign_json(text, file.string());
     } catch (const json::exception& error) {
         // "[json.exception.parse_error.101] parse error at line 3, column 7: ...": the part after the
         // bracket.

@@ -8,6 +8,7 @@
 #include "analysis/report/trainee_groups.h"
 #include "common/files/input_file.h"
 #include "common/statistics/percentile.h"
+#include "common/text/foreign_json.h"
 
 namespace osteomill {
 
@@ -29,7 +30,7 @@ std::optional<std::string> add(const std::filesystem::path& file, const nlohmann
                                const std::map<std::string, std::string>& groups,
                                std::map<std::string, double>& values) {
     if (!std::filesystem::is_regular_file(file)) return std::nullopt;
-    const auto json = nlohmann::json::parse(read_text(file, json_kind));
+    const auto json = parse_foreign_json(read_text(file, json_kind), file.string());
     const auto& session = json.at("session");
     const bool is_of_the_case =
         session.at("case") == own.at("case") && session.at("scene") == own.at("scene");

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "common/text/foreign_json.h"
+
 namespace osteomill {
 
 namespace {
@@ -121,10 +123,10 @@ std::optional<HaplyState> state_of(const json& message, std::string_view device_
 
 std::optional<HaplyState> parse_haply_state(std::string_view text, std::string_view device_id) noexcept {
     try {
-        const json message = json::parse(text, nullptr, false);
+        const json message = parse_foreign_json(text, "a message");
         if (!message.is_object()) return std::nullopt;
         return state_of(message, device_id);
-    } catch (const std::exception&) {  // memory
+    } catch (const std::exception&) {  // no JSON, or too deep; memory
         return std::nullopt;
     }
 }

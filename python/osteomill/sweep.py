@@ -135,7 +135,7 @@ def _read(file: pathlib.Path, header: dict[str, Any]) -> dict[int, Any]:
     try:
         first, *lines = [json.loads(line) for line in _whole_lines(file).splitlines()]
         its = {key: first[key] for key in header}
-    except (ValueError, KeyError):
+    except (ValueError, KeyError, RecursionError):
         raise ValueError(f"{file}: is no part of a sweep") from None
     if its != header:
         raise ValueError(f"{file}: holds cases of another sweep: give another folder or remove it")

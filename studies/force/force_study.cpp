@@ -11,6 +11,7 @@
 
 #include "analysis/output/study_run.h"
 #include "common/program/option_checks.h"
+#include "common/text/foreign_json.h"
 #include "studies/force/case_report.h"
 #include "studies/force/contact_curves.h"
 #include "studies/force/force_curves.h"
@@ -100,7 +101,8 @@ void run_cases(const ForceOptions& options, const StudySurroundings& surrounding
         [&](const SteadyCase& c) { return report_of(c, options.run, voxel_model()).dump(); });
     if (!run.perform()) return;
     ordered_json reports = ordered_json::array();
-    for (const std::string& report : planned.outcomes()) reports.push_back(ordered_json::parse(report));
+    for (const std::string& report : planned.outcomes())
+        reports.push_back(parse_foreign_json<ordered_json>(report, "the report of a case"));
     run.write(reports, "cases");
     run.say("{} cases in {}", cases.size(), (options.out / "cases.json").string());
 }
@@ -207,7 +209,9 @@ StudyCommand add_force(CLI::App& app) {
         if (force->count("--voxel-mm") > 0 && shared->cases.empty() && !shared->random)
             throw CLI::RequiresError("--voxel-mm", "--cases or --random");
     });
-    return {force, [shared](const StudySurroundings& surroundings) { perform(*shared, surroundings); }};
+    return {.subcommand = force,
+            .run = [shared](const StudySurroundings& surroundings) { perform(*shared, surroundings); },
+            .writes = {"cases.json", "cases-*.jsonl"}};
 }
 
 }  // namespace osteomill::study

@@ -11,8 +11,10 @@
 #include <thread>
 #include <vector>
 
+#include "common/files/input_file.h"
 #include "common/net/listen_address.h"
 #include "common/program/child_program.h"
+#include "common/text/foreign_json.h"
 #include "common/text/words.h"
 #include "render_client/link/bone_link.h"
 #include "simulation/loop/thread_priority.h"
@@ -26,10 +28,8 @@ constexpr std::chrono::seconds room{60};
 constexpr std::chrono::milliseconds between_looks{20};
 
 nlohmann::json read_json(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in) throw std::runtime_error(file.string() + ": is not there");
     try {
-        return nlohmann::json::parse(in);
+        return parse_foreign_json(read_text(file, json_kind), file.string());
     } catch (const nlohmann::json::exception& error) {
         throw std::runtime_error(file.string() + ": " + error.what());
     }

@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "common/files/input_file.h"
+#include "common/text/foreign_json.h"
 
 namespace osteomill::study {
 
@@ -69,9 +70,9 @@ std::string header_line(const PartHeader& header) {
         .dump();
 }
 
-std::optional<PartHeader> header_of(const std::string& line) {
+std::optional<PartHeader> header_of(const std::string& line, const std::filesystem::path& file) {
     try {
-        const json header = json::parse(line);
+        const json header = parse_foreign_json(line, file.string());
         return PartHeader{
             .command = header.at("study").get<std::vector<std::string>>(),
             .program = header.at("program").get<std::string>(),
@@ -86,12 +87,12 @@ PartFile parse(const std::string& text, const std::filesystem::path& file) {
     std::istringstream lines(text);
     std::string line;
     std::getline(lines, line);
-    const std::optional<PartHeader> header = header_of(line);
+    const std::optional<PartHeader> header = header_of(line, file);
     if (!header) fail(file, "its first line is not that of a file of a study's cases");
     PartFile found{*header};
     for (int number = 2; std::getline(lines, line); ++number) {
         try {
-            json value = json::parse(line);
+            json value = parse_foreign_json(line, fmt::format("{}: line {}", file.string(), number));
             const auto index = value.at("case").get<std::size_t>();
             json& outcome = value.at("outcome");
             take_back(outcome);

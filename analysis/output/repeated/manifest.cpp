@@ -11,16 +11,13 @@
 
 #include "analysis/output/output_files.h"
 #include "common/files/input_file.h"
+#include "common/text/foreign_json.h"
 
 namespace osteomill::study {
 
 namespace {
 
 using nlohmann::ordered_json;
-
-std::filesystem::path manifest_of(const std::filesystem::path& folder) {
-    return folder / "manifest.json";
-}
 
 /// As Linux names it.
 std::string processor() {
@@ -45,6 +42,10 @@ ordered_json settings_of(const CLI::App& study) {
 
 }  // namespace
 
+std::filesystem::path manifest_of(const std::filesystem::path& folder) {
+    return folder / "manifest.json";
+}
+
 void write_manifest(const Manifest& made, const CLI::App& study, const std::filesystem::path& folder) {
     utsname system{};
     ::uname(&system);
@@ -65,7 +66,7 @@ Manifest read_manifest(const std::filesystem::path& folder) {
     const std::filesystem::path file = manifest_of(folder);
     const std::string text = read_text(file, json_kind);
     try {
-        const auto json = nlohmann::json::parse(text);
+        const auto json = parse_foreign_json(text, file.string());
         return {.command = json.at("command").get<std::vector<std::string>>(),
                 .version = json.at("version").get<std::string>(),
                 .commit = json.at("commit").get<std::string>()};

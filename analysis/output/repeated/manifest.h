@@ -17,6 +17,9 @@ struct Manifest {
     std::string commit;
 };
 
+/// FOLDER/manifest.json
+std::filesystem::path manifest_of(const std::filesystem::path& folder);
+
 /// Writes FOLDER/manifest.json: `made`, every setting of `study` with the values that were not given, too,
 /// and this machine. Throws std::runtime_error in one line where it cannot be written.
 void write_manifest(const Manifest& made, const CLI::App& study, const std::filesystem::path& folder);

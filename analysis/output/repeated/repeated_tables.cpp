@@ -13,6 +13,7 @@
 
 #include "common/files/input_file.h"
 #include "common/files/table_line.h"
+#include "common/text/foreign_json.h"
 #include "common/text/words.h"
 
 namespace osteomill::study {
@@ -37,10 +38,10 @@ Columns columns_of_csv(const std::string& text) {
 }
 
 /// What stands at the same place of each element of a list is a column.
-Columns columns_of_json(const std::string& text) {
+Columns columns_of_json(const std::string& text, const std::filesystem::path& file) {
     static const std::regex index("/[0-9]+");
     Columns columns;
-    const nlohmann::json flat = nlohmann::json::parse(text).flatten();
+    const nlohmann::json flat = parse_foreign_json(text, file.string()).flatten();
     for (const auto& [place, value] : flat.items())
         columns[std::regex_replace(place, index, "/*")].push_back(value.is_string() ? value.get<std::string>()
                                                                                     : value.dump());
@@ -50,7 +51,7 @@ Columns columns_of_json(const std::string& text) {
 Columns columns_of(const std::filesystem::path& file) {
     if (file.extension() == ".csv") return columns_of_csv(read_text(file, table_kind));
     try {
-        return columns_of_json(read_text(file, json_kind));
+        return columns_of_json(read_text(file, json_kind), file);
     } catch (const nlohmann::json::exception&) {
         throw std::runtime_error(file.string() + ": is no JSON");
     }
