@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/calibration/calibration_options.h"
+#include "analysis/output/cases/kept_command.h"
 #include "analysis/output/repeated/manifest.h"
 #include "analysis/sessions/sessions_options.h"
 #include "common/program/commit.h"
@@ -31,25 +32,29 @@ int main(int argc, char** argv) {
     constexpr int exit_usage = 2;
     CLI::App app("Studies of the simulator: numbers and charts.", "osteomill_study");
     app.set_version_flag("--version", OSTEOMILL_VERSION);
+    app.require_subcommand(0, 1);
     const std::vector<StudyCommand> studies{
         add_force(app),    add_stability(app), add_polishing(app),   add_render(app),
         add_realtime(app), add_bridge(app),    add_calibration(app), add_sessions(app, OSTEOMILL_VERSION)};
     std::vector<std::string> names;
-    std::vector<std::string> repeated;
+    std::vector<StudyCommand> repeated;
     for (const StudyCommand& study : studies) {
         names.push_back(study.subcommand->get_name());
-        if (!study.writes_elsewhere) repeated.push_back(names.back());
+        if (!study.writes_elsewhere) repeated.push_back(study);
     }
     const auto repeats_alike = add_repeat(app, repeated);
     StudyParts parts;
     for (const StudyCommand& study : studies) add_parts(*study.subcommand, parts, study.jobs);
     try {
         const std::vector<std::string> words = command_line({argv + 1, argv + argc}, parts);
+        if (parts.joined) (void)command_of_study(studies, parts.command, "the parts of --merge");
         std::vector<const char*> arguments{argv[0]};
         for (const std::string& word : words) arguments.push_back(word.c_str());
         parse_arguments(app, static_cast<int>(arguments.size()), arguments.data());
         if (app.get_subcommands().empty())
             throw CLI::RequiredError(fmt::format("a study to run: {} or repeat", fmt::join(names, ", ")));
+        for (const StudyCommand& study : studies)
+            if (study.subcommand->parsed()) require_distinct_files(study);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "osteomill_study: " << printable(error.what()) << " (see --help)\n";

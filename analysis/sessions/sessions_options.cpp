@@ -40,7 +40,8 @@ StudyCommand add_sessions(CLI::App& app, const std::string& version) {
         .subcommand = sessions,
         .run = [shared](const StudySurroundings& surroundings) { run_sessions_study(*shared, surroundings); },
         .jobs = jobs_of_processors(),
-        .writes_elsewhere = true};
+        .writes_elsewhere = true,
+        .writes = {"sessions.*", "cases-*.jsonl", "*.svg"}};
 }
 
 }  // namespace osteomill::study

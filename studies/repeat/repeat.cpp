@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -15,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/output/cases/kept_command.h"
 #include "analysis/output/repeated/manifest.h"
 #include "analysis/output/repeated/repeated_tables.h"
 #include "common/program/child_program.h"
@@ -60,30 +60,20 @@ void run_into(const fs::path& folder, const std::vector<std::string>& study) {
     if (*child.status() != 0) throw std::runtime_error("the study failed: " + child.last_line());
 }
 
-/// A folder may be from elsewhere: what it names must be a study, which writes into its folder alone.
-void require_one_of(const std::vector<std::string>& studies, const std::vector<std::string>& command,
-                    const fs::path& kept) {
-    const bool is_study = !command.empty() && std::ranges::find(studies, command.front()) != studies.end();
-    const bool writes = std::ranges::any_of(command, [](const std::string& word) {
-        return word.starts_with("--out") || word.starts_with("--merge") || word.starts_with("--database");
-    });
-    if (!is_study || writes)
-        throw std::runtime_error(fmt::format("{}: its manifest names no study that can be repeated: '{}'",
-                                             printable(kept.string()),
-                                             one_line(fmt::format("{}", fmt::join(command, " ")))));
-}
-
-bool repeat(const fs::path& kept, const std::vector<std::string>& studies, std::ostream& said) {
+/// The folder may be from elsewhere: what its manifest names must be a study, which writes into its folder
+/// alone.
+bool repeat(const fs::path& kept, const std::vector<StudyCommand>& studies, std::ostream& said) {
     const Manifest manifest = read_manifest(kept);
-    require_one_of(studies, manifest.command, kept);
+    const std::vector<std::string> command =
+        command_of_study(studies, manifest.command, manifest_of(kept).string());
     fmt::print(said, "{}: {}\nmade by version {} of commit {}, repeated by commit {}\n",
-               printable(kept.string()), printable(fmt::format("{}", fmt::join(manifest.command, " "))),
+               printable(kept.string()), printable(fmt::format("{}", fmt::join(command, " "))),
                printable(manifest.version), printable(manifest.commit), built_from_commit());
     const Scratch scratch;
     const fs::path once = scratch.folder() / "once";
     const fs::path again = scratch.folder() / "again";
     for (const fs::path& run : {once, again}) {
-        run_into(run, manifest.command);
+        run_into(run, command);
         fmt::print(said, "run {} of 2 is done\n", run == once ? 1 : 2);
         said.flush();
     }
@@ -99,7 +89,7 @@ bool repeat(const fs::path& kept, const std::vector<std::string>& studies, std::
 
 }  // namespace
 
-std::function<bool(std::ostream&)> add_repeat(CLI::App& app, std::vector<std::string> studies) {
+std::function<bool(std::ostream&)> add_repeat(CLI::App& app, std::vector<StudyCommand> studies) {
     const auto kept = std::make_shared<fs::path>();
     CLI::App* const subcommand = app.add_subcommand(
         "repeat", "run a study again, twice, and say what differs from its folder by more than its noise");

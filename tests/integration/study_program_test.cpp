@@ -266,11 +266,35 @@ TEST_F(StudyProgram, IsRepeatedFromTheManifestOfItsFolder) {
     auto hostile = nlohmann::json::parse(text_of(out_ + "/manifest.json"));
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"sessions", "/"},
+          {"stability", "--quick", "sessions", "/"},
+          {"stability", "--rails", "2", "--out=elsewhere"},
+          {"stability", "--rails", "2", "--quick", "bridge"},
           {"stability", "--database", "postgresql://elsewhere/\x1b[2J"}}) {
         hostile.at("command") = command;
         std::ofstream(out_ + "/manifest.json") << hostile;
         expect_refused("repeat " + out_, 1, "names no study that can be repeated");
     }
+    expect_refused("stability --rails 2 bridge", 2, "bridge");
+}
+
+TEST_F(StudyProgram, RefusesDeepJsonOfAFolderThatItRepeats) {
+    const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+    fs::create_directory(out_);
+    std::ofstream(out_ + "/manifest.json") << deep;
+    expect_refused("repeat " + out_, 1, "manifest.json: its lists and objects lie more than");
+    std::ofstream(out_ + "/manifest.json")
+        << R"({"command": ["stability", "--rails", "2"], "version": "0", "commit": "0"})";
+    std::ofstream(out_ + "/rails.json") << deep;
+    expect_refused("repeat " + out_, 1, "rails.json: its lists and objects lie more than");
+}
+
+TEST_F(StudyProgram, WritesOverNoFileThatItReads) {
+    fs::create_directory(out_);
+    fs::copy_file(case_file, out_ + "/cases.json");
+    const std::string before = text_of(out_ + "/cases.json");
+    expect_refused("force --cases " + out_ + "/cases.json --out " + out_, 2,
+                   "--out and --cases are the same");
+    EXPECT_EQ(text_of(out_ + "/cases.json"), before);
 }
 
 TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
