@@ -16,6 +16,7 @@
 #include "analysis/sessions/sessions_options.h"
 #include "common/program/commit.h"
 #include "common/program/option_checks.h"
+#include "common/text/address_text.h"
 #include "common/text/plain_text.h"
 #include "studies/bridge/bridge_study.h"
 #include "studies/force/force_study.h"
@@ -57,13 +58,13 @@ int main(int argc, char** argv) {
             if (study.subcommand->parsed()) require_distinct_files(study);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        std::cerr << "osteomill_study: " << printable(error.what()) << " (see --help)\n";
+        std::cerr << "osteomill_study: " << without_passwords(printable(error.what())) << " (see --help)\n";
         return exit_usage;
     } catch (const std::invalid_argument& error) {
-        std::cerr << "osteomill_study: " << printable(error.what()) << " (see --help)\n";
+        std::cerr << "osteomill_study: " << without_passwords(printable(error.what())) << " (see --help)\n";
         return exit_usage;
     } catch (const std::exception& error) {
-        std::cerr << "osteomill_study: " << printable(error.what()) << '\n';
+        std::cerr << "osteomill_study: " << without_passwords(printable(error.what())) << '\n';
         return exit_failure;
     }
     try {
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
         }
         return repeats_alike(std::cout) ? 0 : exit_failure;
     } catch (const std::exception& error) {
-        std::cerr << "osteomill_study: " << printable(error.what()) << '\n';
+        std::cerr << "osteomill_study: " << without_passwords(printable(error.what())) << '\n';
         return exit_failure;
     }
 }

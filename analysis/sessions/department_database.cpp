@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <pqxx/pqxx>
-#include <regex>
 #include <stdexcept>
 
+#include "common/text/address_text.h"
 #include "common/text/plain_text.h"
 
 namespace osteomill::study {
@@ -48,11 +48,6 @@ void add(pqxx::work& work, const SessionRecord& session) {
 
 }  // namespace
 
-bool holds_password(const std::string& url) {
-    static const std::regex password("://[^/@]*:[^/@]*@|password=");
-    return std::regex_search(url, password);
-}
-
 void add_to_database(const std::string& url, std::span<const SessionRecord> sessions) {
     try {
         pqxx::connection connection(url);
@@ -64,7 +59,8 @@ void add_to_database(const std::string& url, std::span<const SessionRecord> sess
     } catch (const pqxx::failure& error) {
         // The first line says what is wrong.
         const std::string why = error.what();
-        throw std::runtime_error(fmt::format("{}: {}", url, printable(why.substr(0, why.find('\n')))));
+        throw std::runtime_error(
+            without_passwords(fmt::format("{}: {}", url, printable(why.substr(0, why.find('\n'))))));
     }
 }
 

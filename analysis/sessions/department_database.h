@@ -14,7 +14,4 @@ namespace osteomill::study {
 /// the database cannot be reached or written.
 void add_to_database(const std::string& url, std::span<const SessionRecord> sessions);
 
-/// Everybody on this machine could read it in a command line; ~/.pgpass is the place for it.
-bool holds_password(const std::string& url);
-
 }  // namespace osteomill::study

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "analysis/sessions/department_database.h"
 #include "analysis/sessions/sessions_study.h"
+#include "common/text/address_text.h"
 
 namespace osteomill::study {
 
@@ -32,7 +32,8 @@ StudyCommand add_sessions(CLI::App& app, const std::string& version) {
         ->check([](const std::string& url) {
             return holds_password(url) ? std::string(
                                              "holds a password, which everybody on this machine "
-                                             "could read; write it into ~/.pgpass")
+                                             "could read; write it into ~/.pgpass, the file of "
+                                             "PGPASSFILE, or a service (service=NAME)")
                                        : std::string();
         });
     add_out(*sessions, options.out);

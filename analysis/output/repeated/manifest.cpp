@@ -11,6 +11,7 @@
 
 #include "analysis/output/output_files.h"
 #include "common/files/input_file.h"
+#include "common/text/address_text.h"
 #include "common/text/foreign_json.h"
 
 namespace osteomill::study {
@@ -33,7 +34,7 @@ ordered_json settings_of(const CLI::App& study) {
         const std::string name = option->get_name();
         if (name == "--help" || name == "--out" || name == "--merge" || name == "--shard") continue;
         if (option->count() > 0)
-            settings[name] = fmt::format("{}", fmt::join(option->results(), ","));
+            settings[name] = without_passwords(fmt::format("{}", fmt::join(option->results(), ",")));
         else
             settings[name] = option->get_default_str();
     }
