@@ -43,10 +43,18 @@ InputFile::InputFile(const std::filesystem::path& path, const InputKind& kind) :
         throw no_file();
     }
     size_ = static_cast<std::uint64_t>(facts.st_size);
+    written_ = facts.st_mtim;
 }
 
 InputFile::~InputFile() {
     ::close(descriptor_);
+}
+
+bool InputFile::has_changed() const {
+    struct stat facts {};
+    if (::fstat(descriptor_, &facts) != 0) return true;
+    return static_cast<std::uint64_t>(facts.st_size) != size_ || facts.st_mtim.tv_sec != written_.tv_sec ||
+           facts.st_mtim.tv_nsec != written_.tv_nsec;
 }
 
 std::size_t InputFile::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -46,6 +47,9 @@ class InputFile {
     /// Bytes, when it was opened.
     std::uint64_t size() const { return size_; }
 
+    /// Whether its size or its time of writing is another than when it was opened.
+    bool has_changed() const;
+
     /// Reads into `bytes` from an offset; how many there were, fewer only at the file's end. Throws
     /// std::runtime_error where the disk fails.
     std::size_t read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
@@ -58,6 +62,7 @@ class InputFile {
     std::filesystem::path path_;
     InputKind kind_;
     int descriptor_ = -1;
+    timespec written_{};
     std::uint64_t size_ = 0;
 };
 

@@ -58,6 +58,9 @@ class BoneFile {
     /// Throws ImagingError, naming the key, where it is missing.
     const std::string& value(const char* key) const;
 
+    /// Whether it was written to since it was opened.
+    bool has_changed() const { return file_->has_changed(); }
+
     /// From the beginning, each time, of the file that was opened, although another may have its name by now.
     NrrdData data() const;
 

@@ -60,6 +60,16 @@ VolumesByTissue removed_so_far_mm3(const BoneSource& source, const Bone& bone) {
     return removed_mm3;
 }
 
+/// At the first voxel of the file that was loaded. Throws SourceLost: what stands before the voxels, of a
+/// bone that was carved before, is passed over already here.
+HuReader reader_again(const BoneSource& source) {
+    try {
+        return HuReader(*source.file);
+    } catch (const std::runtime_error& error) {
+        throw SourceLost(error.what());
+    }
+}
+
 /// Of the file that was loaded. Throws SourceLost, at the latest with the last slice.
 HuSlices slices_again(const BoneSource& source, HuReader& reader) {
     HuSlices slices = slices_of(reader, *source.file);
@@ -131,13 +141,21 @@ void save_bone(const std::filesystem::path& path, const BoneSource& source, cons
     // A file may itself hold no more than a coarse picture of its bone.
     if (!source.file || source.file->grid() != bone.grid()) return save_carved_bone(path, bone, keys, report);
     try {
-        HuReader reader(*source.file);
+        HuReader reader = reader_again(source);
         save_carved_bone(path, slices_again(source, reader), bone, keys, report);
     } catch (const SourceLost& lost) {
         save_carved_bone(path, bone, keys, report);
-        throw std::runtime_error(fmt::format(
-            "{}; {} is saved with CT numbers that only say where bone is left", lost.what(), path.string()));
+        throw SavedWithoutCt(fmt::format("{}; {} is saved with CT numbers that only say where bone is left",
+                                         lost.what(), path.string()));
     }
+}
+
+std::string why_source_is_lost(const BoneSource& source) {
+    if (!source.file || !source.file->has_changed()) return {};
+    return fmt::format(
+        "{}: was written to since it was loaded; unless its CT numbers are the same, the bone "
+        "will be saved with some that only say where bone is left",
+        source.file->path().string());
 }
 
 bool has_ct(const BoneSource& source, const Grid& grid) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 #include "common/bone/ct_volume.h"
@@ -42,13 +43,22 @@ struct LoadedBone {
 /// where the scene has one that no voxel has.
 LoadedBone load_bone(const Scene& scene, std::optional<std::uint64_t> available_memory_bytes = std::nullopt);
 
+/// A bone is saved whole, but for the CT numbers of its source, which is no longer what was loaded.
+struct SavedWithoutCt : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Saves what is left of a bone together with the CT numbers of its source (carved_bone.h), which may be the
 /// file that is saved over, and with how much was removed by tissue in all sessions so far. Where the source
 /// can no longer be read, or is not what was loaded, the bone is saved with a picture of it in their place,
-/// and then std::runtime_error says so. Throws ImagingError where it cannot be written.
+/// and then SavedWithoutCt says so. Throws ImagingError where it cannot be written.
 void save_bone(
     const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
     const ReportProgress& report = [](double) {});
+
+/// One line where the file of the source has changed since it was loaded, so that the bone will be saved
+/// without its CT numbers; empty while it has not. Looks at no more than its size and times.
+std::string why_source_is_lost(const BoneSource& source);
 
 /// Whether there are CT numbers to look at.
 bool has_ct(const BoneSource& source, const Grid& grid);

@@ -66,6 +66,37 @@ TEST_F(BoneSourceOfFile, IsSavedAllTheSameWhereItsFileWasOverwritten) {
     expect_saved();
 }
 
+TEST_F(BoneSourceOfFile, IsSavedAllTheSameWhereTheCarvedBoneThatItContinuesIsGone) {
+    testing::write_bone_file(folder_ / "scan.nrrd", block(900));
+    const LoadedBone first = reloaded(folder_ / "scan.nrrd");
+    const auto change = [&](int kind) {
+        if (kind == 0) std::ofstream(path_, std::ios::trunc);
+        if (kind == 1) std::filesystem::resize_file(path_, 1000);
+        if (kind == 2) std::filesystem::resize_file(path_, std::filesystem::file_size(path_) - 50);
+        if (kind == 3)
+            std::filesystem::copy(folder_ / "scan.nrrd", path_,
+                                  std::filesystem::copy_options::overwrite_existing);
+        if (kind == 4) {  // one bit of the bricks that stand before the voxels
+            std::fstream bits(path_, std::ios::in | std::ios::out | std::ios::binary);
+            bits.seekp(static_cast<std::streamoff>(std::filesystem::file_size(path_) / 2));
+            bits.put('\x55');
+        }
+    };
+    for (int kind = 0; kind < 5; ++kind) {
+        save_bone(path_, first.source, first.bone);
+        const LoadedBone continued = load_bone(scene_);
+        change(kind);
+        EXPECT_THROW(save_bone(saved_, continued.source, continued.bone), SavedWithoutCt) << kind;
+        EXPECT_EQ(checksum(reloaded(saved_).bone), checksum(continued.bone)) << kind;
+        std::filesystem::remove(saved_);
+    }
+    save_bone(path_, first.source, first.bone);
+    const LoadedBone continued = load_bone(scene_);
+    std::filesystem::remove(path_);
+    EXPECT_NO_THROW(save_bone(saved_, continued.source, continued.bone)) << "the file is held open";
+    EXPECT_EQ(checksum(reloaded(saved_).bone), checksum(continued.bone));
+}
+
 TEST_F(BoneSourceOfFile, RemembersWhatAllSessionsRemoved) {
     testing::write_bone_file(path_, block(900));
     double removed_mm3 = 0.0;
