@@ -11,12 +11,14 @@
 #include <utility>
 
 #include "common/files/atomic_file.h"
+#include "common/files/distinct_files.h"
 #include "devices/hid/device_list.h"
 #include "devices/hid/hidapi_transport.h"
 #include "haptic_server/check/machine_check.h"
 #include "haptic_server/check/session_check.h"
 #include "haptic_server/monitoring/metrics_page.h"
 #include "haptic_server/monitoring/metrics_text.h"
+#include "haptic_server/program/end_places.h"
 #include "haptic_server/program/report_folder.h"
 #include "haptic_server/program/resident_memory.h"
 #include "haptic_server/program/status_line.h"
@@ -66,7 +68,6 @@ std::optional<ShownOptions> shown_options(const ServerOptions& options, const st
     return ShownOptions{
         .streaming = std::move(streaming),
         .script = options.controls ? read_control_script(*options.controls) : ControlScript{},
-        .save_bone = options.outputs.save_bone,
         .words_at_finish = options.outputs.report
                                ? fmt::format("its report: {} on the server",
                                              (*options.outputs.report / "report.html").string())
@@ -75,6 +76,13 @@ std::optional<ShownOptions> shown_options(const ServerOptions& options, const st
         .version = version,
         .trainee = options.trainee,
         .case_name = options.case_name};
+}
+
+/// Those of the command line, and those that the scene names.
+std::vector<NamedFile> all_files(const ServerOptions& options, const SessionScene& scene) {
+    std::vector<NamedFile> files = options.files;
+    files.insert(files.end(), scene.files_read.begin(), scene.files_read.end());
+    return files;
 }
 
 /// The spring that the hand is on, and why no stiffer; what makes forces others than bone's.
@@ -107,16 +115,25 @@ void say_what_to_know(const MillingSessionOptions& options, const Scene& scene) 
             HandpieceVibration::highest_hz);
 }
 
-void run(SessionAssembly& assembly, const std::atomic<bool>& stop, LineStream& err) {
+void run(SessionAssembly& assembly, EndPlaces& places, const std::atomic<bool>& stop, LineStream& err) {
     StatusLine status(err, err.is_terminal());
+    const auto say_what_is_wrong = [&] {
+        for (const std::string& line : places.look(assembly.source()))
+            if (assembly.shown() != nullptr)
+                assembly.shown()->tell(line);
+            else
+                spdlog::error("{}", line);
+    };
     // People know how a session on the real clock goes.
     const bool shows_progress = assembly.options().clock == ClockKind::virtual_time;
     assembly.run(stop, [&](const ToolState& tool) {
         status.show(tool, StatusLine::Clock::now(),
                     shows_progress ? std::optional(assembly.done(tool.time_s)) : std::nullopt);
         status.show_notice(tool, assembly.device().notice());
+        if (places.look_is_due()) say_what_is_wrong();
     });
     status.finish();
+    say_what_is_wrong();
 }
 
 }  // namespace
@@ -135,9 +152,12 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
     for (const auto& file : {options.outputs.save_bone, options.outputs.json, options.outputs.json_histograms,
                              options.logs.force, options.logs.milling, options.record})
         require_place_for(file);
+    EndPlaces places(options.outputs);
     std::optional<ShownOptions> shown = shown_options(options, version);
+    if (shown) shown->save_bone = places.save_bone();
     const MakeDevice make_device = options.device.prepare();
     SessionScene scene = load_session_scene(options.scene);
+    require_distinct(all_files(options, scene));
     // From here on there is something to end in order; what came before, a signal ends at once.
     const std::atomic<bool>& stop = stop_flag();
     say_what_was_removed_before(scene.source, *output.err);
@@ -180,11 +200,11 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
                         text_of_address(options.listen->address, assembly.shown()->server().port())));
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     say_what_to_know(options.session, assembly.scene());
-    run(assembly, stop, *output.err);
+    run(assembly, places, stop, *output.err);
 
     std::ifstream process("/proc/self/status");
     const std::uint64_t peak_bytes = peak_resident_bytes(process).value_or(0);
-    write_outputs(assembly, options.outputs, cost, peak_bytes, settings, output);
+    write_outputs(assembly, places.now(), cost, peak_bytes, settings, output);
 }
 
 }  // namespace osteomill

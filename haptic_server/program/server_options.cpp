@@ -4,10 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
+#include "analysis/surface/mesh_file.h"
 #include "common/files/distinct_files.h"
 #include "haptic_server/program/report_folder.h"
 #include "haptic_server/program/typed_server_options.h"
@@ -79,8 +82,11 @@ void require_trainee(const std::string& name) {
             fmt::format("--trainee: a name is one line of at most {} bytes of UTF-8", longest));
 }
 
-/// A bone may be saved over the one that was loaded: it is replaced when all of the new one is there.
-void require_distinct_files(const ServerOptions& options, const AccessOptions& access) {
+/// All that the command line names. A bone may be saved over the one of --bone, which it continues: that is
+/// replaced when all of the new one is there.
+std::vector<NamedFile> files_of(const ServerOptions& options, const AccessOptions& access) {
+    constexpr std::array placement_names{"placement.toml"};
+    constexpr std::array report_names{"report.html", "metrics.csv", "metrics.json", "session*.pcap"};
     const OutputFiles& outputs = options.outputs;
     std::vector<NamedFile> files = access.files_read();
     files.insert(files.end(), options.device.files_read.begin(), options.device.files_read.end());
@@ -88,24 +94,37 @@ void require_distinct_files(const ServerOptions& options, const AccessOptions& a
                               bool is_written) {
         if (path) files.push_back({option, *path, is_written});
     };
+    const auto add_in = [&files](const char* option, const std::filesystem::path& folder,
+                                 std::span<const char* const> names) {
+        const std::vector<NamedFile> written = files_written_in(option, folder, names);
+        files.insert(files.end(), written.begin(), written.end());
+    };
     add("--trajectory", options.scene.trajectory, false);
-    if (options.scene.name) add("--scene", *options.scene.name, false);
+    if (outputs.case_folder) {
+        for (const auto& file : files_of_case(*outputs.case_folder)) add("--case", file, false);
+        add_in("--case", *outputs.case_folder, placement_names);
+    } else {
+        add("--scene", options.scene.name, false);
+    }
+    if (options.scene.bone)
+        files.push_back({.option = "--bone",
+                         .path = *options.scene.bone,
+                         .is_written = false,
+                         .is_replaced_by = "--save-bone"});
     add("--operators", options.operators, false);
     add("--controls", options.controls, false);
     add("--json", outputs.json, true);
     add("--json (its histograms)", outputs.json_histograms, true);
-    if (outputs.report)
-        for (const char* name : {"report.html", "metrics.csv", "metrics.json"})
-            add("--report", *outputs.report / name, true);
+    if (outputs.report) add_in("--report", *outputs.report, report_names);
     add("--log-csv", options.logs.force, true);
     add("--log-milling-csv", options.logs.milling, true);
-    add(outputs.report ? "--report" : "--record", options.record, true);
-    const std::size_t without_bones = files.size();
-    for (const bool saved : {false, true}) {
-        files.resize(without_bones);
-        saved ? add("--save-bone", outputs.save_bone, true) : add("--bone", options.scene.bone, false);
-        require_distinct(files);
-    }
+    if (!outputs.report) add("--record", options.record, true);
+    add("--save-bone", outputs.save_bone, true);
+    if (outputs.save_bone)
+        for (const char* const ending : mesh_ending_list)
+            add("--save-bone (a surface)",
+                std::filesystem::path(*outputs.save_bone).replace_extension(ending), true);
+    return files;
 }
 
 std::optional<ListenAddress> metrics_address(const TypedServerOptions& typed) {
@@ -188,7 +207,8 @@ ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& acce
             fmt::format("--save-bone: '{}' must end in .nrrd", outputs.save_bone->string()));
     }
     if (outputs.json) outputs.json_histograms = histograms_beside(*outputs.json);
-    require_distinct_files(options, access);
+    options.files = files_of(options, access);
+    require_distinct(options.files);
     return options;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/files/distinct_files.h"
 #include "common/program/command_line.h"
 #include "devices/simulated/hand_model.h"
 #include "haptic_server/program/device_options.h"
@@ -31,6 +32,7 @@ struct ServerOptions {
     std::optional<std::filesystem::path> record;     ///< of a report, too: recording_in() its folder
     bool records_ticks = true;                       ///< not only states
     OutputFiles outputs;
+    std::vector<NamedFile> files;  ///< all that were named, to read and to write
     std::string trainee;
     std::string case_name;        ///< for people; empty: of no case
     bool checks_machine = false;  ///< and does nothing else

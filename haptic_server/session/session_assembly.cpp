@@ -4,7 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include "common/files/distinct_files.h"
 #include "common/scene/device_mapping.h"
 
 namespace osteomill {
@@ -32,6 +34,22 @@ MillingSessionOptions milling_options(const SessionOptions& options, const Sessi
     return milling;
 }
 
+/// The logs, once no file of the session is one that its scene is made of.
+const LogFiles& checked_logs(const SessionOptions& options, const SessionScene& scene) {
+    std::vector<NamedFile> files = scene.files_read;
+    const auto add = [&files](const char* what, const std::optional<std::filesystem::path>& file) {
+        if (file) files.push_back({what, *file});
+    };
+    add("the log of forces", options.logs.force);
+    add("the log of milling", options.logs.milling);
+    if (options.shown) {
+        if (options.shown->streaming.record) add("the recording", options.shown->streaming.record->file);
+        if (options.shown->save_bone != nullptr) add("--save-bone", options.shown->save_bone->file());
+    }
+    require_distinct(files);
+    return options.logs;
+}
+
 /// Null: nothing is recorded.
 RecordTo* record_to(SessionOptions& options) {
     if (!options.shown || !options.shown->streaming.record) return nullptr;
@@ -44,7 +62,7 @@ SessionAssembly::SessionAssembly(SessionScene scene, DeviceParts device, Session
     : scene_(seated(std::move(scene), device)),
       device_(std::move(device)),
       options_(milling_options(options, scene_, device_)),
-      logs_(options.logs, has_shank(scene_.scene.burrs)) {
+      logs_(checked_logs(options, scene_), has_shank(scene_.scene.burrs)) {
     std::optional<Bone> mirror;
     if (options.shown) mirror = scene_.bone;
     if (RecordTo* record = record_to(options); record != nullptr && record->with_ticks)

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <utility>
+
 #include "analysis/surface/mesh_file.h"
 
 namespace osteomill {
@@ -13,7 +15,19 @@ SessionControls::Requests SessionKeeper::requests() {
                 [this] {
                     wants_end_.store(true);
                     return std::string();
-                }};
+                },
+            .save_news = [this] { return take_news(); }};
+}
+
+void SessionKeeper::tell(const std::string& line) {
+    spdlog::error("{}", line);
+    const std::lock_guard lock(mutex_);
+    news_.push_back(line);
+}
+
+std::vector<std::string> SessionKeeper::take_news() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(news_, {});
 }
 
 std::string SessionKeeper::save(const Bone& bone, const std::string& mesh_ending) {
@@ -24,11 +38,11 @@ std::string SessionKeeper::save(const Bone& bone, const std::string& mesh_ending
     if (is_saving_.exchange(true)) return "the last one is still being saved";
     wait();
     thread_ = std::thread([this, copy = bone, mesh_ending] {
-        const std::string error = save_(copy, mesh_ending);
-        if (error.empty())
+        const std::string wrong = save_(copy, mesh_ending);
+        if (wrong.empty())
             spdlog::info("the bone was saved{}", mesh_ending.empty() ? "" : " as a surface, " + mesh_ending);
         else
-            spdlog::error("the bone was not saved: {}", error);
+            tell(wrong);
         is_saving_.store(false);
     });
     return {};

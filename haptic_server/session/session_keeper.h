@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "common/bone/bone.h"
 #include "haptic_server/streaming/session_controls.h"
@@ -13,8 +15,8 @@ namespace osteomill {
 
 class SessionKeeper {
   public:
-    /// Writes a bone, or its surface where there is an ending of mesh_endings; says in one line why it could
-    /// not, or nothing. Called on a thread of its own.
+    /// Writes a bone, or its surface where there is an ending of mesh_endings; says in one line what is wrong
+    /// with it, or nothing. Called on a thread of its own.
     using Save = std::function<std::string(const Bone&, const std::string& mesh_ending)>;
 
     /// An empty `save`: there is no file to save in, and it is refused.
@@ -27,6 +29,9 @@ class SessionKeeper {
     /// left of the bone until it is written; one at a time.
     SessionControls::Requests requests();
 
+    /// Any thread: in the log, and to clients, as the answer to a save. What has gone wrong with saving is
+    /// said when it happens.
+    void tell(const std::string& line);
     /// Any thread.
     bool finish_requested() const { return wants_end_.load(); }
     /// For a save under way, which may take a minute. Once no more can be requested.
@@ -37,7 +42,11 @@ class SessionKeeper {
   private:
     std::string save(const Bone& bone, const std::string& mesh_ending);
 
+    std::vector<std::string> take_news();
+
     Save save_;
+    std::mutex mutex_;
+    std::vector<std::string> news_;  // that the controls have yet to take
     std::thread thread_;
     std::atomic<bool> is_saving_{false};
     std::atomic<bool> wants_end_{false};

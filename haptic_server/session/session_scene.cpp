@@ -13,6 +13,7 @@
 #include "imaging/case/case_placement.h"
 #include "imaging/case/case_trust.h"
 #include "imaging/case/scene_on_bone.h"
+#include "imaging/formats/image_reader.h"
 #include "imaging/phantoms/phantom.h"
 
 namespace osteomill {
@@ -47,6 +48,25 @@ Scene load_scene(const SceneChoice& choice) {
     return scene;
 }
 
+/// A bone that was chosen by itself may be saved over: what is saved continues it.
+std::vector<NamedFile> files_read(const SceneChoice& choice, const Scene& scene) {
+    std::vector<NamedFile> files;
+    const bool is_file = choice.name && std::ranges::find(phantom_names, *choice.name) == phantom_names.end();
+    if (is_file) files.push_back({"the scene", *choice.name, false});
+    if (const auto* bone = std::get_if<FileSource>(&scene.bone)) {
+        files.push_back({.option = choice.bone ? "the bone" : "the scene's bone",
+                         .path = bone->path,
+                         .is_written = false,
+                         .is_replaced_by = choice.bone ? "--save-bone" : ""});
+        if (!bone->segmentation.empty())
+            for (const auto& file : files_of_image(bone->segmentation))
+                files.push_back({"the scene's segmentation", file, false});
+    }
+    if (const auto* trajectory = std::get_if<std::filesystem::path>(&scene.trajectory.source))
+        files.push_back({"the trajectory", *trajectory, false});
+    return files;
+}
+
 }  // namespace
 
 SceneChoice case_chosen(const std::string& name) {
@@ -60,11 +80,13 @@ SessionScene load_session_scene(const SceneChoice& choice) {
     if (choice.case_folder)
         if (const std::string line = unsigned_files(scene, *choice.case_folder); !line.empty())
             spdlog::warn("{}", line);
+    std::vector<NamedFile> files = files_read(choice, scene);
     LoadedBone loaded = load_bone(scene, available_memory_bytes());
     if (!loaded.doubt.empty())
         spdlog::warn("{}: {}", std::get<FileSource>(scene.bone).path.string(), loaded.doubt);
     if (choice.bone && !choice.name) place_on_bone(scene, loaded.bone);
-    return {std::move(scene), std::move(loaded.bone), std::move(loaded.source), std::move(loaded.structures)};
+    return {std::move(scene), std::move(loaded.bone), std::move(loaded.source), std::move(loaded.structures),
+            std::move(files)};
 }
 
 }  // namespace osteomill

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/files/distinct_files.h"
 #include "common/scene/scene_change.h"
 #include "imaging/case/bone_source.h"
 
@@ -30,6 +31,7 @@ struct SessionScene {
     Bone bone;
     BoneSource source{};
     std::vector<Structure> structures{};  ///< of the scene's protected tissues, in their order
+    std::vector<NamedFile> files_read{};  ///< that it is made of: no output may take their place
 };
 
 /// Loads what is chosen; a bone that comes without a scene gets one, with the tool above it. What is doubtful

@@ -21,16 +21,19 @@ void save_surface(const std::filesystem::path& path, const Bone& bone) {
     write_mesh(path, mesh, Link::replace);
 }
 
-SessionKeeper::Save save_into(const std::optional<std::filesystem::path>& file, const BoneSource& source) {
-    if (!file) return {};
-    return [file = *file, &source](const Bone& now, const std::string& mesh_ending) -> std::string {
+SessionKeeper::Save save_into(const OutputPlace* place, const BoneSource& source) {
+    if (place == nullptr) return {};
+    return [place, &source](const Bone& now, const std::string& mesh_ending) -> std::string {
         try {
+            std::filesystem::path file = place->now();
             if (mesh_ending.empty())
                 save_bone(file, source, now);
             else
-                save_surface(std::filesystem::path(file).replace_extension(mesh_ending), now);
-        } catch (const std::exception& error) {
+                save_surface(file.replace_extension(mesh_ending), now);
+        } catch (const SavedWithoutCt& error) {
             return error.what();
+        } catch (const std::exception& error) {
+            return std::string("the bone was not saved: ") + error.what();
         }
         return {};
     };

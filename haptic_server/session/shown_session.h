@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 
+#include "common/files/output_place.h"
 #include "haptic_server/session/device_entry.h"
 #include "haptic_server/session/session_keeper.h"
 #include "haptic_server/session/session_scene.h"
@@ -17,11 +17,11 @@
 namespace osteomill {
 
 struct ShownOptions {
-    StreamingOptions streaming{};                      ///< whom, where, and what is recorded
-    ControlScript script{};                            ///< what is requested at its time without anybody
-    std::optional<std::filesystem::path> save_bone{};  ///< where a client may have the bone saved
-    std::string words_at_finish{};                     ///< what is answered to who ends the session
-    bool accepts_controls = true;                      ///< of clients
+    StreamingOptions streaming{};            ///< whom, where, and what is recorded
+    ControlScript script{};                  ///< what is requested at its time without anybody
+    const OutputPlace* save_bone = nullptr;  ///< where a client may have the bone saved; outlives the session
+    std::string words_at_finish{};           ///< what is answered to who ends the session
+    bool accepts_controls = true;            ///< of clients
     // The session as clients and recordings see it.
     std::string version{};
     std::string trainee{};
@@ -38,6 +38,8 @@ class ShownSession {
 
     StreamingServer& server() { return server_; }
     bool finish_requested() const { return keeper_.finish_requested(); }
+    /// What is wrong with saving, to the log and to clients.
+    void tell(const std::string& line) { keeper_.tell(line); }
 
     /// Begins to say goodbye, and waits for a bone that is being saved. Call once the session has ended.
     void end();

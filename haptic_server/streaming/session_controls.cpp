@@ -39,6 +39,8 @@ void SessionControls::end_frame(const Bone& bone, const ToolState& tool) {
     time_s_ = tool.time_s;
     if (!stroke_.goes_on(tool.time_s, tool.spindle_on, has_changes_, tool.force_n != glm::dvec3(0.0)))
         journal_.end_stroke();
+    if (requests_.save_news)
+        for (std::string& line : requests_.save_news()) say({.action = SessionAction::save}, std::move(line));
     queue_restored();
     if (is_bone_whole() && std::exchange(may_be_in_bone_, false)) lift_out(bone, tool);
     for (Waiting& waiting : waiting_) ++waiting.frames;

@@ -36,6 +36,8 @@ class SessionControls {
         /// `text`: as what; empty for the bone itself.
         std::function<std::string(const Bone&, const std::string& text)> save{};
         std::function<std::string()> finish{};
+        /// What has gone wrong with saving since the last call, a line each. May be empty.
+        std::function<std::vector<std::string>()> save_news{};
         /// The answer to Finish, such as where the report will be.
         std::string finish_words{};
         /// The pose of a burr that is to be placed there, or the reason of a refusal. Empty if tools cannot

@@ -182,5 +182,146 @@ TEST_F(OutputFiles, AreRefusedWhereTheyWouldDestroyAKeyOrACertificate) {
     EXPECT_EQ(text("key.pem"), "old");
 }
 
+TEST_F(OutputFiles, OfAnImportAreNeverTheScan) {
+    const auto import = [&](const Command& options) {
+        Command command{BONE_IMPORT};
+        command.insert(command.end(), options.begin(), options.end());
+        return command;
+    };
+    const std::string scan = text("block.nrrd");
+    fs::create_symlink(".", file("link"));
+    fs::create_hard_link(file("block.nrrd"), file("hard.nrrd"));
+    for (const std::string& same : {file("block.nrrd"), file("link/block.nrrd"), file("hard.nrrd")}) {
+        expect_refused(import({file("block.nrrd"), same, "--spacing-mm", "1"}), "INPUT", "OUTPUT");
+        expect_refused(import({file("block.nrrd"), "--preview", same}), "INPUT", "--preview");
+    }
+    fs::create_directories(file("stack"));
+    fs::copy_file(file("block.nrrd"), file("stack/1.nrrd"));
+    for (const std::string name : {"stack/1.nrrd", "stack/new.nrrd", "link/stack/new.nrrd"})
+        expect_refused(import({file("stack"), file(name)}), "INPUT", "OUTPUT");
+    expect_refused(import({file("stack"), "--case", file("stack")}), "INPUT", "--case");
+    fs::create_directory(file("case"));
+    fs::copy_file(file("block.nrrd"), file("case/bone.nrrd"));
+    expect_refused(import({file("case/bone.nrrd"), "--case", file("case")}), "INPUT", "--case");
+    // The voxels of a header that names their file are read, too.
+    put("scan.nhdr",
+        "NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: 4 4 4\n"
+        "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\nendian: little\n"
+        "data file: voxels.raw\n\n");
+    put("voxels.raw", std::string(128, 'x'));
+    expect_refused(import({file("scan.nhdr"), "--preview", file("voxels.raw")}), "INPUT", "--preview");
+    fs::create_symlink("nowhere.nrrd", file("dangling.nrrd"));
+    expect_refused(import({file("block.nrrd"), file("dangling.nrrd")}), "dangling.nrrd", "nowhere.nrrd");
+    EXPECT_EQ(text("block.nrrd"), scan);
+    EXPECT_EQ(text("voxels.raw"), std::string(128, 'x'));
+    EXPECT_TRUE(fs::is_symlink(file("dangling.nrrd")));
+}
+
+TEST_F(OutputFiles, OfASessionAreNoneThatItsCaseOrSceneIsMadeOf) {
+    fs::create_directory(file("case"));
+    fs::copy_file(file("block.nrrd"), file("case/bone.nrrd"));
+    fs::copy_file(file("block.nrrd"), file("case/scan.nrrd"));
+    const std::string scan = text("block.nrrd");
+    const auto session = [&](const std::string& option, const std::string& path, const Command& of) {
+        Command command{HAPTIC_SERVER, "--clock", "virtual", "--duration-s", "0.01", option, path};
+        command.insert(command.end(), of.begin(), of.end());
+        return command;
+    };
+    put("case/case.toml", "name = \"x\"\n[bone]\nfile = \"bone.nrrd\"\n");
+    for (const std::string option : {"--record", "--save-bone", "--json", "--log-csv"}) {
+        expect_refused(session(option, file("case/bone.nrrd"), {"--case", file("case")}), "--case", option);
+        const Finished scene =
+            run_program(session(option, file("case/bone.nrrd"), {"--scene", file("case/case.toml")}));
+        EXPECT_NE(scene.status, 0) << option;
+        EXPECT_THAT(scene.err, HasSubstr("are the same file")) << option;
+    }
+    put("case/case.toml", "name = \"x\"\n[bone]\nfile = \"scan.nrrd\"\n");
+    const Finished own = run_program(session("--record", file("case/scan.nrrd"), {"--case", file("case")}));
+    EXPECT_EQ(own.status, 1);
+    EXPECT_THAT(own.err, HasSubstr("are the same file"));
+    expect_refused(session("--record", file("case/placement.toml"), {"--case", file("case")}), "--case",
+                   "--record");
+    EXPECT_EQ(text("case/bone.nrrd"), scan);
+    EXPECT_EQ(text("case/scan.nrrd"), scan);
+}
+
+TEST_F(OutputFiles, ThatALinkToNothingNamesAreRefused) {
+    fs::create_symlink("nowhere.nrrd", file("dangling.nrrd"));
+    for (const std::string option : {"--save-bone", "--json", "--record"})
+        expect_refused(server({"--duration-s", "0.2", option, file("dangling.nrrd")}), option,
+                       "nowhere.nrrd");
+    EXPECT_TRUE(fs::is_symlink(file("dangling.nrrd")));
+    EXPECT_FALSE(fs::exists(file("nowhere.nrrd")));
+}
+
+TEST_F(OutputFiles, OfPicturesAreNoneThatIsReplayed) {
+    fs::create_directory(file("shots"));
+    put("shots/final.png", "a recording");
+    expect_refused(
+        {RENDER_CLIENT, "--offscreen", "--replay", file("shots/final.png"), "--screenshots", file("shots")},
+        "--replay", "--screenshots");
+    put("shots/dataset.json", "a recording");
+    expect_refused({RENDER_CLIENT, "--replay", file("shots/dataset.json"), "--dataset", file("shots")},
+                   "--replay", "--dataset");
+}
+
+TEST_F(OutputFiles, AreOneSessionsFromItsStart) {
+    ChildProcess first(
+        server({"--listen", "127.0.0.1:0", "--save-bone", file("a.nrrd"), "--json", file("a.json")}));
+    ASSERT_TRUE(first.line_after("listening on"));
+    for (const Command& output : {Command{"--save-bone", file("a.nrrd")}, {"--json", file("a.json")}}) {
+        const Finished second =
+            run_program(server({"--clock", "virtual", "--duration-s", "0.1", output.front(), output.back()}));
+        EXPECT_EQ(second.status, 1) << second.err;
+        EXPECT_THAT(second.err, AllOf(HasSubstr(output.back()), HasSubstr("another session will write it")));
+    }
+    first.send_signal(SIGKILL);
+    ASSERT_EQ(first.wait(), 128 + SIGKILL);
+    const Finished next =
+        run_program(server({"--clock", "virtual", "--duration-s", "0.1", "--save-bone", file("a.nrrd")}));
+    EXPECT_EQ(next.status, 0) << next.err;
+    EXPECT_FALSE(fs::exists(file(".a.nrrd.lock")));
+}
+
+TEST_F(OutputFiles, WhoseFolderIsRemovedAreElsewhereAndThatIsSaidAtOnce) {
+    for (const bool is_renamed : {false, true}) {
+        fs::create_directory(file("lab"));
+        ChildProcess session(server({"--listen", "127.0.0.1:0", "--save-bone", file("lab/a.nrrd")}));
+        ASSERT_TRUE(session.line_after("listening on"));
+        if (is_renamed)
+            fs::rename(file("lab"), file("moved"));
+        else
+            fs::remove_all(file("lab"));
+        const std::string place = file(is_renamed ? "moved/a.nrrd" : "lab.rescued/a.nrrd");
+        EXPECT_TRUE(eventually([&] {
+            session.read_output();
+            return session.err().find("it will be " + place) != std::string::npos;
+        })) << session.err();
+        session.send_signal(SIGTERM);
+        EXPECT_EQ(session.wait(), 0) << session.err();
+        EXPECT_TRUE(fs::exists(place));
+        EXPECT_EQ(run_program({BONE_EXPORT, place, file("a.stl")}).status, 0);
+    }
+}
+
+TEST_F(OutputFiles, WhoseSourceIsWrittenOverAreSavedAndThatIsSaidAtOnce) {
+    ASSERT_EQ(
+        run_program(server({"--clock", "virtual", "--duration-s", "0.1", "--save-bone", file("carved.nrrd")}))
+            .status,
+        0);
+    ChildProcess session({HAPTIC_SERVER, "--bone", file("carved.nrrd"), "--listen", "127.0.0.1:0",
+                          "--save-bone", file("a.nrrd")});
+    ASSERT_TRUE(session.line_after("listening on"));
+    fs::resize_file(file("carved.nrrd"), 1000);
+    EXPECT_TRUE(eventually([&] {
+        session.read_output();
+        return session.err().find("carved.nrrd: was written to since it was loaded") != std::string::npos;
+    })) << session.err();
+    session.send_signal(SIGTERM);
+    EXPECT_EQ(session.wait(), 1);
+    EXPECT_THAT(session.err(), HasSubstr("is saved with CT numbers that only say where bone is left"));
+    EXPECT_EQ(run_program({BONE_EXPORT, file("a.nrrd"), file("a.stl")}).status, 0);
+}
+
 }  // namespace
 }  // namespace osteomill::testing

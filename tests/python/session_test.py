@@ -149,6 +149,23 @@ class SessionTest(unittest.TestCase):
                 wrong()
             self.assertNotIn("\n", str(raised.exception))
 
+    def test_a_recording_is_none_of_the_files_of_the_case(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bone = os.path.join(folder, "bone.nrrd")
+            run_server(pathlib.Path(folder), "--save-bone", bone, "--duration-s", "0.01")
+            scene = os.path.join(folder, "case.toml")
+            pathlib.Path(scene).write_text('name = "x"\n[bone]\nfile = "bone.nrrd"\n')
+            kept = [pathlib.Path(file).read_bytes() for file in (bone, scene)]
+            os.symlink(folder, os.path.join(folder, "link"))
+            os.symlink("nowhere.pcap", os.path.join(folder, "dangling.pcap"))
+            case = om.Case(folder)
+            for record in (bone, scene, os.path.join(folder, "link", "bone.nrrd")):
+                with self.assertRaisesRegex(ValueError, "the recording are the same file"):
+                    om.Session(case, record=record)
+            with self.assertRaisesRegex(ValueError, "is a link to .*nowhere.pcap"):
+                om.Session(case, record=os.path.join(folder, "dangling.pcap"))
+            self.assertEqual(kept, [pathlib.Path(file).read_bytes() for file in (bone, scene)])
+
     def test_a_signal_ends_a_long_step(self):
         session = om.Session(tooth())
         for work in (lambda: session.step(ms=10**8), lambda: session.run(10**8),

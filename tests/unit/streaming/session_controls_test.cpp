@@ -29,6 +29,7 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
                              is_finished_ = true;
                              return std::string();
                          },
+                     .save_news = [this] { return std::exchange(save_news_, {}); },
                      .place = [](const Bone&, const ToolPose& wanted,
                                  std::size_t) -> std::variant<ToolPose, std::string> {
                          if (wanted.position_mm.x > 100.0) return std::string("too far");
@@ -87,6 +88,7 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
     bool can_save_ = true;
     bool is_finished_ = false;
     std::uint64_t saved_ = 0;
+    std::vector<std::string> save_news_;
 };
 
 TEST_F(SessionControlsTest, UndoesAStrokeThroughTheMillingLoop) {
@@ -283,6 +285,17 @@ TEST_F(SessionControlsTest, MarksSavesAndFinishesAndSaysWhatCameOfIt) {
     EXPECT_TRUE(events[2].is_refused);
     EXPECT_EQ(events[2].text, "the disk is full");
     EXPECT_TRUE(is_finished_);
+}
+
+TEST_F(SessionControlsTest, SaysWhenSavingHasGoneWrongAlthoughNobodyAsks) {
+    save_news_ = {"the folder is gone"};
+    frame();
+    frame();
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].action, SessionAction::save);
+    EXPECT_EQ(events[0].text, "the folder is gone");
+    EXPECT_TRUE(events[0].is_refused);
 }
 
 TEST_F(SessionControlsTest, TellsTheHapticLoopTheSpindlesSpeed) {

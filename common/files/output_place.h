@@ -1,0 +1,46 @@
+// Place of a file that a session writes at its end: reserved for it from the start, and found again where its
+// folder was moved or removed meanwhile.
+//
+// A file beside it, .NAME.lock, is locked (flock) and goes with this; what a killed program has left of it
+// blocks nobody.
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace osteomill {
+
+class OutputPlace {
+  public:
+    /// Links are followed. Throws std::runtime_error in one line where another session has reserved it, and
+    /// where nothing can be written there. What is no regular file (/dev/null, a pipe) is not reserved.
+    explicit OutputPlace(std::filesystem::path file);
+    ~OutputPlace();
+    OutputPlace(const OutputPlace&) = delete;
+    OutputPlace& operator=(const OutputPlace&) = delete;
+
+    /// As it was requested.
+    const std::filesystem::path& file() const { return file_; }
+    /// Where to write now: where it was requested while that folder is there; else in the folder where it was
+    /// moved to; of one that was removed, in FOLDER.rescued beside it, or in the user's folder of data, which
+    /// is made. Any thread.
+    std::filesystem::path now() const;
+    /// One line for people, once each time that the folder has gone. Any thread.
+    std::string news();
+
+  private:
+    std::filesystem::path found() const;
+
+    std::filesystem::path file_;
+    std::filesystem::path target_;  ///< links followed
+    std::filesystem::path lock_file_;
+    int folder_ = -1;  ///< a descriptor of the target's folder, by which it is found again
+    int lock_ = -1;
+    mutable std::mutex mutex_;
+    mutable std::optional<std::filesystem::path> rescue_;  ///< where it goes since its folder was removed
+    bool was_there_ = true;                                ///< its folder, at the last look
+};
+
+}  // namespace osteomill
