@@ -8,6 +8,7 @@
 //   .obj   text: points with normals, triangles of them
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -25,6 +26,7 @@ bool is_mesh_ending(const std::string& ending);
 
 /// The endings, as options name them.
 inline constexpr std::string_view mesh_endings = ".stl, .ply or .obj";
+inline constexpr std::array mesh_ending_list{".stl", ".ply", ".obj"};
 
 /// Replaces the file as a whole. Throws std::runtime_error with one line that names it where it cannot be
 /// written, std::invalid_argument for another ending.
