@@ -114,7 +114,7 @@ TEST_F(SavedBone, KilledAtAnyMomentIsTheOldOrTheNewOne) {
         std::filesystem::copy(folder_ / "old", folder_.path());
         ChildProcess killed(save_again);
         const std::uintmax_t at_bytes = 1 + whole_bytes * round / kills;
-        const auto deadline = Clock::now() + far_too_long;
+        const auto deadline = Clock::now() + testing::far_too_long;
         bool has_begun = false;
         while (Clock::now() < deadline) {
             const std::uintmax_t bytes = written();

@@ -279,7 +279,7 @@ TEST_F(StudyProgram, IsRepeatedFromTheManifestOfItsFolder) {
 
 TEST_F(StudyProgram, RefusesDeepJsonOfAFolderThatItRepeats) {
     const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
-    fs::create_directory(out_);
+    std::filesystem::create_directory(out_);
     std::ofstream(out_ + "/manifest.json") << deep;
     expect_refused("repeat " + out_, 1, "manifest.json: its lists and objects lie more than");
     std::ofstream(out_ + "/manifest.json")
@@ -289,8 +289,8 @@ TEST_F(StudyProgram, RefusesDeepJsonOfAFolderThatItRepeats) {
 }
 
 TEST_F(StudyProgram, WritesOverNoFileThatItReads) {
-    fs::create_directory(out_);
-    fs::copy_file(case_file, out_ + "/cases.json");
+    std::filesystem::create_directory(out_);
+    std::filesystem::copy_file(case_file, out_ + "/cases.json");
     const std::string before = text_of(out_ + "/cases.json");
     expect_refused("force --cases " + out_ + "/cases.json --out " + out_, 2,
                    "--out and --cases are the same");
