@@ -156,7 +156,11 @@ TEST(HaplyState, IsNoneOfGarbage) {
     std::string nested = R"({"inverse3":[],"x":)";
     for (int i = 0; i < 50'000; ++i) nested += R"({"x":)";
     EXPECT_FALSE(parse_haply_state(nested, ""));
-    EXPECT_TRUE(parse_haply_state(nested + "0" + std::string(50'001, '}'), "")) << "deep, and no arm";
+    EXPECT_FALSE(parse_haply_state(nested + "0" + std::string(50'001, '}'), ""))
+        << "deeper than any service's";
+    std::string known_by_nobody = R"({"inverse3":[],"x":)";
+    for (int i = 0; i < 50; ++i) known_by_nobody += R"({"x":)";
+    EXPECT_TRUE(parse_haply_state(known_by_nobody + "0" + std::string(51, '}'), "")) << "no arm, read over";
     std::string many = R"({"inverse3":[)";
     for (int i = 0; i < 5'000; ++i) many += "{},";
     EXPECT_FALSE(parse_haply_state(many + "{}]}", ""));
