@@ -140,8 +140,9 @@ TEST_F(TrackedHand, IsLostAndSaysSoWhileTheTrackersClockIsNotOurs) {
     begin();
     ASSERT_TRUE(server.accept());
     ASSERT_TRUE(run([](const DeviceState& seen) { return seen.connected; }));
-    for (const auto& [rate, words] : {std::pair(2.0, "runs faster"), std::pair(0.5, "runs slower")}) {
+    for (const auto& [rate, said] : {std::pair(2.0, "runs faster"), std::pair(0.5, "runs slower")}) {
         clock_rate = rate;
+        const char* const words = said;  // clang 14 takes no part of a pair into a lambda
         ASSERT_TRUE(run([&](const DeviceState& seen) {
             return !seen.connected && std::string(tool->notice()).find(words) != std::string::npos;
         })) << rate;
