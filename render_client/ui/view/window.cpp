@@ -6,29 +6,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <glm/common.hpp>
 #include <stdexcept>
 
-#include "render_client/ui/view/display_watch.h"
 #include "render_client/volume/gl/offscreen_context.h"
 
 namespace osteomill {
 
 namespace {
 
-std::string last_glfw_error() {
-    const char* description = nullptr;
-    glfwGetError(&description);
-    return description ? description : "unknown reason";
-}
-
 /// What this display offers where it is not OpenGL 3.3, in words.
 std::string offered_opengl() {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     GLFWwindow* window = glfwCreateWindow(16, 16, "", nullptr, nullptr);
-    if (!window) return "the display offers no OpenGL at all (" + last_glfw_error() + ")";
+    if (!window) return "the display offers no OpenGL at all (" + WindowSystem::last_error() + ")";
     glfwMakeContextCurrent(window);
     const std::string found = "the display offers " + gl::renderer_name();
     glfwDestroyWindow(window);
@@ -48,9 +40,7 @@ class UnseenContext final : public gl::SecondContext {
 }  // namespace
 
 Window::Window(const glm::ivec2& size_px, const std::string& title, bool quad_buffer) {
-    if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
-        throw gl::NoOpenGl("no display (neither DISPLAY nor WAYLAND_DISPLAY is set); use --offscreen");
-    if (!glfwInit()) throw gl::NoOpenGl("no window: " + last_glfw_error() + "; use --offscreen");
+    system_.hint_identity();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -58,22 +48,16 @@ Window::Window(const glm::ivec2& size_px, const std::string& title, bool quad_bu
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     glfwWindowHint(GLFW_STEREO, quad_buffer ? GLFW_TRUE : GLFW_FALSE);
     window_ = glfwCreateWindow(size_px.x, size_px.y, title.c_str(), nullptr, nullptr);
-    if (quad_buffer && !window_) {
-        glfwTerminate();
+    if (quad_buffer && !window_)
         throw std::runtime_error(
             "--stereo quad-buffer: this display or its driver has no buffers for two eyes; use side-by-side, "
             "top-bottom or rows");
-    }
-    if (!window_) {
-        const std::string found = offered_opengl();
-        glfwTerminate();
-        throw gl::NoOpenGl("OpenGL 3.3 is needed; " + found +
+    if (!window_)
+        throw gl::NoOpenGl("OpenGL 3.3 is needed; " + offered_opengl() +
                            "; install a graphics driver, or Mesa's software one: apt-get install "
                            "libgl1-mesa-dri libgl1");
-    }
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     unseen_ = glfwCreateWindow(1, 1, "", nullptr, window_);
-    watch_display(&is_display_gone_);
     watch_input();
 }
 
@@ -127,7 +111,6 @@ std::unique_ptr<gl::SecondContext> Window::second_context() const {
 Window::~Window() {
     if (unseen_ != nullptr) glfwDestroyWindow(unseen_);
     glfwDestroyWindow(window_);
-    glfwTerminate();
 }
 
 void Window::read_events(double at_most_s) {
@@ -190,7 +173,7 @@ bool Window::take_close_request() {
 
 void Window::make_context_current() {
     glfwMakeContextCurrent(window_);
-    glfwSwapInterval(1);
+    glfwSwapInterval(system_.swap_interval());
 }
 
 void Window::release_context() {
@@ -198,7 +181,7 @@ void Window::release_context() {
 }
 
 void Window::require_display() const {
-    if (is_display_gone_)
+    if (system_.has_gone())
         throw std::runtime_error("the display has gone: its server ended or closed the link");
 }
 

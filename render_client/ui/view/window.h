@@ -2,13 +2,13 @@
 // context may be another's, which draws.
 #pragma once
 
-#include <atomic>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <string>
 
 #include "render_client/ui/input/held_keys.h"
 #include "render_client/ui/input/window_input.h"
+#include "render_client/ui/view/window_system.h"
 #include "render_client/volume/gl/second_context.h"
 
 struct GLFWwindow;
@@ -51,12 +51,12 @@ class Window {
     void require_display() const;
     void watch_input();
 
+    WindowSystem system_;
     GLFWwindow* window_ = nullptr;
     GLFWwindow* unseen_ = nullptr;  ///< has the second context
     WindowInput input_;
     glm::ivec2 place_before_{0}, size_before_{0};  ///< it filled the screen
     HeldKeys keys_;
-    std::atomic<bool> is_display_gone_{false};
 };
 
 }  // namespace osteomill
