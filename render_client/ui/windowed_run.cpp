@@ -16,6 +16,7 @@
 #include "common/scene/scene_file.h"
 #include "render_client/dataset/pinhole.h"
 #include "render_client/sound/session_sound.h"
+#include "render_client/ui/input/clipboard.h"
 #include "render_client/ui/input/commands.h"
 #include "render_client/ui/input/hand_input.h"
 #include "render_client/ui/input/input_mailbox.h"
@@ -88,6 +89,7 @@ std::filesystem::path home_of(const RenderOptions& options) {
 /// What the two threads of a window share.
 struct Shared {
     InputMailbox mailbox{};
+    Clipboard clipboard;
     HandInput desk;
     std::atomic<bool> is_over{false};          ///< asked for by either thread
     std::atomic<bool> close_requested{false};  ///< somebody wants to close the window
@@ -107,6 +109,7 @@ class Drawing {
                    options.renderer, options.look, options.stereo),
           commands_(session_, shared.desk, source, options.screenshots),
           screenshots_(options.screenshots, screenshot_interval(options)) {
+        panels_.use(shared.clipboard);
         if (auto second = window.second_context()) {
             storage_.emplace(std::move(second));
             session_.make_storage_by(*storage_);
@@ -337,7 +340,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
                            const std::function<bool()>& stop_requested) {
     Window window(options.window_size_px.value_or(default_size_px), "Osteomill",
                   options.stereo.layout == StereoLayout::quad_buffer);
-    Shared shared{.desk = HandInput(source)};
+    Shared shared{.clipboard = Clipboard([&window] { window.wake(); }), .desk = HandInput(source)};
     shared.mailbox.post(window.take_input());
     RenderReport report;
     DrawingThread drawing(shared.is_over, [&] {
@@ -356,6 +359,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         window.fill_screen(shared.is_fullscreen);
         const Clock::time_point now = Clock::now();
         WindowInput input = window.take_input();
+        window.serve(shared.clipboard);
         // Pointed at is the left eye's picture, which is the left, or the upper, half of the window.
         if (options.stereo.layout == StereoLayout::side_by_side) input.cursor.x *= 2.0;
         if (options.stereo.layout == StereoLayout::top_bottom) input.cursor.y *= 2.0;

@@ -64,6 +64,12 @@ void prepare_panel_input(ImGuiIO& io) {
 #endif
 }
 
+void give_clipboard(Clipboard& clipboard, ImGuiIO& io) {
+    io.ClipboardUserData = &clipboard;
+    io.SetClipboardTextFn = [](void* to, const char* text) { static_cast<Clipboard*>(to)->copy(text); };
+    io.GetClipboardTextFn = [](void* from) { return static_cast<Clipboard*>(from)->paste().c_str(); };
+}
+
 void feed_panel_input(const WindowInput& input, ImGuiIO& io) {
     constexpr float nowhere = -std::numeric_limits<float>::max();
     const glm::vec2 at(input.cursor * input.px_per_unit());

@@ -5,12 +5,17 @@
 
 #include <imgui.h>
 
+#include "render_client/ui/input/clipboard.h"
 #include "render_client/ui/input/window_input.h"
 
 namespace osteomill {
 
 /// Once for each context, before its first frame.
 void prepare_panel_input(ImGuiIO& io);
+
+/// Texts are cut, copied and pasted by way of `clipboard`, which must outlive the context. Without one Dear
+/// ImGui keeps them to itself.
+void give_clipboard(Clipboard& clipboard, ImGuiIO& io);
 
 /// Mouse and keys for the next frame. A press that is shorter than a frame lasts for one.
 void feed_panel_input(const WindowInput& input, ImGuiIO& io);

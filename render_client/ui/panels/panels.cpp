@@ -115,7 +115,8 @@ void Panels::load_letters(float scale) {
         atlas.AddFontFromFileTTF(font_file, std::round(letter_px * scale), nullptr, letters.data());
     } else {
         config.SizePixels = std::round(built_in_letter_px * scale);
-        // Its strokes are a pixel high: in small print one row of the texture would be passed over, and every minus lost.
+        // Its strokes are a pixel high: in small print one row of the texture would be passed over, and every
+        // minus lost.
         config.OversampleV = 2;
         atlas.AddFontDefault(&config);
     }
@@ -124,6 +125,10 @@ void Panels::load_letters(float scale) {
     if (scale_ == 0.0f) return;
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+void Panels::use(Clipboard& clipboard) {
+    give_clipboard(clipboard, ImGui::GetIO());
 }
 
 void Panels::feed(const WindowInput& input) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "render_client/ui/input/clipboard.h"
 #include "render_client/ui/input/window_input.h"
 #include "render_client/ui/panels/theme.h"
 #include "render_client/volume/gl/framebuffer.h"
@@ -22,6 +23,9 @@ class Panels {
     Panels(const Panels&) = delete;
     Panels& operator=(const Panels&) = delete;
     ~Panels();
+
+    /// Joins the panels' texts to the desktop's; it must outlive them.
+    void use(Clipboard& clipboard);
 
     /// Mouse and keys for the next frame. Without it, as in offscreen pictures, panels take no input.
     void feed(const WindowInput& input);

@@ -165,6 +165,18 @@ void Window::fill_screen(bool wanted) {
     glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
+void Window::serve(Clipboard& clipboard) {
+    clipboard.serve([](const std::string& text) { glfwSetClipboardString(nullptr, text.c_str()); },
+                    [] {
+                        const char* const text = glfwGetClipboardString(nullptr);
+                        return std::string(text != nullptr ? text : "");
+                    });
+}
+
+void Window::wake() const {
+    glfwPostEmptyEvent();
+}
+
 bool Window::take_close_request() {
     const bool is_asked = glfwWindowShouldClose(window_) != 0;
     glfwSetWindowShouldClose(window_, GLFW_FALSE);

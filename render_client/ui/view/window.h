@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "render_client/ui/input/clipboard.h"
 #include "render_client/ui/input/held_keys.h"
 #include "render_client/ui/input/window_input.h"
 #include "render_client/ui/view/window_system.h"
@@ -34,8 +35,15 @@ class Window {
     WindowInput take_input();
     /// The whole screen, or the place and size that it had before.
     void fill_screen(bool wanted);
+    /// Does what the panels want of the desktop's clipboard.
+    void serve(Clipboard& clipboard);
     /// Whether the user has tried to close it since the last call.
     bool take_close_request();
+
+    // Any thread.
+
+    /// Ends the wait for events.
+    void wake() const;
 
     // Thread that draws.
 

@@ -91,6 +91,32 @@ TEST_F(PanelInput, CtrlWithALetterIsACommandOfTheText) {
     EXPECT_EQ(text(), "");
 }
 
+TEST_F(PanelInput, CtrlWithCXAndVGoesByWayOfTheClipboard) {
+    std::string desktop = "theirs";
+    Clipboard clipboard([&] {
+        clipboard.serve([&](const std::string& copied) { desktop = copied; }, [&] { return desktop; });
+    });
+    give_clipboard(clipboard, ImGui::GetIO());
+    click(text_at_);
+    const auto strike_with_ctrl = [&](int key) {
+        input_.ctrl = true;
+        strike(key);
+        input_.ctrl = false;
+        draw();
+    };
+    strike_with_ctrl(GLFW_KEY_V);
+    EXPECT_EQ(text(), "theirs");
+    input_.typed = {U'2'};
+    draw();
+    strike_with_ctrl(GLFW_KEY_A);
+    strike_with_ctrl(GLFW_KEY_C);
+    EXPECT_EQ(desktop, "theirs2");
+    desktop = "";
+    strike_with_ctrl(GLFW_KEY_X);
+    EXPECT_EQ(desktop, "theirs2");
+    EXPECT_EQ(text(), "");
+}
+
 TEST_F(PanelInput, EnterAndSpacePressWhatHasTheFocus) {
     click(button_at_);  // which gets the focus
     input_.cursor = {300.0, 250.0};
