@@ -20,6 +20,7 @@
 #include "render_client/volume/png_file.h"
 #include "tests/support/block_file.h"
 #include "tests/support/logged_removal.h"
+#include "tests/support/picture_difference.h"
 #include "tests/support/virtual_display.h"
 
 namespace osteomill::testing {
@@ -30,19 +31,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 const glm::ivec2 size_px(480, 360);
-
-/// The part of the pixels of which a channel differs by more than rounding and a moving cursor of text do.
-double difference(const Picture& a, const Picture& b) {
-    if (a.size_px != b.size_px) return 1.0;
-    int differing = 0;
-    for (std::size_t pixel = 0; pixel < a.rgb.size(); pixel += 3) {
-        bool differs = false;
-        for (std::size_t channel = 0; channel < 3; ++channel)
-            differs = differs || std::abs(a.rgb[pixel + channel] - b.rgb[pixel + channel]) > 12;
-        differing += differs ? 1 : 0;
-    }
-    return 3.0 * differing / static_cast<double>(a.rgb.size());
-}
 
 int lines_of(const std::string& text) {
     return static_cast<int>(std::count(text.begin(), text.end(), '\n'));

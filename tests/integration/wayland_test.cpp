@@ -1,0 +1,111 @@
+// render_client in a window of a real Wayland compositor, with a real server. See window_test.cpp for all
+// that is alike under X11.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include "tests/support/picture_difference.h"
+#include "tests/support/wayland_display.h"
+
+namespace osteomill::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using Shell = WaylandDisplay::Shell;
+
+class WaylandTest : public ::testing::TestWithParam<int> {
+  protected:
+    void SetUp() override {
+        if (100 * GLFW_VERSION_MAJOR + GLFW_VERSION_MINOR < 304)
+            GTEST_SKIP() << "GLFW " << GLFW_VERSION_MAJOR << "." << GLFW_VERSION_MINOR
+                         << " shows its windows through X11: see WindowTest";
+        if (const std::string missing = WaylandDisplay::missing(); !missing.empty())
+            GTEST_SKIP() << "needs " << missing;
+    }
+
+    void start_server() {
+        server_.emplace(
+            std::vector<std::string>{HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--device", "client"});
+        const auto address = server_->line_after("listening on ");
+        ASSERT_TRUE(address) << server_->err();
+        address_ = *address;
+    }
+    std::string folder(const std::string& name) const { return (folder_ / name).string(); }
+    std::vector<std::string> client(const std::vector<std::string>& more) const {
+        std::vector<std::string> command{RENDER_CLIENT, "--connect", address_, "--home", folder("kept")};
+        command.insert(command.end(), more.begin(), more.end());
+        return command;
+    }
+    /// A window's size that is so many pixels.
+    static std::string units(int width_px, int height_px) {
+        return std::to_string(width_px / GetParam()) + "x" + std::to_string(height_px / GetParam());
+    }
+    static bool comes_true(const std::function<bool()>& happened) {
+        return eventually([&] {
+            if (happened()) return true;
+            std::this_thread::sleep_for(100ms);
+            return false;
+        });
+    }
+    Picture screen() const { return display_->outside().screen(); }
+    bool xdotool(const std::vector<std::string>& arguments) const {
+        return display_->outside().xdotool(arguments);
+    }
+    void press(const std::string& key) const { ASSERT_TRUE(xdotool({"key", key})) << key; }
+    bool shows(const Picture& wanted) const {
+        return comes_true([&] { return difference(screen(), wanted) <= 0.01; });
+    }
+    bool shows_otherwise_than(const Picture& before, double at_least) const {
+        return comes_true([&] { return difference(screen(), before) >= at_least; });
+    }
+    bool stands_still() const {
+        return comes_true([&] {
+            const Picture before = screen();
+            std::this_thread::sleep_for(500ms);
+            return difference(screen(), before) <= 0.003;
+        });
+    }
+
+    /// The part of the screen that windows leave free.
+    double free_part() const {
+        const Picture picture = screen();
+        std::size_t green = 0;
+        for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+            green += picture.rgb[i] == 0 && picture.rgb[i + 1] == 255 && picture.rgb[i + 2] == 0 ? 1 : 0;
+        return 3.0 * static_cast<double>(green) / static_cast<double>(picture.rgb.size());
+    }
+
+    TemporaryFolder folder_;
+    std::optional<ChildProcess> server_;
+    std::string address_{"127.0.0.1:1"};  // nobody there
+    std::optional<WaylandDisplay> display_;
+    std::optional<ChildProcess> window_;
+};
+
+INSTANTIATE_TEST_SUITE_P(PixelsInAUnit, WaylandTest, ::testing::Values(1, 2),
+                         [](const auto& scale) { return "Scale" + std::to_string(scale.param); });
+
+TEST_P(WaylandTest, EndsWhenAskedThoughItIsHidden) {
+    start_server();
+    display_.emplace(glm::ivec2(480, 360), GetParam(), Shell::kiosk);
+    window_.emplace(display_->shown_here(
+        client({"--no-panels", "--until-server-ends", "--window-size", units(480, 360)})));
+    ASSERT_TRUE(comes_true([&] { return free_part() < 0.2; })) << window_->err();
+    ASSERT_TRUE(stands_still());
+    const Picture first = screen();
+    ChildProcess in_front(
+        display_->shown_here(client({"--no-panels", "--theme", "light", "--window-size", units(480, 360)})));
+    ASSERT_TRUE(shows_otherwise_than(first, 0.2)) << in_front.err();
+    server_->send_signal(SIGINT);
+    ASSERT_EQ(server_->wait(), 0);
+    EXPECT_EQ(window_->wait(), 0) << window_->err();
+}
+
+}  // namespace
+}  // namespace osteomill::testing
