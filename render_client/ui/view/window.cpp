@@ -48,6 +48,7 @@ Window::Window(const glm::ivec2& size_px, const std::string& title, bool quad_bu
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     glfwWindowHint(GLFW_STEREO, quad_buffer ? GLFW_TRUE : GLFW_FALSE);
     window_ = glfwCreateWindow(size_px.x, size_px.y, title.c_str(), nullptr, nullptr);
+    if (!window_) require_display();
     if (quad_buffer && !window_)
         throw std::runtime_error(
             "--stereo quad-buffer: this display or its driver has no buffers for two eyes; use side-by-side, "

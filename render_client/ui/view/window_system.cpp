@@ -51,7 +51,8 @@ WindowSystem::WindowSystem() {
 }
 
 WindowSystem::~WindowSystem() {
-    glfwTerminate();
+    // Under Wayland GLFW waits here for what the display has yet to say: of one that has gone, for ever.
+    if (!has_gone()) glfwTerminate();
 }
 
 std::string WindowSystem::last_error() {
