@@ -137,7 +137,10 @@ std::size_t DicomWalker::after(const Element& element, const DicomSyntax& syntax
     }
     // What begins with an item GDCM takes for a sequence where one is requested of it, in either coding.
     std::vector<DicomSyntax> codings{is_sequence ? syntax : DicomSyntax{.is_explicit = false}};
-    if (!is_sequence && depth == 0) codings.push_back({.is_explicit = true});
+    if (is_sequence)  // private ones of old scanners are in the other order
+        codings.push_back({.is_explicit = syntax.is_explicit, .big_endian = !syntax.big_endian});
+    else if (depth == 0)
+        codings.push_back({.is_explicit = true});
     const std::uint64_t before = items_in_values_;
     for (const DicomSyntax& coding : codings) {
         try {
@@ -150,6 +153,9 @@ std::size_t DicomWalker::after(const Element& element, const DicomSyntax& syntax
         }
         items_in_values_ = before;
     }
+    // GDCM reads it with the file, makes room for any length in it, and ends the program where it does not
+    // end.
+    if (is_sequence && begins_with_item(element)) throw DamagedDicom();
     items_in_values_ += items_between(element.value, end);
     require_few_hidden(element, items_in_values_ - before);
     return end;

@@ -74,6 +74,23 @@ TEST(DicomScan, ReadsSequencesWithAndWithoutLengths) {
         EXPECT_EQ(scan(with_elements(sequence))->rows, 3) << "not what stands within";
 }
 
+TEST(DicomScan, RefusesDamageWithinASequenceThatStatesItsLength) {
+    const auto refusal_around = [](const std::string& content) {
+        return refusal(with_elements(dicom_element(0x0040, 0xa730, "SQ", content)));
+    };
+    EXPECT_EQ(refusal_around(dicom_item(dicom_number(0x0028, 0x0010, 77))), "accepted");
+    const std::string swapped_item("\xff\xfe\xe0\0\0\0\0\x0a\0\x28\0\x10US\0\x02\0\x07", 18);
+    EXPECT_EQ(refusal_around(swapped_item), "accepted");
+    const std::string endless = dicom_element(0x0040, 0xa123, "OB", "", 0x7fffffff);
+    for (const std::string& damaged :
+         {dicom_item(endless), dicom_item(dicom_element(0x0040, 0xa730, "SQ", dicom_item(endless))),
+          dicom_open_item + dicom_number(0x0028, 0x0010, 77),
+          dicom_item("") + dicom_sequence_end + "spoiled ", dicom_item("") + "spoiled ",
+          dicom_tag(0xfffe, 0xe000) + little(0x7fffffff, 4),
+          swapped_item + std::string("\xff\xfe\xe0\0\x7f\xff\xff\xff", 8)})
+        EXPECT_THAT(refusal_around(damaged), HasSubstr("cut off or damaged"));
+}
+
 TEST(DicomScan, RefusesDeepNestingWhereverItHides) {
     EXPECT_THAT(refusal(with_elements(nested_sequences(17))), HasSubstr("more than 16 sequences"));
     EXPECT_THAT(refusal(with_elements(nested_sequences(200'000))), HasSubstr("more than 16 sequences"));
