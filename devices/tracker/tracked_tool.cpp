@@ -38,9 +38,8 @@ const char* TrackedTool::notice() const noexcept {
             return "the tracker's clock runs faster than this machine's, or has jumped: the tool is not "
                    "followed";
         case SampledMotion::ClockFault::behind:
-            return "the tracker's samples come later and later, or its clock runs slower than this "
-                   "machine's: the "
-                   "tool is not followed";
+            return "the tracker's samples come later and later, or its clock runs slower than "
+                   "this machine's: the tool is not followed";
     }
     return "";
 }

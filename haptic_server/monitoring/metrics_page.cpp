@@ -67,9 +67,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
         if (const std::optional<std::string> stranger = strange_host()) {
             answer_.result(http::status::misdirected_request);
             answer_.body() = fmt::format(
-                "this page is not of '{}': ask for it by localhost or by an address, or start haptic_server "
-                "with "
-                "--metrics-host NAME\n",
+                "this page is not of '{}': ask for it by localhost or by an address, or start "
+                "haptic_server with --metrics-host NAME\n",
                 printable(*stranger));
         } else if (target.substr(0, target.find('?')) != path) {
             answer_.result(http::status::not_found);
