@@ -25,29 +25,30 @@ constexpr std::array panel_keys{
     std::pair{GLFW_KEY_A, ImGuiKey_A}, std::pair{GLFW_KEY_C, ImGuiKey_C}, std::pair{GLFW_KEY_V, ImGuiKey_V},
     std::pair{GLFW_KEY_X, ImGuiKey_X}, std::pair{GLFW_KEY_Y, ImGuiKey_Y}, std::pair{GLFW_KEY_Z, ImGuiKey_Z}};
 
-bool is_down(const WindowInput& input, int key) {
-    return input.keys_down[static_cast<std::size_t>(key)] ||
-           std::find(input.presses.begin(), input.presses.end(), key) != input.presses.end();
-}
-
 #if IMGUI_VERSION_NUM >= 18700
 
-void feed_keys(const WindowInput& input, ImGuiIO& io) {
+void feed_modifiers(const WindowInput& input, ImGuiIO& io) {
     io.AddKeyEvent(ImGuiMod_Shift, input.shift);
     io.AddKeyEvent(ImGuiMod_Ctrl, input.ctrl);
     io.AddKeyEvent(ImGuiMod_Alt, input.alt);
-    for (const auto& [key, in_imgui] : panel_keys) io.AddKeyEvent(in_imgui, is_down(input, key));
+}
+
+void feed_key(ImGuiKey key, bool is_down, ImGuiIO& io) {
+    io.AddKeyEvent(key, is_down);
 }
 
 #else
 
-void feed_keys(const WindowInput& input, ImGuiIO& io) {
+void feed_modifiers(const WindowInput& input, ImGuiIO& io) {
     io.KeyShift = input.shift;
     io.KeyCtrl = input.ctrl;
     io.KeyAlt = input.alt;
-    for (const auto& [key, in_imgui] : panel_keys) io.KeysDown[in_imgui] = is_down(input, key);
+}
+
+void feed_key(ImGuiKey_ key, bool is_down, ImGuiIO& io) {
+    io.KeysDown[key] = is_down;
     // It presses what has the focus by SPACE alone.
-    if (io.KeysDown[ImGuiKey_Enter] && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1.0f;
+    if (key == ImGuiKey_Enter && is_down && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1.0f;
 }
 
 #endif
@@ -70,12 +71,23 @@ void give_clipboard(Clipboard& clipboard, ImGuiIO& io) {
     io.GetClipboardTextFn = [](void* from) { return static_cast<Clipboard*>(from)->paste().c_str(); };
 }
 
-void feed_panel_input(const WindowInput& input, ImGuiIO& io) {
+bool PanelInput::Switch::next(int presses, bool is_held) {
+    waiting += presses;
+    const bool was_down = std::exchange(is_down, waiting > 0 || is_held);
+    if (waiting == 0) return is_down;
+    if (was_down)
+        is_down = false;  // the release before the next press
+    else
+        --waiting;
+    return is_down;
+}
+
+void PanelInput::feed(const WindowInput& input, ImGuiIO& io) {
     constexpr float nowhere = -std::numeric_limits<float>::max();
     const glm::vec2 at(input.cursor * input.px_per_unit());
     io.MousePos = input.has_cursor ? ImVec2(at.x, at.y) : ImVec2(nowhere, nowhere);
     const auto is_held = [&](WindowInput::Button button) {
-        return input.is_down[button] || input.went_down[button];
+        return buttons_[button].next(input.went_down[button] ? 1 : 0, input.is_down[button]);
     };
     io.MouseDown[ImGuiMouseButton_Left] = is_held(WindowInput::left);
     io.MouseDown[ImGuiMouseButton_Right] = is_held(WindowInput::right);
@@ -83,7 +95,12 @@ void feed_panel_input(const WindowInput& input, ImGuiIO& io) {
     io.MouseWheel += static_cast<float>(input.wheel.y);
     io.MouseWheelH += static_cast<float>(input.wheel.x);
     for (const char32_t character : input.typed) io.AddInputCharacter(character);
-    feed_keys(input, io);
+    feed_modifiers(input, io);
+    for (const auto& [key, in_imgui] : panel_keys) {
+        const auto presses = std::count(input.presses.begin(), input.presses.end(), key);
+        const auto number = static_cast<std::size_t>(key);
+        feed_key(in_imgui, keys_[number].next(static_cast<int>(presses), input.keys_down[number]), io);
+    }
 }
 
 }  // namespace osteomill

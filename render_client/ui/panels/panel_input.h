@@ -5,6 +5,8 @@
 
 #include <imgui.h>
 
+#include <array>
+
 #include "render_client/ui/input/clipboard.h"
 #include "render_client/ui/input/window_input.h"
 
@@ -17,7 +19,23 @@ void prepare_panel_input(ImGuiIO& io);
 /// ImGui keeps them to itself.
 void give_clipboard(Clipboard& clipboard, ImGuiIO& io);
 
-/// Mouse and keys for the next frame. A press that is shorter than a frame lasts for one.
-void feed_panel_input(const WindowInput& input, ImGuiIO& io);
+/// Mouse and keys, frame after frame. A press that is shorter than a frame lasts for one; presses that follow
+/// one another within a frame, or frame upon frame, each come with a release before them, so that none is
+/// lost.
+class PanelInput {
+  public:
+    void feed(const WindowInput& input, ImGuiIO& io);
+
+  private:
+    struct Switch {
+        bool is_down = false;
+        int waiting = 0;
+        /// Whether it is down in the next frame: `presses` came since the last one, `is_held` now.
+        bool next(int presses, bool is_held);
+    };
+
+    std::array<Switch, WindowInput::most_keys> keys_{};
+    std::array<Switch, WindowInput::buttons> buttons_{};
+};
 
 }  // namespace osteomill

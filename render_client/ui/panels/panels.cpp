@@ -132,7 +132,7 @@ void Panels::use(Clipboard& clipboard) {
 }
 
 void Panels::feed(const WindowInput& input) {
-    feed_panel_input(input, ImGui::GetIO());
+    input_.feed(input, ImGui::GetIO());
 }
 
 void Panels::begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s, ThemeName theme,

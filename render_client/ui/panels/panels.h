@@ -11,6 +11,7 @@
 
 #include "render_client/ui/input/clipboard.h"
 #include "render_client/ui/input/window_input.h"
+#include "render_client/ui/panels/panel_input.h"
 #include "render_client/ui/panels/theme.h"
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/pixel_box.h"
@@ -48,6 +49,7 @@ class Panels {
     void set_style(ThemeName theme, float scale);
     void load_letters(float scale);
 
+    PanelInput input_;
     ThemeName theme_ = ThemeName::dark;
     float scale_ = 0.0f;  // none yet
     float wheel_notches_ = 0.0f;

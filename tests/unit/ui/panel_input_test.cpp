@@ -11,9 +11,9 @@ namespace osteomill::panel_input_test {
 namespace {
 
 /// A page of one text and one button, without anything to draw on.
-class PanelInput : public ::testing::Test {
+class PanelInputTest : public ::testing::Test {
   protected:
-    PanelInput() {
+    PanelInputTest() {
         ImGui::CreateContext();
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
@@ -25,10 +25,10 @@ class PanelInput : public ::testing::Test {
         input_.framebuffer_size_px = {400, 300};
         for (int i = 0; i < 3; ++i) draw();
     }
-    ~PanelInput() override { ImGui::DestroyContext(); }
+    ~PanelInputTest() override { ImGui::DestroyContext(); }
 
     void draw() {
-        feed_panel_input(input_, ImGui::GetIO());
+        panel_input_.feed(input_, ImGui::GetIO());
         input_.forget_events();
         ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
         ImGui::NewFrame();
@@ -58,17 +58,39 @@ class PanelInput : public ::testing::Test {
     std::string text() const { return text_.data(); }
 
     WindowInput input_;
+    PanelInput panel_input_;
     std::array<char, 32> text_{};
     ImVec2 text_at_{}, button_at_{};
     int presses_ = 0;
 };
 
-TEST_F(PanelInput, ClickShorterThanAFramePresses) {
+TEST_F(PanelInputTest, ClickShorterThanAFramePresses) {
     click(button_at_);
     EXPECT_EQ(presses_, 1);
 }
 
-TEST_F(PanelInput, KeysEditATextThatWasClicked) {
+TEST_F(PanelInputTest, ClickInEveryFrameIsAClickEach) {
+    click(button_at_);
+    for (int i = 0; i < 3; ++i) {
+        input_.went_down[WindowInput::left] = true;
+        draw();
+    }
+    for (int i = 0; i < 6; ++i) draw();
+    EXPECT_EQ(presses_, 4);
+}
+
+TEST_F(PanelInputTest, KeysOfOneSlowFrameAreAllPressed) {
+    click(text_at_);
+    input_.typed = {U'a', U'b', U'c'};
+    draw();
+    input_.presses = {GLFW_KEY_BACKSPACE, GLFW_KEY_BACKSPACE};
+    draw();
+    input_.presses = {GLFW_KEY_BACKSPACE};
+    for (int i = 0; i < 6; ++i) draw();
+    EXPECT_EQ(text(), "");
+}
+
+TEST_F(PanelInputTest, KeysEditATextThatWasClicked) {
     click(text_at_);
     input_.typed = {U'a', U'\u00fc', U'c'};
     draw();
@@ -80,7 +102,7 @@ TEST_F(PanelInput, KeysEditATextThatWasClicked) {
     EXPECT_EQ(text(), "\u00fc");
 }
 
-TEST_F(PanelInput, CtrlWithALetterIsACommandOfTheText) {
+TEST_F(PanelInputTest, CtrlWithALetterIsACommandOfTheText) {
     click(text_at_);
     input_.typed = {U'a', U'b'};
     draw();
@@ -91,7 +113,7 @@ TEST_F(PanelInput, CtrlWithALetterIsACommandOfTheText) {
     EXPECT_EQ(text(), "");
 }
 
-TEST_F(PanelInput, CtrlWithCXAndVGoesByWayOfTheClipboard) {
+TEST_F(PanelInputTest, CtrlWithCXAndVGoesByWayOfTheClipboard) {
     std::string desktop = "theirs";
     Clipboard clipboard([&] {
         clipboard.serve([&](const std::string& copied) { desktop = copied; }, [&] { return desktop; });
@@ -117,7 +139,7 @@ TEST_F(PanelInput, CtrlWithCXAndVGoesByWayOfTheClipboard) {
     EXPECT_EQ(text(), "");
 }
 
-TEST_F(PanelInput, EnterAndSpacePressWhatHasTheFocus) {
+TEST_F(PanelInputTest, EnterAndSpacePressWhatHasTheFocus) {
     click(button_at_);  // which gets the focus
     input_.cursor = {300.0, 250.0};
     strike(GLFW_KEY_DOWN);  // shows the focus
@@ -128,7 +150,7 @@ TEST_F(PanelInput, EnterAndSpacePressWhatHasTheFocus) {
     EXPECT_EQ(presses_, before + 2);
 }
 
-TEST_F(PanelInput, CursorOutsideOfTheWindowIsNowhere) {
+TEST_F(PanelInputTest, CursorOutsideOfTheWindowIsNowhere) {
     click(button_at_);
     input_.has_cursor = false;
     draw();

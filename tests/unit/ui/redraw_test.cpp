@@ -34,6 +34,17 @@ TEST(Redraw, DrawsWhileThingsChangeAndALittleLonger) {
     EXPECT_LE(settling, 16);
 }
 
+TEST(Redraw, DrawsTheEffectOfAnInputHoweverLongAFrameTakes) {
+    Redraw redraw;
+    redraw.note_change(start);
+    int frames = 0;
+    for (Redraw::Time now = start; redraw.is_due(now); now += milliseconds(600)) {
+        redraw.drew(now, milliseconds(600));
+        ++frames;
+    }
+    EXPECT_EQ(frames, Redraw::settling_frames);
+}
+
 TEST(Redraw, DrawsNothingWhereNothingChanges) {
     Redraw redraw;
     EXPECT_EQ(frames_in_a_second(redraw, start, [](Redraw::Time) {}), 0);
