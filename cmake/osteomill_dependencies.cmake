@@ -1,5 +1,5 @@
 # All dependencies come from Debian's packages; test.sh and demo.sh install them. The versions are those of Debian 12: older ones were
-# never tried, and are refused here, by name (docs/packages.md has the newest that were tried).
+# never tried, and are refused here, by name (docs/dependencies.md has the newest that were tried).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
     message(FATAL_ERROR "GCC ${CMAKE_CXX_COMPILER_VERSION} is too old: 12 or later is needed")
 elseif(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
