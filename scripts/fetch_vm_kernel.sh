@@ -14,8 +14,14 @@ trap 'rm -rf "$scratch"' EXIT
 (cd "$scratch" && apt-get download -q "$package" >download.log 2>&1) || { cat "$scratch/download.log" >&2; exit 1; }
 dpkg-deb -x "$scratch"/*.deb "$scratch/unpacked"
 mkdir -p "$folder/modules"
+# Below lib/modules in Debian 12, below usr/lib/modules and compressed in 13.
 for module in hid uhid hid-generic; do
-    find "$scratch/unpacked/lib/modules" -name "$module.ko" -exec cp {} "$folder/modules/" \;
+    found=$(find "$scratch/unpacked" -path "*/lib/modules/*/$module.ko*" -print -quit)
+    case $found in
+        *.ko) cp "$found" "$folder/modules/" ;;
+        *.ko.xz) xz --decompress --stdout "$found" >"$folder/modules/$module.ko" ;;
+        *) echo "$package has no module $module, as .ko or .ko.xz" >&2; exit 1 ;;
+    esac
 done
 cp "$scratch"/unpacked/boot/vmlinuz-* "$folder/vmlinuz.part"
 mv "$folder/vmlinuz.part" "$folder/vmlinuz"
