@@ -64,7 +64,7 @@ TEST_F(StudyProgram, RunsTheReferenceCasesWithinTheirBars) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const auto& report = reports[i];
         const std::string name = report.at("name");
-        EXPECT_EQ(name, cases[i].at("name"));
+        EXPECT_EQ(name, cases[i].at("name").get<std::string>());
         EXPECT_EQ(report.at("file").at("mean_force_N"), cases[i].at("mean_force_N"));
         // The bars of an upright 5 mm burr deeper than three voxels, and of any other motion.
         const bool easy = cases[i].at("radius_mm") == 2.5 && cases[i].at("depth_mm") > 0.3 &&
