@@ -40,7 +40,8 @@ class BuildWithCMake(build_ext):
 SCRATCH.mkdir(parents=True, exist_ok=True)
 setup(
     version=re.search(r"project\(osteomill VERSION ([\d.]+)", (REPOSITORY / "CMakeLists.txt").read_text())[1],
-    ext_modules=[Extension("osteomill._core", sources=[]), Extension("osteomill._render", sources=[])],
+    ext_modules=[Extension("osteomill._core", sources=[]), Extension("osteomill._render", sources=[]),
+                 Extension("osteomill._studies", sources=[])],
     cmdclass={"build_ext": BuildWithCMake},
     options={"build": {"build_base": str(SCRATCH)}, "egg_info": {"egg_base": str(SCRATCH)}},
 )

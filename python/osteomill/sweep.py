@@ -1,14 +1,19 @@
 """A sweep of independent cases: over the processors of one machine, or in parts over many."""
 
 import concurrent.futures
-import fcntl
-import hashlib
 import json
+import multiprocessing
+import multiprocessing.connection
 import os
 import pathlib
+import signal
 import sys
+import threading
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures.process import BrokenProcessPool
 from typing import Any
+
+from osteomill.part_files import Header, JoinedParts, Part, PartWriter, fingerprint_of, part_named
 
 
 def sweep(
@@ -38,27 +43,74 @@ def sweep(
     the function raises.
     """
     cases = list(cases)
-    keys = [json.dumps(case, sort_keys=True, default=_plain) for case in cases]
-    if len(set(keys)) != len(keys):
-        raise ValueError("a case is there twice: " + next(k for i, k in enumerate(keys) if k in keys[:i]))
+    keys = keys_of(cases)
     name = f"{function.__module__}.{function.__qualname__}"
-    header: dict[str, Any] = {"sweep": name, "cases": hashlib.sha256("\n".join(keys).encode()).hexdigest()}
+    header: Header = {"sweep": name, "cases": fingerprint_of(keys)}
     merge = merge or os.environ.get("OSTEOMILL_MERGE")
     if merge:
-        return _merged(pathlib.Path(merge), header, keys)
+        return _joined(pathlib.Path(merge), header, keys)
     shard = shard or os.environ.get("OSTEOMILL_SHARD")
     if not shard:
         outcomes: list[Any] = [None] * len(cases)
-        for index, outcome in _run(function, cases, range(len(cases)), jobs):
+        for index, outcome in run_cases(function, cases, range(len(cases)), jobs):
             outcomes[index] = outcome
         return outcomes
-    number, of = _part(shard)
+    part = part_named(shard)
     folder = pathlib.Path(out or os.environ.get("OSTEOMILL_OUT") or "out/parts")
-    file = folder / f"sweep-{number}-of-{of}.jsonl"
+    file = folder / f"sweep-{part.number}-of-{part.of}.jsonl"
     folder.mkdir(parents=True, exist_ok=True)
-    _run_part(function, cases, keys, (number, of), jobs, file, header | {"shard": number, "of": of})
-    print(f"part {number} of {of} is in {file}; OSTEOMILL_MERGE={folder} joins the parts")
+    with PartWriter(file, header | {"shard": part.number, "of": part.of}) as writer:
+        to_do = [index for index in part.cases(keys) if index not in writer.done]
+        for index, outcome in run_cases(function, cases, to_do, jobs):
+            writer.append(index, outcome)
+    print(f"part {part.number} of {part.of} is in {file}; OSTEOMILL_MERGE={folder} joins the parts")
     sys.exit(0)
+
+
+def keys_of(cases: list[Any]) -> list[str]:
+    """Texts that tell the cases from each other. ValueError for a case that is there twice."""
+    keys = [json.dumps(case, sort_keys=True, default=_plain) for case in cases]
+    if len(set(keys)) != len(keys):
+        raise ValueError("a case is there twice: " + next(k for i, k in enumerate(keys) if k in keys[:i]))
+    return keys
+
+
+def run_cases(
+    function: Callable[[Any], Any], cases: list[Any], indices: Iterable[int], jobs: int | None
+) -> Iterator[tuple[int, Any]]:
+    """Pairs of index and outcome, as they are done, begun in the order of `indices`, by `jobs` processes.
+
+    What the function raises ends the rest. ChildProcessError where a process ends by itself.
+    """
+    others = multiprocessing.active_children()
+    with concurrent.futures.ProcessPoolExecutor(jobs or processors(), initializer=_begin_worker) as pool:
+        futures = {pool.submit(_outcome, function, cases[index]): index for index in indices}
+        workers = [child for child in multiprocessing.active_children() if child not in others]
+        try:
+            for future in concurrent.futures.as_completed(futures):
+                yield futures[future], json.loads(future.result())
+        except BrokenProcessPool:
+            raise ChildProcessError("a process ended while it worked on a case: it was killed, or memory is short") from None
+        except (KeyboardInterrupt, GeneratorExit):
+            for worker in workers:
+                worker.terminate()
+            raise
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def processors() -> int:
+    """That this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+def outcome_by_json(function: Callable[[Any], Any], case: Any) -> Any:
+    """As a sweep in several processes gives it."""
+    return json.loads(_outcome(function, case))
+
+
+def _outcome(function: Callable[[Any], Any], case: Any) -> str:
+    return json.dumps(function(case), default=_plain)
 
 
 def _plain(value: Any) -> Any:
@@ -68,103 +120,27 @@ def _plain(value: Any) -> Any:
     raise TypeError(f"{type(value).__name__} is nothing that JSON can say")
 
 
-def _part(text: str) -> tuple[int, int]:
-    number, slash, of = text.partition("/")
-    if not (slash and number.isdecimal() and of.isdecimal() and 1 <= int(number) <= int(of)):
-        raise ValueError(f"'{text}' is no part I/N with 1 <= I <= N, such as 2/8")
-    return int(number), int(of)
+def _begin_worker() -> None:
+    """A worker ends without words when it is interrupted, and when its parent is gone."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
 
 
-def _cases_of(part: tuple[int, int], keys: list[str]) -> list[int]:
-    """Indices of a part's cases, drawn as by lot, always the same: each part has its share of what takes long."""
-    number, of = part
-    lots = [hashlib.sha256(key.encode()).digest() for key in keys]
-    return sorted(range(len(keys)), key=lots.__getitem__)[number - 1 :: of]
+def _end_with(parent: int) -> None:
+    multiprocessing.connection.wait([parent])
+    os._exit(1)
 
 
-def _outcome(function: Callable[[Any], Any], case: Any) -> str:
-    return json.dumps(function(case), default=_plain)
-
-
-def _run(
-    function: Callable[[Any], Any], cases: list[Any], indices: Iterable[int], jobs: int | None
-) -> Iterator[tuple[int, Any]]:
-    """Pairs of index and outcome, as they are done."""
-    with concurrent.futures.ProcessPoolExecutor(jobs or len(os.sched_getaffinity(0))) as pool:
-        futures = {pool.submit(_outcome, function, cases[index]): index for index in indices}
-        try:
-            for future in concurrent.futures.as_completed(futures):
-                yield futures[future], json.loads(future.result())
-        finally:
-            pool.shutdown(cancel_futures=True)
-
-
-def _run_part(
-    function: Callable[[Any], Any],
-    cases: list[Any],
-    keys: list[str],
-    part: tuple[int, int],
-    jobs: int | None,
-    file: pathlib.Path,
-    header: dict[str, Any],
-) -> None:
-    with open(file, "a+", encoding="utf-8") as lines:
-        try:
-            fcntl.flock(lines, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise ValueError(f"{file}: another process is writing it") from None
-        whole = _whole_lines(file)
-        lines.truncate(len(whole.encode()))  # what a kill tore off
-        if whole:
-            done = _read(file, header)
-        else:
-            done = dict[int, Any]()
-            print(json.dumps(header), file=lines, flush=True)
-        to_do = [index for index in _cases_of(part, keys) if index not in done]
-        for index, outcome in _run(function, cases, to_do, jobs):
-            print(json.dumps({"case": index, "outcome": outcome}), file=lines, flush=True)
-
-
-def _whole_lines(file: pathlib.Path) -> str:
-    text = file.read_text(encoding="utf-8")
-    return text[: text.rfind("\n") + 1]
-
-
-def _read(file: pathlib.Path, header: dict[str, Any]) -> dict[int, Any]:
-    """Outcomes by index; `header`: of this sweep, as far as all parts have it, or with the part."""
-    try:
-        first, *lines = [json.loads(line) for line in _whole_lines(file).splitlines()]
-        its = {key: first[key] for key in header}
-    except (ValueError, KeyError, RecursionError):
-        raise ValueError(f"{file}: is no part of a sweep") from None
-    if its != header:
-        raise ValueError(f"{file}: holds cases of another sweep: give another folder or remove it")
-    return {line["case"]: line["outcome"] for line in lines}
-
-
-def _merged(folder: pathlib.Path, header: dict[str, Any], keys: list[str]) -> list[Any]:
+def _joined(folder: pathlib.Path, header: Header, keys: list[str]) -> list[Any]:
     files = sorted(folder.glob("**/sweep-*-of-*.jsonl"))
     if not files:
         raise ValueError(f"{folder}: holds no sweep-*-of-*.jsonl")
-    parts = dict[tuple[int, int], pathlib.Path]()
-    outcomes: list[Any] = [None] * len(keys)
-    for file in files:
-        done = _read(file, header)
-        first = json.loads(_whole_lines(file).splitlines()[0])
-        part = first["shard"], first["of"]
-        if part in parts:
-            raise ValueError(f"part {part[0]} is there twice: in {parts[part]} and in {file}")
-        parts[part] = file
-        if len({of for _, of in parts}) > 1:
-            raise ValueError(f"{file}: is one of {part[1]} parts, others are of another number")
-        its = _cases_of(part, keys)
-        for index in its:
-            if index not in done:
-                raise ValueError(f"{file}: has done {len(done)} of its {len(its)} cases: run part "
-                                 f"{part[0]}/{part[1]} again, which goes on there")
-            outcomes[index] = done[index]
-    of = next(iter(parts))[1]
-    missing = [str(number) for number in range(1, of + 1) if (number, of) not in parts]
-    if missing:
-        raise ValueError(f"missing of {of} parts: {', '.join(missing)}")
-    return outcomes
+    joined = JoinedParts(files)
+    if joined.header != header:
+        raise ValueError(f"{files[0]}: holds cases of another sweep: give another folder or remove it")
+    return joined.outcomes(keys)
+
+
+__all__ = ["Part", "keys_of", "outcome_by_json", "processors", "run_cases", "sweep"]

@@ -1,0 +1,205 @@
+"""The program osteomill_study: parses, runs a study, says in one line what is wrong."""
+
+import argparse
+import importlib
+import os
+import pathlib
+import signal
+import sys
+from collections.abc import Sequence
+from typing import Any, NoReturn
+
+from osteomill import _studies
+from osteomill.part_files import JoinedParts, part_named
+from osteomill.studies import manifest
+from osteomill.studies.kept_command import joined_parts, program_fingerprint, require_study_words, words_of_study
+from osteomill.studies.options import Parser, UsageError, add_common, name_of, require_plain
+from osteomill.studies.study_run import PartIsDone, StudyRun
+from osteomill.studies.text import line_of, printable
+
+PROGRAM = "osteomill_study"
+KERNELS = "osteomill_study_kernels"  # the studies that are in C++ still
+IN_KERNELS = "C++"
+
+# Name, module of osteomill.studies, what it is.
+STUDIES = (
+    ("force", IN_KERNELS, "the milling force: voxel model against analytical reference"),
+    ("stability", IN_KERNELS, "the stability map: which coupling holds where, and how true it is there"),
+    ("polishing", IN_KERNELS, "the published polishing experiment: its figures"),
+    ("render", IN_KERNELS, "the pictures: frame time against accuracy, how smooth a cut looks"),
+    ("realtime", IN_KERNELS, "how late the haptic loop wakes and how long it takes, in turns with cyclictest; then under stress-ng"),
+    ("bridge", IN_KERNELS, "the way to an arm behind the bridge and back, beside a bare echo of the same size"),
+    ("calibrate", IN_KERNELS, "the six coefficients of the milling law from forces on a dynamometer; or which runs to make"),
+    ("sessions", IN_KERNELS, "recorded sessions of several trainees: tables, learning curves, an overview, a tidy CSV"),
+    ("repeat", IN_KERNELS, "run a study again, twice, and say what differs from its folder by more than its noise"),
+)
+
+EXIT_FAILURE, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 128 + signal.SIGINT
+
+
+def main(argv: Sequence[str]) -> int:
+    """Runs the study that the arguments behind the program's name say; the exit status."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+    try:
+        return _run(list(argv))
+    except UsageError as error:
+        return _fail(f"{line_of(error)} (see --help)", EXIT_USAGE)
+    except KeyboardInterrupt:
+        return _fail("interrupted; the same command goes on with the cases that are done", EXIT_INTERRUPTED)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # whoever read has gone: there is nobody to tell
+        return EXIT_FAILURE
+    except ModuleNotFoundError as error:
+        package = (error.name or "").partition(".")[0]
+        return _fail(f"needs {package} of Python, which is not installed (package python3-{package})", EXIT_FAILURE)
+    except (ValueError, RuntimeError, OSError) as error:
+        return _fail(line_of(error), EXIT_FAILURE)
+    except RecursionError:
+        return _fail("something lies too deep in itself", EXIT_FAILURE)
+    except MemoryError:
+        return _fail("memory is short", EXIT_FAILURE)
+    except Exception as error:
+        if sys.flags.dev_mode:  # python3 -X dev
+            raise
+        return _fail(f"a fault of this program: {type(error).__name__}: {line_of(error)}", EXIT_FAILURE)
+
+
+def _run(words: list[str]) -> int:
+    require_plain(words)
+    overview = Parser(prog=PROGRAM, usage=f"{PROGRAM} [OPTIONS] STUDY ...", epilog=_list_of_studies(),
+                      description="Studies of the simulator: numbers and charts.",
+                      formatter_class=argparse.RawDescriptionHelpFormatter)
+    overview.add_argument("--version", action="version", version=_studies.VERSION)
+    names = [name for name, _, _ in STUDIES]
+    if not words:
+        raise UsageError(f"a study to run: {', '.join(names[:-1])} or {names[-1]} is required")
+    if words[0] not in names:
+        if words[0].startswith("-"):
+            return _parse_alone(overview, words)
+        raise UsageError(f"The following argument was not expected: {printable(words[0])}; it must be a study: "
+                         f"{', '.join(names[:-1])} or {names[-1]}")
+    module = next(module for name, module, _ in STUDIES if name == words[0])
+    if module == IN_KERNELS:
+        _hand_to_kernels(words)
+    return _run_study(words, importlib.import_module(f"osteomill.studies.{module}"))
+
+
+def _parse_alone(parser: Parser, words: list[str]) -> int:
+    """What ends by itself: --help and --version."""
+    try:
+        parser.parse(words)
+    except SystemExit as end:
+        return int(end.code or 0)
+    raise UsageError("a study to run is required")
+
+
+def _list_of_studies() -> str:
+    return "studies:\n" + "\n".join(f"  {name:<12}{what}" for name, _, what in STUDIES)
+
+
+def _hand_to_kernels(words: list[str]) -> NoReturn:
+    beside = pathlib.Path(sys.argv[0]).resolve().with_name(KERNELS)
+    if not beside.exists():
+        raise RuntimeError(f"{beside}: is not there, the program that has the study '{words[0]}'")
+    os.execv(beside, [PROGRAM, *words])
+
+
+def parser_of(name: str, module: Any) -> Parser:
+    """Of a study's options."""
+    what = next(what for study, _, what in STUDIES if study == name)
+    parser = Parser(prog=f"{PROGRAM} {name}", description=what)
+    module.add_options(parser)
+    add_common(parser, name, getattr(module, "JOBS", None))
+    return parser
+
+
+def _run_study(words: list[str], module: Any) -> int:
+    parser = parser_of(words[0], module)
+    command, joined, words = _with_parts(words, parser)
+    try:
+        options = parser.parse(words[1:])
+    except SystemExit as end:
+        return int(end.code or 0)
+    if options.shard and options.merge:
+        raise UsageError("--merge excludes --shard")
+    _require_distinct_files(parser, options, module)
+    run = StudyRun(
+        options.out,
+        command,
+        program_fingerprint(),
+        jobs=getattr(module, "JOBS", 1) if getattr(module, "ONE_BY_ONE", False) else options.jobs,
+        part=part_named(options.shard or "1/1"),
+        joined=joined,
+    )
+    try:
+        module.run(options, run)
+    except PartIsDone:
+        return 0
+    run.json(manifest.NAME.removesuffix(".json"), manifest.manifest_of(command, parser, options))
+    run.forget_outcomes()
+    return 0
+
+
+def _with_parts(words: list[str], parser: Parser) -> tuple[list[str], JoinedParts | None, list[str]]:
+    """The command that is run, the parts of --merge, and the words to parse, which the parts say then."""
+    places = _values_of("--merge", words)
+    if not places:
+        return words_of_study(words), None, words
+    given = [word.partition("=")[0] for word in words if word.startswith("-")]
+    for name in given:
+        if name not in ("--merge", "--out"):
+            raise UsageError(f"with --merge the parts say what was run: leave {printable(name)} out")
+    joined = joined_parts(places)
+    study = joined.header.get("study")
+    name = study[0] if isinstance(study, list) and study else ""
+    if words_of_study(_without_values("--merge", words)) != [name]:
+        raise UsageError(f"the parts are of the study '{printable(str(name))}'")
+    command = require_study_words(study, words[0], parser, pathlib.Path("the parts of --merge"))
+    return command, joined, command + words[1:]
+
+
+def _values_of(option: str, words: list[str]) -> list[str]:
+    values: list[str] = []
+    is_its = False
+    for word in words:
+        if word.startswith("--"):
+            name, equals, value = word.partition("=")
+            is_its = name == option
+            values += [value] if is_its and equals else []
+        elif is_its:
+            values.append(word)
+    return values
+
+
+def _without_values(option: str, words: list[str]) -> list[str]:
+    rest: list[str] = []
+    is_its = False
+    for word in words:
+        if word.startswith("--"):
+            is_its = word.partition("=")[0] == option
+        if not is_its:
+            rest.append(word)
+    return rest
+
+
+def _require_distinct_files(parser: Parser, options: argparse.Namespace, module: Any) -> None:
+    """No file that an option names is one of those that the study writes."""
+    read = []
+    for action in parser.described:
+        value = getattr(options, action.dest)
+        for one in value if isinstance(value, list) else [value]:
+            if action.dest != "out" and isinstance(one, (str, pathlib.Path)) and os.path.isfile(one):
+                read.append((name_of(action), pathlib.Path(one)))
+    names = [*getattr(module, "WRITES", ("*.csv", "*.json", "*.svg")), "cases-*.jsonl", manifest.NAME]
+    try:
+        _studies.require_distinct_files(read, options.out, names)
+    except RuntimeError as error:
+        raise UsageError(str(error)) from None
+
+
+def _fail(line: str, status: int) -> int:
+    print(f"{PROGRAM}: {line}", file=sys.stderr, flush=True)
+    return status

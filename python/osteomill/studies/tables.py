@@ -1,0 +1,45 @@
+"""Tables and JSON of what a study found, as text."""
+
+import json
+import math
+from typing import TYPE_CHECKING, Any
+
+from osteomill.studies.text import csv_cell
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def csv_of(frame: "pd.DataFrame") -> str:
+    """A header and a line a row: numbers with six digits, truths as 1 and 0, nothing where there is no value."""
+    columns = [frame[name].tolist() for name in frame.columns]
+    lines = [",".join(csv_cell(str(name)) for name in frame.columns)]
+    lines += [",".join(cell_of(value) for value in row) for row in zip(*columns)]
+    return "\n".join(lines) + "\n"
+
+
+def cell_of(value: Any) -> str:
+    if hasattr(value, "item"):
+        value = value.item()
+    if value is None or value != value or type(value).__name__ in ("NAType", "NaTType"):
+        return ""
+    if isinstance(value, bool):
+        return "1" if value else "0"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return str(value) if isinstance(value, int) else csv_cell(str(value))
+
+
+def json_of(data: Any) -> str:
+    """With a line a value; numbers that are not finite are null."""
+    return json.dumps(_finite(data), indent=1, ensure_ascii=False) + "\n"
+
+
+def _finite(data: Any) -> Any:
+    if hasattr(data, "tolist"):
+        data = data.tolist()
+    if isinstance(data, dict):
+        return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [_finite(value) for value in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data

@@ -1,0 +1,11 @@
+// Parts of the module _studies, each in its file.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace osteomill::python {
+
+void bind_texts(pybind11::module_& module);
+void bind_files(pybind11::module_& module);
+
+}  // namespace osteomill::python

@@ -1,0 +1,65 @@
+// Files, as all programs read and write them. Errors are RuntimeError in one printable line.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/files/atomic_file.h"
+#include "common/files/distinct_files.h"
+#include "common/files/input_file.h"
+#include "common/text/plain_text.h"
+#include "python/studies/bindings.h"
+
+namespace osteomill::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// Python takes no error whose text is not UTF-8, and a path may be none.
+template <typename Work>
+auto with_printable_error(Work&& work) {
+    try {
+        return work();
+    } catch (const std::exception& error) {
+        throw std::runtime_error(printable(error.what()));
+    }
+}
+
+py::bytes read_file(const std::filesystem::path& file) {
+    return with_printable_error([&] { return py::bytes(read_text(file, json_kind)); });
+}
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+    with_printable_error([&] { write_atomic_file(file, text, Link::replace); });
+}
+
+using Read = std::pair<std::string, std::filesystem::path>;
+
+void require_distinct_files(const std::vector<Read>& read, const std::filesystem::path& folder,
+                            const std::vector<std::string>& names) {
+    std::vector<NamedFile> files;
+    for (const auto& [option, path] : read) files.push_back({option, path, false});
+    for (const std::string& name : names)
+        files.push_back({.option = "--out", .path = folder, .names = name});
+    with_printable_error([&] { require_distinct(files); });
+}
+
+}  // namespace
+
+void bind_files(py::module_& module) {
+    module.def("read_file", &read_file, py::arg("file"), "All of a regular file of at most 256 MiB.");
+    module.def("write_file", &write_file, py::arg("file"), py::arg("text"),
+               "Replaces a file as a whole; of a link, the link.");
+    module.def("require_distinct_files", &require_distinct_files, py::arg("read"), py::arg("folder"),
+               py::arg("names"),
+               "Refuses where one of the files that options name is one that is written into the folder of "
+               "--out, under one of these names (fnmatch).");
+}
+
+}  // namespace osteomill::python

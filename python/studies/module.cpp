@@ -1,0 +1,16 @@
+// The module osteomill._studies: what the studies of the package compute in C++, and the checks of texts and
+// files that all programs share. Promised to nobody.
+#include "python/studies/bindings.h"
+
+#include <string>
+
+#include "common/program/commit.h"
+
+PYBIND11_MODULE(_studies, module) {
+    module.doc() = "Kernels of osteomill.studies; promised to nobody.";
+    module.attr("VERSION") = OSTEOMILL_VERSION;
+    module.attr("COMMIT") = std::string(osteomill::built_from_commit());
+    module.attr("COMPILER") = __VERSION__;
+    osteomill::python::bind_texts(module);
+    osteomill::python::bind_files(module);
+}
