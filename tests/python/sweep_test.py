@@ -15,7 +15,8 @@ import unittest
 
 import numpy as np
 
-from osteomill.sweep import _cases_of, sweep
+from osteomill.part_files import Part
+from osteomill.sweep import sweep
 
 CASES = [{"feed_mm_per_s": feed, "depth_mm": depth} for feed in (0.3, 1.0, 7.0) for depth in (0.1, 1.0)]
 
@@ -108,7 +109,7 @@ class SweepTest(unittest.TestCase):
 
     def test_parts_are_alike(self):
         keys = [str(i) for i in range(100)]
-        parts = [_cases_of((number, 3), keys) for number in (1, 2, 3)]
+        parts = [Part(number, 3).cases(keys) for number in (1, 2, 3)]
         self.assertEqual(sorted(sum(parts, [])), list(range(100)))
         self.assertEqual([len(part) for part in parts], [34, 33, 33])
 
