@@ -7,5 +7,6 @@ namespace osteomill::python {
 
 void bind_texts(pybind11::module_& module);
 void bind_files(pybind11::module_& module);
+void bind_sessions(pybind11::module_& module);
 
 }  // namespace osteomill::python

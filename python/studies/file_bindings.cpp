@@ -4,7 +4,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,24 +11,14 @@
 #include "common/files/atomic_file.h"
 #include "common/files/distinct_files.h"
 #include "common/files/input_file.h"
-#include "common/text/plain_text.h"
 #include "python/studies/bindings.h"
+#include "python/studies/printable_error.h"
 
 namespace osteomill::python {
 
 namespace py = pybind11;
 
 namespace {
-
-/// Python takes no error whose text is not UTF-8, and a path may be none.
-template <typename Work>
-auto with_printable_error(Work&& work) {
-    try {
-        return work();
-    } catch (const std::exception& error) {
-        throw std::runtime_error(printable(error.what()));
-    }
-}
 
 py::bytes read_file(const std::filesystem::path& file) {
     return with_printable_error([&] { return py::bytes(read_text(file, json_kind)); });
@@ -45,8 +34,7 @@ void require_distinct_files(const std::vector<Read>& read, const std::filesystem
                             const std::vector<std::string>& names) {
     std::vector<NamedFile> files;
     for (const auto& [option, path] : read) files.push_back({option, path, false});
-    for (const std::string& name : names)
-        files.push_back({.option = "--out", .path = folder, .names = name});
+    for (const std::string& name : names) files.push_back({.option = "--out", .path = folder, .names = name});
     with_printable_error([&] { require_distinct(files); });
 }
 

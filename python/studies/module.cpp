@@ -1,10 +1,9 @@
 // The module osteomill._studies: what the studies of the package compute in C++, and the checks of texts and
 // files that all programs share. Promised to nobody.
-#include "python/studies/bindings.h"
-
 #include <string>
 
 #include "common/program/commit.h"
+#include "python/studies/bindings.h"
 
 PYBIND11_MODULE(_studies, module) {
     module.doc() = "Kernels of osteomill.studies; promised to nobody.";
@@ -13,4 +12,5 @@ PYBIND11_MODULE(_studies, module) {
     module.attr("COMPILER") = __VERSION__;
     osteomill::python::bind_texts(module);
     osteomill::python::bind_files(module);
+    osteomill::python::bind_sessions(module);
 }

@@ -6,6 +6,7 @@ import os
 import pathlib
 import signal
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
@@ -30,7 +31,7 @@ STUDIES = (
     ("realtime", IN_KERNELS, "how late the haptic loop wakes and how long it takes, in turns with cyclictest; then under stress-ng"),
     ("bridge", IN_KERNELS, "the way to an arm behind the bridge and back, beside a bare echo of the same size"),
     ("calibrate", IN_KERNELS, "the six coefficients of the milling law from forces on a dynamometer; or which runs to make"),
-    ("sessions", IN_KERNELS, "recorded sessions of several trainees: tables, learning curves, an overview, a tidy CSV"),
+    ("sessions", "sessions", "recorded sessions of several trainees: tables, learning curves, an overview, a tidy CSV"),
     ("repeat", IN_KERNELS, "run a study again, twice, and say what differs from its folder by more than its noise"),
 )
 
@@ -40,6 +41,8 @@ EXIT_FAILURE, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 128 + signal.SIGINT
 def main(argv: Sequence[str]) -> int:
     """Runs the study that the arguments behind the program's name say; the exit status."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    if not sys.flags.dev_mode:  # python3 -X dev
+        warnings.simplefilter("ignore")
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
@@ -62,7 +65,7 @@ def main(argv: Sequence[str]) -> int:
     except MemoryError:
         return _fail("memory is short", EXIT_FAILURE)
     except Exception as error:
-        if sys.flags.dev_mode:  # python3 -X dev
+        if sys.flags.dev_mode:
             raise
         return _fail(f"a fault of this program: {type(error).__name__}: {line_of(error)}", EXIT_FAILURE)
 

@@ -10,15 +10,15 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-def csv_of(frame: "pd.DataFrame") -> str:
-    """A header and a line a row: numbers with six digits, truths as 1 and 0, nothing where there is no value."""
+def csv_of(frame: "pd.DataFrame", digits: int = 6) -> str:
+    """A header and a line a row: numbers with so many digits, truths as 1 and 0, nothing where there is no value."""
     columns = [frame[name].tolist() for name in frame.columns]
     lines = [",".join(csv_cell(str(name)) for name in frame.columns)]
-    lines += [",".join(cell_of(value) for value in row) for row in zip(*columns)]
+    lines += [",".join(cell_of(value, digits) for value in row) for row in zip(*columns)]
     return "\n".join(lines) + "\n"
 
 
-def cell_of(value: Any) -> str:
+def cell_of(value: Any, digits: int = 6) -> str:
     if hasattr(value, "item"):
         value = value.item()
     if value is None or value != value or type(value).__name__ in ("NAType", "NaTType"):
@@ -26,7 +26,7 @@ def cell_of(value: Any) -> str:
     if isinstance(value, bool):
         return "1" if value else "0"
     if isinstance(value, float):
-        return f"{value:.6g}"
+        return f"{value:.{digits}g}"
     return str(value) if isinstance(value, int) else csv_cell(str(value))
 
 

@@ -1,0 +1,125 @@
+"""Recorded sessions of several trainees side by side: a table, learning curves, an overview.
+
+Writes OUT/sessions.sqlite, sessions.csv, sessions.html and a learning curve OUT/KEY.svg for each metric that is drawn
+(KEY_2.svg for the second case, ...). A recording that cannot be read to its end is named and left out. With a database,
+the sessions are added to that, too.
+"""
+
+import argparse
+import dataclasses
+import functools
+import os
+import pathlib
+import urllib.parse
+from typing import Any
+
+from osteomill import _studies
+from osteomill.studies.options import existing_file
+from osteomill.studies.sessions import records
+from osteomill.studies.sessions.records import SessionRecord
+from osteomill.studies.study_run import StudyRun
+from osteomill.studies.tables import csv_of
+from osteomill.studies.text import holds_password, printable
+
+WRITES = ("sessions.*", "*.svg")
+CSV_DIGITS = 9
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("places", nargs="+", type=pathlib.Path, metavar="DIR",
+                        help="recordings, folders of recordings, or folders of folders of haptic_server --report")
+    parser.add_argument("--groups", type=existing_file, metavar="FILE",
+                        help="which group each trainee is in: a CSV of lines TRAINEE,GROUP (default: groups.csv in DIR); "
+                        "\"expert\" is the group that others are shown against")
+    parser.add_argument("--compare", nargs=2, default=[], metavar=("A", "B"), help="two groups to compare, if there are more")
+    parser.add_argument("--database", type=_address, metavar="ADDRESS",
+                        help="add the sessions to this PostgreSQL database, too: postgresql://USER@HOST/NAME")
+
+
+def run(options: argparse.Namespace, study: StudyRun) -> None:
+    files = records.recordings_in(options.places)
+    groups = _groups_of(options)
+    sessions, skipped = _read(files, study)
+    for session in sessions:
+        session.group = groups.get(session.trainee, "")
+    if options.database:
+        from osteomill.studies.sessions.database import add_to_database
+
+        add_to_database(options.database, sessions)
+    _write(sessions, options.compare, skipped, study)
+
+
+def _read(files: list[pathlib.Path], study: StudyRun) -> tuple[list[SessionRecord], list[str]]:
+    """Sessions in the order of their start, each once, and a line for each recording that was left out."""
+    from osteomill.studies.sessions.database import SessionStore
+
+    skipped: list[str] = []
+
+    def skip(why: str) -> None:
+        skipped.append(printable(why))
+        study.warn(f"left out: {why}")
+
+    store = SessionStore(study.file("sessions.sqlite"))
+    recordings: dict[str, pathlib.Path] = {}
+    for file in files:
+        try:
+            recordings.setdefault(records.digest_of(file), file)  # else a copy
+        except RuntimeError as error:
+            skip(str(error))
+    cases = [{"digest": digest, "file": str(file)} for digest, file in recordings.items()]
+    found = study.sweep(functools.partial(_read_one, str(store.file)), cases, lambda case: str(case["file"]))
+    sessions = []
+    for (digest, file), one in zip(recordings.items(), found):
+        if "why_not" in one:
+            skip(one["why_not"])
+            continue
+        record = records.record_of(digest, printable(str(file)), one)
+        if not store.find(digest):
+            store.keep(record)
+        record.report = _report_address(file, study.out)
+        sessions.append(record)
+    if not sessions:
+        study.forget_outcomes()
+        raise RuntimeError("no recording can be read to its end")
+    return sorted(sessions, key=lambda session: session.began_unix_ns), skipped
+
+
+def _read_one(store: str, case: dict[str, str]) -> dict[str, Any]:
+    """What an earlier study has kept of a recording, or what is in it."""
+    from osteomill.studies.sessions.database import SessionStore
+
+    kept = SessionStore(pathlib.Path(store)).find(case["digest"])
+    return dataclasses.asdict(kept) if kept else records.read(case["file"])
+
+
+def _write(sessions: list[SessionRecord], compare: list[str], skipped: list[str], study: StudyRun) -> None:
+    from osteomill.studies.sessions import page
+
+    study.text("sessions.csv", csv_of(page.sessions_table(sessions), CSV_DIGITS))
+    found = page.overview(sessions, page.compared_groups(sessions, compare), skipped)
+    for name, svg in found.charts.items():
+        study.text(name + ".svg", svg)
+    study.text("sessions.html", found.html)
+    left_out = f", {len(skipped)} left out," if skipped else ""
+    study.say(f"{len(sessions)} sessions{left_out} in {study.out / 'sessions.html'}")
+
+
+def _groups_of(options: argparse.Namespace) -> dict[str, str]:
+    file = options.groups or records.groups_file(options.places)
+    return _studies.trainee_groups(file) if file else {}
+
+
+def _report_address(recording: pathlib.Path, out: pathlib.Path) -> str:
+    """As an address in a page that lies in `out`; empty where there is no report beside the recording."""
+    report = recording.parent / "report.html"
+    if not os.path.isfile(report):
+        return ""
+    return urllib.parse.quote(os.fsencode(os.path.relpath(os.path.realpath(report), os.path.realpath(out))))
+
+
+def _address(text: str) -> str:
+    if holds_password(text):
+        raise argparse.ArgumentTypeError(
+            "holds a password, which everybody on this machine could read; write it into ~/.pgpass, the file of "
+            "PGPASSFILE, or a service (service=NAME)")
+    return text

@@ -1,0 +1,89 @@
+"""The sessions of one case, in the order of their start, and what is asked of them together."""
+
+import dataclasses
+from collections.abc import Iterable
+
+import pandas as pd
+
+from osteomill import _studies
+from osteomill.studies.sessions.records import SessionRecord
+from osteomill.studies.sessions.statistics import Interval, middle_half
+
+EXPERTS = "expert"  # the group that others are shown against
+
+
+@dataclasses.dataclass(frozen=True)
+class Headline:
+    """A metric by which people judge a session: how it is called, shown and read."""
+
+    key: str  # docs/metrics.md; of several structures the sum
+    text: str
+    unit: str  # as shown
+    scale: float  # from the metric's own unit to the shown one
+    better: str  # which is, in words; empty: neither
+    is_count: bool  # compared by ranks, not by means
+
+    def number(self, value: float) -> str:
+        return _studies.number_text(self.key, value)
+
+    def heading(self) -> str:
+        return f"{self.text} ({self.unit})" if self.unit else self.text
+
+
+HEADLINES = [Headline(*row) for row in _studies.headlines()]
+
+
+@dataclasses.dataclass(frozen=True)
+class Attempt:
+    session: SessionRecord
+    number: int  # of the trainee's sessions of the case, from 1
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    name: str
+    attempts: list[Attempt]
+
+    def learners(self) -> "Case":
+        """Without the sessions of experts, whose level and trend are others; all where all are of experts."""
+        some = [one for one in self.attempts if one.session.group != EXPERTS]
+        return Case(self.name, some or self.attempts)
+
+    def values(self, what: Headline) -> pd.DataFrame:
+        """A row for each session that has a value: trainee, group, attempt, value, in the metric's own unit."""
+        rows = [
+            (one.session.trainee, one.session.group, one.number, value)
+            for one in self.attempts
+            if (value := one.session.value(what.key)) is not None
+        ]
+        return pd.DataFrame(rows, columns=["trainee", "group", "attempt", "value"])
+
+    def trainee_means(self, what: Headline, group: str = "") -> list[float]:
+        """A value for each trainee: those of one trainee are not independent. `group`: only of its trainees."""
+        values = self.values(what)
+        if group:
+            values = values[values["group"] == group]
+        return [float(mean) for mean in values.groupby("trainee")["value"].mean()]
+
+    def expert_band(self, what: Headline) -> Interval | None:
+        """Where the middle half of the experts' sessions lies."""
+        values = self.values(what)
+        return middle_half(values["value"][values["group"] == EXPERTS].tolist())
+
+    def passes(self) -> dict[str, list[bool]]:
+        """Whether each judged session passed, by trainee."""
+        passes: dict[str, list[bool]] = {}
+        for one in self.attempts:
+            if (passed := one.session.value("passed")) is not None:
+                passes.setdefault(one.session.trainee, []).append(passed != 0.0)
+        return dict(sorted(passes.items()))
+
+
+def cases_of(sessions: Iterable[SessionRecord]) -> list[Case]:
+    """In the order in which the cases first come."""
+    cases: dict[str, Case] = {}
+    for session in sessions:
+        case = cases.setdefault(session.case_name, Case(session.case_name, []))
+        before = sum(one.session.trainee == session.trainee for one in case.attempts)
+        case.attempts.append(Attempt(session, before + 1))
+    return list(cases.values())

@@ -1,0 +1,80 @@
+"""Learning curves of a case: each headline against the attempt, and passes as a cumulative sum."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from osteomill.studies import charts
+from osteomill.studies.sessions.cases import HEADLINES, Case, Headline
+from osteomill.studies.sessions.statistics import CusumDesign, PracticeTrend, practice_trend
+
+MOST_IN_LEGEND = 20
+STEPS_PER_ATTEMPT = 8
+
+
+def learning_curves(case: Case) -> dict[str, Figure]:
+    """By the metric's key, of headlines that some session has: a line for each trainee, the trend, the experts' band."""
+    return {what.key: _curve_of(case, what) for what in HEADLINES if not case.values(what).empty}
+
+
+def pass_chart(case: Case) -> Figure | None:
+    """A line for each trainee, with the levels at which the test decides; None where no session was judged."""
+    passes = case.passes()
+    if not passes:
+        return None
+    design = CusumDesign()
+    figure, axes = _empty("Passes and failures, cumulative sum (lower is better)", "failures beyond the rate")
+    for trainee, has_passed in passes.items():
+        axes.plot(design.sums(has_passed), marker="o", label=_legend_text(trainee))
+    for level, text in ((design.level(), f"fails {100.0 * design.unacceptable_rate:.0f} % or more"),
+                        (-design.level(), f"fails {100.0 * design.acceptable_rate:.0f} % or less")):
+        axes.axhline(level, color=charts.GREY, linestyle="--", linewidth=1.0)
+        axes.annotate(text, (1.0, level), xycoords=("axes fraction", "data"), ha="right", va="bottom", color="#555555")
+    _finish(axes, len(passes))
+    return figure
+
+
+def _curve_of(case: Case, what: Headline) -> Figure:
+    values = case.values(what)
+    title = f"{what.text} ({what.better})" if what.better else what.text
+    figure, axes = _empty(title, what.unit)
+    attempts = int(values["attempt"].max())
+    if band := case.expert_band(what):
+        axes.fill_between([1, attempts], *(what.scale * end for end in band), color=charts.SKY, alpha=0.25,
+                          linewidth=0, label="middle half of experts")
+    for trainee, own in values.groupby("trainee"):
+        axes.plot(own["attempt"], what.scale * own["value"], marker="o", label=_legend_text(str(trainee)))
+    if trend := practice_trend(case.learners().values(what)):
+        _add_trend(axes, trend, what.scale, attempts)
+    if (values["value"] >= 0.0).all():
+        axes.set_ylim(bottom=0.0)
+    _finish(axes, values["trainee"].nunique())
+    return figure
+
+
+def _add_trend(axes: Any, trend: PracticeTrend, scale: float, attempts: int) -> None:
+    at = np.linspace(1.0, attempts, STEPS_PER_ATTEMPT * (attempts - 1) + 1)
+    low, high = zip(*(trend.interval_at(attempt) for attempt in at))
+    axes.fill_between(at, scale * np.array(low), scale * np.array(high), color=charts.GREY, alpha=0.25, linewidth=0)
+    axes.plot(at, [scale * trend.at(attempt) for attempt in at], color=charts.BLACK, linewidth=2.5, label="trend")
+
+
+def _empty(title: str, y_text: str) -> tuple[Figure, Any]:
+    figure = charts.figure(9.5, 3.6)
+    axes = figure.subplots()
+    axes.set(title=title, xlabel="attempt", ylabel=y_text)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    return figure, axes
+
+
+def _finish(axes: Any, trainees: int) -> None:
+    """A legend that would be longer than the chart is left out."""
+    if trainees <= MOST_IN_LEGEND:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize="small")
+
+
+def _legend_text(name: str) -> str:
+    """Matplotlib leaves out what begins with an underscore."""
+    return f" {name}" if name.startswith("_") else name

@@ -1,0 +1,160 @@
+"""The overview: for each case a line a session, what the sessions say together, and the learning curves."""
+
+import dataclasses
+import math
+import pathlib
+from typing import Any
+
+import jinja2
+import pandas as pd
+from markupsafe import Markup
+
+from osteomill import _studies
+from osteomill.studies import charts
+from osteomill.studies.sessions.cases import HEADLINES, Attempt, Case, Headline, cases_of
+from osteomill.studies.sessions.curves import learning_curves, pass_chart
+from osteomill.studies.sessions.records import SessionRecord
+from osteomill.studies.sessions.statistics import (
+    Interval,
+    compare_means,
+    compare_ranks,
+    mean_of,
+    practice_trend,
+)
+
+NONE = "–"
+
+
+def sessions_table(sessions: list[SessionRecord]) -> pd.DataFrame:
+    """A row a session and metric; `attempt` counts a trainee's sessions of a case, in the order of `sessions`."""
+    number = {id(one.session): one.number for case in cases_of(sessions) for one in case.attempts}
+    rows = [
+        (session.file, session.trainee, session.case_name, number[id(session)],
+         int(session.began_unix_ns / 1_000_000_000), metric.key, metric.of, metric.value, metric.unit)
+        for session in sessions
+        for metric in session.metrics
+    ]
+    return pd.DataFrame(rows, columns=["session", "trainee", "case", "attempt", "began_unix_s", "metric", "of", "value", "unit"])
+
+
+def compared_groups(sessions: list[SessionRecord], wanted: list[str]) -> list[str]:
+    """Two groups to compare: those that are wanted, or those that there are, if they are two.
+
+    RuntimeError for a group without a session.
+    """
+    groups = sorted({session.group for session in sessions if session.group})
+    for group in wanted:
+        if group not in groups:
+            there = "take one of " + ", ".join(f'"{one}"' for one in groups) if groups else (
+                "there are no groups: write groups.csv, with lines TRAINEE,GROUP")
+            raise RuntimeError(f'no session is of a trainee in group "{group}"; {there}')
+    return wanted or (groups if len(groups) == 2 else [])
+
+
+@dataclasses.dataclass(frozen=True)
+class Overview:
+    """Charts are SVG, by the name of their file; `html` holds them as well."""
+
+    html: str
+    charts: dict[str, str]
+
+
+def overview(sessions: list[SessionRecord], compared: list[str], skipped: list[str]) -> Overview:
+    """`sessions` in the order of their start; `skipped`: what was left out and why."""
+    files: dict[str, str] = {}
+    shown = []
+    for number, case in enumerate(cases_of(sessions), 1):
+        drawn = {key: charts.svg_of(figure) for key, figure in learning_curves(case).items()}
+        files |= {key if number == 1 else f"{key}_{number}": svg for key, svg in drawn.items()}
+        passes = pass_chart(case)
+        shown.append({
+            "name": case.name,
+            "columns": [what.heading() for what in _columns(case)],
+            "is_judged": bool(case.passes()),
+            "sessions": [_session_row(case, one) for one in sorted(case.attempts, key=lambda one: one.session.trainee)],
+            "statistics": [_statistics_row(case, what, compared) for what in _columns(case)],
+            "curves": [_inline(svg) for svg in drawn.values()],
+            "passes": _inline(charts.svg_of(passes)) if passes else "",
+        })
+    page = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True, trim_blocks=True,
+        lstrip_blocks=True, undefined=jinja2.StrictUndefined,
+    ).get_template("page.html.jinja")
+    html = page.render(style=Markup(_studies.PAGE_STYLE), count=len(sessions), skipped=skipped, cases=shown, compared=compared)
+    return Overview(html + "\n", files)
+
+
+def _columns(case: Case) -> list[Headline]:
+    return [what for what in HEADLINES if not case.values(what).empty]
+
+
+def _session_row(case: Case, attempt: Attempt) -> dict[str, Any]:
+    session = attempt.session
+    values = [(what, session.value(what.key)) for what in _columns(case)]
+    return {
+        "file": session.file,
+        "trainee": f"{session.trainee} ({session.group})" if session.group else session.trainee,
+        "attempt": attempt.number,
+        "began": _studies.local_time_text(session.began_unix_ns),
+        "report": session.report,
+        "passed": session.value("passed"),
+        "values": [NONE if value is None else what.number(value) for what, value in values],
+    }
+
+
+def _statistics_row(case: Case, what: Headline, compared: list[str]) -> dict[str, Any]:
+    band = case.expert_band(what)
+    return {
+        "heading": what.heading(),
+        "better": what.better,
+        "numbers": [*_mean_cells(case, what), _interval_text(what, band) if band else NONE, *_trend_cells(case, what)],
+        "comparison": _comparison_cells(case, what, compared) if compared else [],
+    }
+
+
+def _mean_cells(case: Case, what: Headline) -> list[str]:
+    mean = mean_of(case.learners().trainee_means(what))
+    if mean is None:
+        return ["0", NONE]
+    return [str(mean.n), _with_interval(what, mean.mean, mean.interval) if mean.interval else what.number(mean.mean)]
+
+
+def _trend_cells(case: Case, what: Headline) -> list[str]:
+    """Of a doubling of attempts."""
+    trend = practice_trend(case.learners().values(what))
+    if trend is None:
+        return [NONE, NONE]
+    low, high = trend.slope_interval()
+    doubling = math.log(2.0)
+    return [_with_interval(what, doubling * trend.slope, (doubling * low, doubling * high)), _p_text(trend.p())]
+
+
+def _comparison_cells(case: Case, what: Headline, compared: list[str]) -> list[str]:
+    """Both means, the difference, the effect size, p, and the name of the test."""
+    first, second = (case.trainee_means(what, group) for group in compared)
+    means = [f"{what.number(mean.mean)} ({mean.n})" if (mean := mean_of(group)) else NONE for group in (first, second)]
+    if what.is_count:
+        ranks = compare_ranks(first, second)
+        if ranks is None:
+            return [*means, NONE, NONE, NONE, ""]
+        return [*means, NONE, f"δ {ranks.cliffs_delta:.2f}", _p_text(ranks.p), "Mann-Whitney"]
+    welch = compare_means(first, second)
+    if welch is None:
+        return [*means, NONE, NONE, NONE, ""]
+    return [*means, _with_interval(what, welch.difference, welch.interval), f"g {welch.hedges_g:.2f}", _p_text(welch.p), "Welch"]
+
+
+def _interval_text(what: Headline, interval: Interval) -> str:
+    return f"{what.number(interval[0])} to {what.number(interval[1])}"
+
+
+def _with_interval(what: Headline, value: float, interval: Interval) -> str:
+    return f"{what.number(value)} [{_interval_text(what, interval)}]"
+
+
+def _p_text(p: float) -> str:
+    return "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
+def _inline(svg: str) -> Markup:
+    return Markup(charts.inline_svg(svg))

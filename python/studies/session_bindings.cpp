@@ -1,0 +1,109 @@
+// Recordings as the study of several sessions reads them, and how all pages call and show a metric. Errors
+// are RuntimeError in one printable line.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "analysis/report/headlines.h"
+#include "analysis/report/page_style.h"
+#include "analysis/report/session_metrics.h"
+#include "analysis/report/session_trace.h"
+#include "analysis/report/trainee_groups.h"
+#include "common/files/input_file.h"
+#include "common/recording/packet_reader.h"
+#include "common/text/plain_text.h"
+#include "imaging/bone_file/digest.h"
+#include "python/studies/bindings.h"
+#include "python/studies/printable_error.h"
+
+namespace osteomill::python {
+
+namespace py = pybind11;
+
+namespace {
+
+std::string digest_of_recording(const std::filesystem::path& file) {
+    return with_printable_error([&] {
+        PacketReader{file};  // what is no recording is not read to its end
+        const InputFile in(file, {.what = "a recording"});
+        Digest digest;
+        std::array<std::byte, 1 << 16> bytes{};
+        for (std::uint64_t done = 0; done < in.size();) {
+            const std::size_t read = in.read_at(done, bytes);
+            if (read == 0) break;
+            digest.add(std::span(bytes).first(read));
+            done += read;
+        }
+        return digest.text();
+    });
+}
+
+SessionTrace whole_trace(const std::filesystem::path& file) {
+    const py::gil_scoped_release released;
+    return with_printable_error([&] {
+        SessionTrace trace = read_trace(file, [](double) {});
+        if (!trace.error.empty()) throw std::runtime_error(trace.error);
+        if (!trace.ends) throw std::runtime_error(file.string() + ": is torn: the session's end is missing");
+        return trace;
+    });
+}
+
+/// Names may be what a hostile file holds.
+py::dict read_session(const std::filesystem::path& file) {
+    const SessionTrace trace = whole_trace(file);
+    py::list metrics;
+    for (const MetricRow& row : metric_rows(session_metrics(trace)))
+        metrics.append(py::make_tuple(row.key, printable(row.of), row.value, row.unit, printable(row.text)));
+    const SessionInfo& session = trace.session;
+    py::dict record;
+    record["trainee"] = session.trainee.empty() ? "(no name)" : printable(session.trainee);
+    record["case_name"] = printable(session.case_name.empty() ? session.scene_name : session.case_name);
+    record["began_unix_ns"] = trace.began_unix_ns;
+    record["metrics"] = metrics;
+    return record;
+}
+
+py::dict groups_of(const std::filesystem::path& file) {
+    const auto groups = with_printable_error([&] { return trainee_groups(file); });
+    py::dict printed;
+    for (const auto& [trainee, group] : groups) printed[py::str(printable(trainee))] = printable(group);
+    return printed;
+}
+
+py::list headline_rows() {
+    py::list rows;
+    for (const Headline& one : headlines)
+        rows.append(
+            py::make_tuple(one.key, one.text, one.unit, one.scale, text_of(one.better), one.is_count));
+    return rows;
+}
+
+}  // namespace
+
+void bind_sessions(py::module_& module) {
+    module.attr("PAGE_STYLE") = page_style;
+    module.def(
+        "headlines", &headline_rows,
+        "By which metrics people judge a session, the weightiest first: key, text, unit, scale from the "
+        "metric's own unit, which is better, whether it is a count.");
+    module.def(
+        "number_text", [](const std::string& key, double value) { return shown_value(key, value).number; },
+        py::arg("key"), py::arg("value"), "A metric's value as every page shows it, in its headline's unit.");
+    module.def("local_time_text", &local_time_text, py::arg("unix_ns"),
+               "By the clock of this machine; empty where the recording does not say.");
+    module.def("trainee_groups", &groups_of, py::arg("file"),
+               "Of groups.csv: the group by the trainee's name.");
+    module.def("digest_of_recording", &digest_of_recording, py::arg("file"), "Of its bytes.");
+    module.def("read_session", &read_session, py::arg("file"),
+               "Whose a whole recording is, of what, when, and its metrics: key, of, value, unit, text.");
+}
+
+}  // namespace osteomill::python

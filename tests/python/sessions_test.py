@@ -1,0 +1,260 @@
+"""The study of several sessions: equal to the digit with that of version 0.3, and what it does with odd files."""
+
+import contextlib
+import html
+import json
+import math
+import os
+import pathlib
+import re
+import sqlite3
+import subprocess
+import tempfile
+import time
+import unittest
+
+import scipy.stats
+from support import program, run_server
+
+from osteomill.studies.sessions import page, records, statistics
+from osteomill.studies.sessions.cases import HEADLINES, cases_of
+from osteomill.studies.sessions.database import SessionStore
+from osteomill.studies.sessions.records import Metric, SessionRecord
+from osteomill.studies.tables import csv_of
+
+DATA = pathlib.Path(__file__).parents[1] / "data" / "sessions"
+
+
+def table_rows(text):
+    return [[html.unescape(cell) for cell in re.findall(r"<t[dh][^>]*>(.*?)</t[dh]>", row, re.DOTALL)]
+            for row in re.findall(r"<tr>(.*?)</tr>", text, re.DOTALL)]
+
+
+def of_trainees(group, times_s, attempts=1):
+    """Sessions of trainees, one time each."""
+    return [SessionRecord(f"{group}{i}{attempt}", "", f"{group}{i}", "molar", attempt, [Metric("time_s", "", time_s, "s", "time")], group)
+            for i, time_s in enumerate(times_s) for attempt in range(attempts)]
+
+
+class GoldenTest(unittest.TestCase):
+    """Tables of records whose numbers were drawn by lot, as version 0.3 wrote them."""
+
+    @classmethod
+    def setUpClass(cls):
+        os.environ["TZ"] = "UTC"
+        time.tzset()
+        cls.sessions = [SessionRecord(**one | {"metrics": [Metric(*row) for row in one["metrics"]]})
+                        for one in json.loads((DATA / "records.json").read_text(encoding="utf-8"))]
+
+    def test_the_table_is_the_same_to_the_byte(self):
+        self.assertEqual(csv_of(page.sessions_table(self.sessions), 9), (DATA / "sessions.csv").read_text(encoding="utf-8"))
+
+    def test_the_page_has_the_same_numbers(self):
+        found = page.overview(self.sessions, page.compared_groups(self.sessions, []), [])
+        self.assertEqual(table_rows(found.html), json.loads((DATA / "page_rows.json").read_text(encoding="utf-8")))
+        self.assertEqual(found.charts.keys(), {what.key for what in HEADLINES[:9]} | {what.key + "_2" for what in HEADLINES[:8]})
+
+    def test_the_page_is_safe_and_the_same_twice(self):
+        first, second = (page.overview(self.sessions, [], ["<b>x</b>"]).html for _ in range(2))
+        self.assertEqual(first, second)
+        self.assertNotIn("<Fay>", first)
+        self.assertIn("Left out: &lt;b&gt;x&lt;/b&gt;", first)
+        names = re.findall(r'<g id="[^"]*"|<script', first)
+        self.assertEqual(names, [])
+
+
+class StatisticsTest(unittest.TestCase):
+    def test_groups_are_compared_as_by_hand(self):
+        sessions = of_trainees("expert", (155.7, 162.3, 149.0, 171.2, 158.8)) + of_trainees(
+            "student", (201.4, 188.9, 240.2, 195.0, 222.6, 210.7))
+        rows = table_rows(page.overview(sessions, page.compared_groups(sessions, []), []).html)
+        self.assertEqual(rows[-1], ["time (s)", "lower is better", "6", "209.8 [189.8 to 229.8]", "155.7 to 162.3", "–", "–",
+                                    "159.4 (5)", "209.8 (6)", "-50.4 [-70.7 to -30.1]", "g -3.03", "< 0.001", "Welch"])
+        with self.assertRaisesRegex(RuntimeError, 'no session is of a trainee in group "nobody"; take one of "expert", "student"'):
+            page.compared_groups(sessions, ["expert", "nobody"])
+
+    def test_a_trainee_counts_once_and_the_trend_is_within_trainees(self):
+        anna = [SessionRecord(str(i), "", "Anna", "molar", i, [Metric("time_s", "", time_s, "s", "time")])
+                for i, time_s in enumerate((300.0, 251.0, 230.0, 222.0, 210.0))]
+        sessions = anna + of_trainees("", [200.0])
+        case = cases_of(sessions)[0]
+        self.assertEqual([one.number for one in case.attempts], [1, 2, 3, 4, 5, 1])
+        self.assertEqual(sorted(case.trainee_means(HEADLINES[0])), [200.0, 242.6])
+        trend = statistics.practice_trend(cases_of(anna)[0].values(HEADLINES[0]))
+        line = scipy.stats.linregress([math.log(n) for n in range(1, 6)], [300.0, 251.0, 230.0, 222.0, 210.0])
+        self.assertAlmostEqual(trend.slope, line.slope, places=9)
+        self.assertAlmostEqual(trend.p(), line.pvalue, places=12)
+        self.assertIn(">trend</text>", page.overview(sessions, [], []).html)
+
+    def test_ranks_are_exact_with_ties_and_without(self):
+        without = statistics.compare_ranks([1.0, 4.0, 6.0], [2.0, 3.0, 9.0, 10.0])
+        exact = scipy.stats.mannwhitneyu([1.0, 4.0, 6.0], [2.0, 3.0, 9.0, 10.0], method="exact")
+        self.assertEqual((without.u, round(without.p, 12)), (exact.statistic, round(exact.pvalue, 12)))
+        # 0 0 1 and 1 2: of ten ways to deal out the midranks 1.5 1.5 3.5 3.5 5, two have a sum of 6.5 or less.
+        tied = statistics.compare_ranks([0.0, 0.0, 1.0], [1.0, 2.0])
+        self.assertEqual((tied.u, tied.p, round(tied.cliffs_delta, 6)), (0.5, 0.4, -0.833333))
+        self.assertIsNone(statistics.compare_ranks([0.0] * 101, [1.0] * 100))
+        self.assertLess(statistics.compare_ranks([0.0] * 100, [1.0] * 100).p, 1e-50)
+
+    def test_what_is_too_little_has_no_number(self):
+        self.assertIsNone(statistics.mean_of([]))
+        self.assertIsNone(statistics.mean_of([1.0]).interval)
+        self.assertIsNone(statistics.compare_means([1.0, 1.0], [2.0, 2.0]))
+        self.assertIsNone(statistics.compare_means([1.0], [2.0, 3.0]))
+        self.assertIsNone(statistics.middle_half([1.0, 2.0, 3.0]))
+        self.assertIsNone(statistics.practice_trend(cases_of(of_trainees("a", (1.0, 2.0)))[0].values(HEADLINES[0])))
+        # A steady trainee: no variance, no trend.
+        steady = statistics.practice_trend(cases_of(of_trainees("a", [5.0], attempts=3))[0].values(HEADLINES[0]))
+        self.assertEqual((steady.slope, steady.p()), (0.0, 1.0))
+
+    def test_runs_of_passes(self):
+        design = statistics.CusumDesign()
+        self.assertAlmostEqual(design.step(), 0.2933, places=4)
+        self.assertAlmostEqual(design.level(), 2.2400, places=3)
+        self.assertEqual([round(s, 3) for s in design.sums([True, False])], [0.0, -0.293, 0.413])
+
+
+class ProgramTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.scratch.cleanup)
+        cls.folder = pathlib.Path(cls.scratch.name)
+        for name, trainee, seconds in (("a1", "Anna", 1), ("a2", "Anna", 1.2), ("b", "<script>Bo", 1.4)):
+            (cls.folder / "term" / name).mkdir(parents=True)
+            run_server(cls.folder, "--scene", "cube", "--duration-s", str(seconds), "--trainee", trainee,
+                       "--record", str(cls.folder / "term" / name / "session.pcap"))
+
+    def setUp(self):
+        self.out = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+
+    def study(self, *words, out=None, code=0):
+        done = subprocess.run([program("osteomill_study"), "sessions", *map(str, words), "--out", str(out or self.out / "out")],
+                              capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def refusal(self, *words, code=1):
+        lines = self.study(*words, code=code).stderr.splitlines()
+        self.assertTrue(lines[-1].startswith("osteomill_study: "), lines)
+        return lines[-1]
+
+    def text(self, name):
+        return (self.out / "out" / name).read_text(encoding="utf-8")
+
+    def test_writes_the_same_whole_from_the_store_and_in_parts(self):
+        (self.folder / "term" / "a1" / "report.html").write_text("a report")
+        self.addCleanup((self.folder / "term" / "a1" / "report.html").unlink)
+        self.assertIn("3 sessions in ", self.study("term").stdout)
+        csv, html_text = self.text("sessions.csv"), self.text("sessions.html")
+        self.assertIn("session,trainee,case,attempt,began_unix_s,metric,of,value,unit\n", csv)
+        self.assertRegex(csv, r"term/a2/session.pcap,Anna,cube,2,\d+,time_s,,1.\d+,s\n")
+        self.assertIn("&lt;script&gt;Bo", html_text)
+        self.assertRegex(html_text, "<a href='[./]*term/a1/report.html'>")
+        self.assertEqual(html_text.count("<a href"), 1)
+        self.assertFalse((self.out / "out" / "cases-1-of-1.jsonl").exists())
+        said = json.loads(self.text("manifest.json"))
+        self.assertEqual((said["command"], said["settings"]["DIR"]), (["sessions", "term"], "term"))
+        self.study("term")
+        self.assertEqual((self.text("sessions.csv"), self.text("sessions.html")), (csv, html_text))
+        (self.out / "out" / "sessions.sqlite").write_bytes(b"x" * 5000)
+        self.study("term")
+        self.assertEqual((self.text("sessions.csv"), self.text("sessions.html")), (csv, html_text))
+        for part in ("1/2", "2/2"):
+            self.study("term", "--shard", part, out=self.out / "parts")
+        joined = self.out / "out2"
+        self.study("--merge", self.out / "parts", out=joined)
+        for file in (self.out / "out").iterdir():
+            if file.suffix != ".sqlite":
+                self.assertEqual((joined / file.name).read_bytes(), file.read_bytes(), file.name)
+        self.assertIn("leave --groups out", self.refusal("--merge", self.out / "parts", "--groups", "x", code=2))
+        (self.out / "parts" / "cases-1-of-2.jsonl").unlink()
+        self.assertIn("missing of 2 parts: 1", self.refusal("--merge", self.out / "parts"))
+
+    def test_names_each_that_is_no_recording_and_does_the_rest(self):
+        term = self.out / "term"
+        subprocess.run(["cp", "-r", self.folder / "term", term], check=True)
+        for name, leads_to in (("circle.pcap", "circle.pcap"), ("dangling.pcap", "gone.pcap"), ("lost_folder", "folder_gone"),
+                               ("round", "round"), ("good.pcap", "b/session.pcap"), ("a1/report.html", "report.html")):
+            (term / name).symlink_to(leads_to)
+        for name in ("folder.pcap", "deep/session.pcap", "linked"):
+            (term / name).mkdir(parents=True)
+        (term / "linked" / "session.pcap").symlink_to("session.pcap")
+        os.mkfifo(term / "pipe.pcap")
+        (term / "notes.pcap").write_text("no recording")
+        torn = term / "a2" / "session.pcap"
+        torn.write_bytes(torn.read_bytes()[:-40])
+        (term / os.fsdecode(b"l\xe4tin.pcap")).write_text("no recording")
+        done = self.study(term)
+        self.assertIn("2 sessions, 11 left out, in ", done.stdout)
+        said = [line for line in done.stderr.splitlines() if line.startswith("left out: ")]
+        self.assertEqual(len(said), 11, done.stderr)
+        for what in ("circle.pcap: Too many levels of symbolic links", "dangling.pcap: No such file", "lost_folder: No such file",
+                     "round: Too many levels of symbolic links", "folder.pcap: is no file", "deep/session.pcap: is no file",
+                     "linked/session.pcap: Too many levels", "pipe.pcap: is no file", "notes.pcap", "a2/session.pcap: ", "l\\xe4tin.pcap"):
+            self.assertTrue(any(what in line for line in said), (what, said))
+        self.assertIn("Left out: ", self.text("sessions.html"))
+
+    def test_takes_the_groups_that_lie_beside_the_sessions(self):
+        groups = self.folder / "term" / "groups.csv"
+        self.addCleanup(groups.unlink)
+        groups.write_text("Anna,novice\n<script>Bo,expert\n")
+        self.study("term")
+        self.assertIn("Anna (novice)", self.text("sessions.html"))
+        self.assertIn(">novice (n)<", self.text("sessions.html"))
+        groups.write_text("Anna\n")
+        self.assertIn("groups.csv:1: a line is TRAINEE,GROUP", self.refusal("term"))
+        groups.write_bytes(b"Zo\xeb,novice\nAnna,expert\n")
+        self.study("term")
+
+    def test_says_in_one_line_what_is_wrong(self):
+        self.assertIn("nowhere: there is no such recording or folder", self.refusal("nowhere"))
+        (self.out / "empty").mkdir()
+        self.assertIn("empty: holds no recording (*.pcap)", self.refusal(self.out / "empty"))
+        self.assertIn("there are no groups: write groups.csv", self.refusal("term/b", "--compare", "a", "b"))
+        self.assertIn("--compare", self.refusal("term", "--compare", "a", code=2))
+        self.assertIn("--groups: File does not exist: x", self.refusal("term", "--groups", "x", code=2))
+        self.assertIn("holds a password", self.refusal("term", "--database", "postgresql://me:secret@here/x", code=2))
+        (self.out / "out").mkdir(exist_ok=True)
+        groups = self.out / "out" / "sessions.csv"
+        groups.write_text("Anna,novice\n")
+        self.assertIn("--out and --groups are the same file", self.refusal("term", "--groups", groups, code=2))
+        self.assertEqual(groups.read_text(), "Anna,novice\n")
+
+    def test_finds_each_recording_once(self):
+        term = self.folder / "term"
+        self.assertEqual(len(records.recordings_in([term, term / "b", term / "b" / "session.pcap"])), 3)
+
+
+class StoreTest(unittest.TestCase):
+    def test_keeps_a_record_as_it_is(self):
+        record = SessionRecord("d1", "a'b.pcap", "O'Neil; DROP TABLE session", "molar", 1_700_000_000_123_456_789,
+                               [Metric("time_s", "", 1.0 / 3.0, "s", "time"), Metric("nothing", "pulp", None, "", "")])
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "s?#.sqlite")
+            store = SessionStore(file, "1")
+            self.assertIsNone(store.find("d1"))
+            store.keep(record)
+            store.keep(record)
+            self.assertEqual(SessionStore(file, "1").find("d1"), record)
+            self.assertEqual([path.name for path in file.parent.iterdir()], [file.name])
+            self.assertIsNone(SessionStore(file, "2").find("d1"), "another version measures otherwise")
+            for content in (b"no database", b""):
+                file.write_bytes(content)
+                SessionStore(file, "1").keep(record)
+            file.unlink()
+            with contextlib.closing(sqlite3.connect(file)) as other:
+                other.execute("CREATE TABLE session(something TEXT)")
+            SessionStore(file, "1").keep(record)
+            precious = pathlib.Path(folder, "precious")
+            precious.write_text("mine")
+            file.unlink()
+            file.symlink_to(precious)
+            SessionStore(file, "1").keep(record)
+            self.assertEqual(precious.read_text(), "mine")
+            with self.assertRaisesRegex(RuntimeError, "no/folder/s.sqlite: cannot be made"):
+                SessionStore(pathlib.Path(folder, "no", "folder", "s.sqlite"), "1")
+
+
+if __name__ == "__main__":
+    unittest.main()
