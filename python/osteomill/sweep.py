@@ -9,7 +9,7 @@ import pathlib
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
@@ -77,7 +77,7 @@ def keys_of(cases: list[Any]) -> list[str]:
 
 def run_cases(
     function: Callable[[Any], Any], cases: list[Any], indices: Iterable[int], jobs: int | None
-) -> Iterator[tuple[int, Any]]:
+) -> Generator[tuple[int, Any], None, None]:
     """Pairs of index and outcome, as they are done, begun in the order of `indices`, by `jobs` processes.
 
     What the function raises ends the rest. ChildProcessError where a process ends by itself.
@@ -121,8 +121,8 @@ def _plain(value: Any) -> Any:
 
 
 def _begin_worker() -> None:
-    """A worker ends without words when it is interrupted, and when its parent is gone."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    """A worker ends when its parent ends it, as after Ctrl-C, or is gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()

@@ -11,6 +11,7 @@
 #include "common/files/atomic_file.h"
 #include "common/files/distinct_files.h"
 #include "common/files/input_file.h"
+#include "common/text/foreign_json.h"
 #include "python/studies/bindings.h"
 #include "python/studies/printable_error.h"
 
@@ -42,6 +43,10 @@ void require_distinct_files(const std::vector<Read>& read, const std::filesystem
 
 void bind_files(py::module_& module) {
     module.def("read_file", &read_file, py::arg("file"), "All of a regular file of at most 256 MiB.");
+    module.attr("DEEPEST_JSON") = deepest_json;
+    module.def(
+        "depth_of_json", [](const std::string& text) { return depth_of_json(text); }, py::arg("text"),
+        "How deep lists and objects lie in one another.");
     module.def("write_file", &write_file, py::arg("file"), py::arg("text"),
                "Replaces a file as a whole; of a link, the link.");
     module.def("require_distinct_files", &require_distinct_files, py::arg("read"), py::arg("folder"),

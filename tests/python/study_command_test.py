@@ -2,8 +2,11 @@
 
 import os
 import pathlib
+import signal
 import subprocess
+import sys
 import tempfile
+import time
 import unittest
 
 from support import program
@@ -25,6 +28,70 @@ def a_study():
     parser.add_argument("--names", type=options.listed(options.one_of("a", "b")))
     options.add_common(parser, "made", 1)
     return parser
+
+
+A_SLOW_STUDY = """
+import pathlib, sys, time, types
+from osteomill.studies import program
+
+def slow(case):
+    pathlib.Path(case).touch()
+    time.sleep(600)
+
+made = types.ModuleType("osteomill.studies.made")
+made.add_options = lambda parser: parser.add_argument("files", nargs="+")
+made.run = lambda options, study: study.sweep(slow, options.files)
+sys.modules[made.__name__] = made
+program.STUDIES = (("made", "made", "a slow one"),)
+sys.exit(program.main(sys.argv[1:]))
+"""
+
+
+class InterruptedTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def started(self):
+        """A study of two processes, both at work, with a session of its own."""
+        (self.folder / "slow.py").write_text(A_SLOW_STUDY)
+        files = [self.folder / name for name in ("a", "b", "c")]
+        for file in files:
+            file.unlink(missing_ok=True)
+        study = subprocess.Popen([sys.executable, self.folder / "slow.py", "made", *files, "--jobs", "2", "--out", self.folder / "out"],
+                                 stderr=subprocess.PIPE, text=True, start_new_session=True)
+        self.eventually(lambda: sum(file.exists() for file in files) == 2)
+        return study
+
+    def eventually(self, holds):
+        until = time.monotonic() + 120
+        while not holds():
+            self.assertLess(time.monotonic(), until)
+            time.sleep(0.02)
+
+    def has_ended(self, group):
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return True
+        return False
+
+    def test_ends_in_a_line_and_leaves_no_process(self):
+        for kill in (os.kill, os.killpg):  # by somebody else, and by Ctrl-C
+            study = self.started()
+            kill(study.pid, signal.SIGINT)
+            error = study.communicate(timeout=120)[1]
+            self.assertEqual(study.returncode, 130, error)
+            self.assertEqual(error.splitlines()[-1], "osteomill_study: interrupted; the same command goes on with the cases that are done")
+            self.assertNotIn("Traceback", error)
+            self.eventually(lambda: self.has_ended(study.pid))
+
+    def test_its_processes_end_with_it(self):
+        study = self.started()
+        study.kill()
+        study.communicate(timeout=120)
+        self.eventually(lambda: self.has_ended(study.pid))
 
 
 class StudyCommandTest(unittest.TestCase):

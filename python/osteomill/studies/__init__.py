@@ -9,7 +9,8 @@ and, where they are other than usual,
 
     JOBS                    how many cases run at a time unless --jobs says so: 1 where it measures times;
     ONE_BY_ONE              true: whatever --jobs says;
-    WRITES                  names (fnmatch) of what it writes into --out, none of which may be a file that it reads.
+    WRITES                  names (fnmatch) of what it writes into --out, none of which may be a file that it reads;
+    IS_REPEATED             false: it writes elsewhere than into --out, too, and so is not run by `repeat`.
 
 It raises ValueError, RuntimeError or OSError in one line for what is wrong in its input, and
 options.UsageError for what is wrong on the command line.

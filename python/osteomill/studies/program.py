@@ -12,15 +12,16 @@ from typing import Any, NoReturn
 
 from osteomill import _studies
 from osteomill.part_files import JoinedParts, part_named
-from osteomill.studies import manifest
+from osteomill.studies import manifest, repeat
 from osteomill.studies.kept_command import joined_parts, program_fingerprint, require_study_words, words_of_study
 from osteomill.studies.options import Parser, UsageError, add_common, name_of, require_plain
 from osteomill.studies.study_run import PartIsDone, StudyRun
-from osteomill.studies.text import line_of, printable
+from osteomill.studies.text import line_of, one_line, printable
 
 PROGRAM = "osteomill_study"
 KERNELS = "osteomill_study_kernels"  # the studies that are in C++ still
 IN_KERNELS = "C++"
+REPEAT = "repeat"
 
 # Name, module of osteomill.studies, what it is.
 STUDIES = (
@@ -32,7 +33,7 @@ STUDIES = (
     ("bridge", IN_KERNELS, "the way to an arm behind the bridge and back, beside a bare echo of the same size"),
     ("calibrate", IN_KERNELS, "the six coefficients of the milling law from forces on a dynamometer; or which runs to make"),
     ("sessions", "sessions", "recorded sessions of several trainees: tables, learning curves, an overview, a tidy CSV"),
-    ("repeat", IN_KERNELS, "run a study again, twice, and say what differs from its folder by more than its noise"),
+    ("repeat", REPEAT, "run a study again, twice, and say what differs from its folder by more than its noise"),
 )
 
 EXIT_FAILURE, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 128 + signal.SIGINT
@@ -85,6 +86,8 @@ def _run(words: list[str]) -> int:
         raise UsageError(f"The following argument was not expected: {printable(words[0])}; it must be a study: "
                          f"{', '.join(names[:-1])} or {names[-1]}")
     module = next(module for name, module, _ in STUDIES if name == words[0])
+    if module == REPEAT:
+        return _repeat(words)
     if module == IN_KERNELS:
         _hand_to_kernels(words)
     return _run_study(words, importlib.import_module(f"osteomill.studies.{module}"))
@@ -110,10 +113,33 @@ def _hand_to_kernels(words: list[str]) -> NoReturn:
     os.execv(beside, [PROGRAM, *words])
 
 
+def _repeat(words: list[str]) -> int:
+    """The folder may be from elsewhere: what its manifest names must be a study, which writes into --out alone."""
+    parser = Parser(prog=f"{PROGRAM} {REPEAT}", description=_what_is(REPEAT))
+    parser.add_argument("dir", type=pathlib.Path, help="the folder that the study wrote")
+    try:
+        folder = parser.parse(words[1:]).dir
+    except SystemExit as end:
+        return int(end.code or 0)
+    kept = repeat.kept_manifest(folder)
+    file, name = folder / manifest.NAME, kept["command"][0]
+    module = next((module for study, module, _ in STUDIES if study == name), None)
+    if module == IN_KERNELS:
+        _hand_to_kernels(words)
+    study = importlib.import_module(f"osteomill.studies.{module}") if module not in (None, REPEAT) else None
+    if study is None or not getattr(study, "IS_REPEATED", True):
+        raise RuntimeError(f"{file}: it names no study that can be repeated: '{one_line(' '.join(kept['command']))}'")
+    require_study_words(kept["command"], name, parser_of(name, study), file)
+    return 0 if repeat.repeat(folder, kept) else EXIT_FAILURE
+
+
+def _what_is(name: str) -> str:
+    return next(what for study, _, what in STUDIES if study == name)
+
+
 def parser_of(name: str, module: Any) -> Parser:
     """Of a study's options."""
-    what = next(what for study, _, what in STUDIES if study == name)
-    parser = Parser(prog=f"{PROGRAM} {name}", description=what)
+    parser = Parser(prog=f"{PROGRAM} {name}", description=_what_is(name))
     module.add_options(parser)
     add_common(parser, name, getattr(module, "JOBS", None))
     return parser

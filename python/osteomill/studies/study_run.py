@@ -10,9 +10,10 @@ they were stopped (--jobs, --shard, --merge). Outcomes go through a file of JSON
 (osteomill/part_files.py): what is written of them does not depend on where they ran.
 """
 
+import contextlib
 import pathlib
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable
 from typing import TYPE_CHECKING, Any, TextIO
 
 from osteomill import _studies
@@ -135,10 +136,11 @@ class StudyRun:
         try:
             if its:
                 line.report(done_before / len(its))
-            for done, (index, outcome) in enumerate(_run_named(function, cases, names, to_do, self.jobs), done_before + 1):
-                writer.append(index, outcome)
-                writer.done[index] = outcome
-                line.report(done / len(its))
+            with contextlib.closing(_run_named(function, cases, names, to_do, self.jobs)) as outcomes:
+                for done, (index, outcome) in enumerate(outcomes, done_before + 1):
+                    writer.append(index, outcome)
+                    writer.done[index] = outcome
+                    line.report(done / len(its))
         finally:
             line.end()
 
@@ -159,7 +161,7 @@ class _Named:
 
 def _run_named(
     function: Callable[[Any], Any], cases: list[Any], names: list[str], to_do: list[int], jobs: int
-) -> Iterable[tuple[int, Any]]:
+) -> Generator[tuple[int, Any], None, None]:
     """In this process where one case runs at a time: what measures times has no other beside it."""
     named = list(zip(names, cases))
     if jobs > 1:

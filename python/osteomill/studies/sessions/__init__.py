@@ -22,6 +22,7 @@ from osteomill.studies.tables import csv_of
 from osteomill.studies.text import holds_password, printable
 
 WRITES = ("sessions.*", "*.svg")
+IS_REPEATED = False  # it may write into a database
 CSV_DIGITS = 9
 
 
