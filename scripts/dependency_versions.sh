@@ -5,7 +5,7 @@
 set -euo pipefail
 [ $# -gt 0 ] || { sed -n '2,/^set/{/^#/p}' "$0" >&2; exit 2; }
 cd "$(dirname "$0")/.."
-mapfile -t packages < <(printf '%s\n' g++ cmake python3 python3-numpy; grep -e '-dev$' scripts/packages.txt | grep -v '^python3-')
+mapfile -t packages < <(printf '%s\n' g++ cmake python3; grep '^python3-' scripts/packages.txt | grep -v '^python3-dev$'; grep -e '-dev$' scripts/packages.txt | grep -v '^python3-')
 
 apt=$(mktemp -d)
 trap 'rm -rf "$apt"' EXIT

@@ -13,7 +13,6 @@
 #include "analysis/calibration/calibration_options.h"
 #include "analysis/output/cases/kept_command.h"
 #include "analysis/output/repeated/manifest.h"
-#include "analysis/sessions/sessions_options.h"
 #include "common/program/commit.h"
 #include "common/program/option_checks.h"
 #include "common/text/address_text.h"
@@ -34,9 +33,9 @@ int main(int argc, char** argv) {
     CLI::App app("Studies of the simulator: numbers and charts.", "osteomill_study");
     app.set_version_flag("--version", OSTEOMILL_VERSION);
     app.require_subcommand(0, 1);
-    const std::vector<StudyCommand> studies{
-        add_force(app),    add_stability(app), add_polishing(app),   add_render(app),
-        add_realtime(app), add_bridge(app),    add_calibration(app), add_sessions(app, OSTEOMILL_VERSION)};
+    const std::vector<StudyCommand> studies{add_force(app),      add_stability(app), add_polishing(app),
+                                            add_render(app),     add_realtime(app),  add_bridge(app),
+                                            add_calibration(app)};
     std::vector<std::string> names;
     std::vector<StudyCommand> repeated;
     for (const StudyCommand& study : studies) {

@@ -15,11 +15,15 @@
 #include <vector>
 
 #include "analysis/report/session_trace.h"
-#include "analysis/statistics/mean_interval.h"
 
 namespace osteomill {
 
 inline constexpr std::size_t fewest_references = 4;
+
+struct Interval {
+    double low = 0.0;
+    double high = 0.0;
+};
 
 /// Where the middle half of some values lies: from the first quartile to the third (percentile.h). Nothing
 /// for fewer than fewest_references.

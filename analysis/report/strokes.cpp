@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <utility>
 
 #include "analysis/report/smoothness.h"
-#include "analysis/statistics/mean_interval.h"
 #include "common/scene/stroke_span.h"
 #include "common/statistics/percentile.h"
 
@@ -46,8 +46,13 @@ class UndoneStrokes {
 };
 
 std::optional<double> variation(const std::vector<double>& values) {
-    if (values.size() < 3 || !(mean_of(values) > 0.0)) return std::nullopt;
-    return std::sqrt(sample_variance(values)) / mean_of(values);
+    const auto n = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    if (values.size() < 3 || !(mean > 0.0)) return std::nullopt;
+    const double squares =
+        std::accumulate(values.begin(), values.end(), 0.0,
+                        [mean](double sum, double value) { return sum + (value - mean) * (value - mean); });
+    return std::sqrt(squares / (n - 1.0)) / mean;
 }
 
 }  // namespace

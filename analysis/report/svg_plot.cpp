@@ -111,7 +111,7 @@ void add_axes(std::string& svg, const SvgPlot& plot, const Axes& axes) {
             "text-anchor='end'>{:g}</text>",
             left, axes.py(y), width - right, left - 6.0, axes.py(y) + 4.0,
             std::abs(y) < 1e-9 * y_step ? 0.0 : y);
-    const double x_step = plot.x_is_count ? std::max(1.0, std::round(tick_step(axes.x))) : tick_step(axes.x);
+    const double x_step = tick_step(axes.x);
     for (double x = std::ceil(axes.x.low / x_step) * x_step; x <= axes.x.high + 1e-9 * x_step; x += x_step)
         svg += fmt::format(
             "<path d='M{0:.1f} {1:.1f}v5' stroke='#888'/><text x='{0:.1f}' y='{2:.1f}' "
@@ -127,37 +127,17 @@ void add_axes(std::string& svg, const SvgPlot& plot, const Axes& axes) {
 }
 
 void add_line(std::string& svg, const PlotLine& line, const Axes& axes, std::size_t number) {
-    const char* const colour = line.is_bold ? "#000" : colour_of(number);
+    const char* const colour = colour_of(number);
     const std::vector<Dot> dots = visible(line, axes);
     if (dots.empty()) return;
     svg +=
-        fmt::format("<polyline fill='none' stroke='{}' stroke-width='{}' stroke-linejoin='round'{} points='",
-                    colour, line.is_bold ? 2.5 : 1.5, line.is_bold ? "" : dashes_of(number));
+        fmt::format("<polyline fill='none' stroke='{}' stroke-width='1.5' stroke-linejoin='round'{} points='",
+                    colour, dashes_of(number));
     for (const Dot& dot : dots) svg += fmt::format("{:.1f},{:.1f} ", dot.x, dot.y);
     svg += "'/>";
-    if (line.has_dots || dots.size() == 1)
+    if (dots.size() == 1)
         for (const Dot& dot : dots)
             svg += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='3.5' fill='{}'/>", dot.x, dot.y, colour);
-}
-
-void add_band(std::string& svg, const PlotBand& band, const Axes& axes) {
-    std::string points;
-    for (std::size_t i = 0; i < band.x.size(); ++i)
-        points += fmt::format("{:.1f},{:.1f} ", axes.px(band.x[i]), axes.py(band.high[i]));
-    for (std::size_t i = band.x.size(); i-- > 0;)
-        points += fmt::format("{:.1f},{:.1f} ", axes.px(band.x[i]), axes.py(band.low[i]));
-    svg += fmt::format("<polygon fill='{}' opacity='0.22' points='{}'/>", band.colour, points);
-    if (!band.x.empty() && !band.text.empty())
-        svg +=
-            fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end' font-size='11' fill='#555'>{}</text>",
-                        width - right - 2.0, axes.py(band.high.back()) + 11.0, html_text(band.text));
-}
-
-void add_level(std::string& svg, const PlotLevel& level, const Axes& axes) {
-    svg += fmt::format(
-        "<path d='M{0:.1f} {1:.1f}H{2:.1f}' stroke='#b00' stroke-dasharray='6 4'/><text x='{3:.1f}' "
-        "y='{4:.1f}' fill='#b00' font-size='11'>{5}</text>",
-        left, axes.py(level.y), width - right, left + 4.0, axes.py(level.y) - 3.0, html_text(level.text));
 }
 
 void add_moment(std::string& svg, const PlotMoment& moment, double x) {
@@ -179,8 +159,7 @@ void add_legend_entry(std::string& svg, const SvgPlot& plot, std::size_t i, doub
     svg += fmt::format(
         "<path d='M{0:.1f} {1:.1f}h14' stroke='{2}' stroke-width='3'{3}/><text x='{4:.1f}' y='{5:.1f}'>"
         "{6}</text>",
-        x, y - 4.0, plot.lines[i].is_bold ? "#000" : colour_of(i), plot.lines[i].is_bold ? "" : dashes_of(i),
-        x + 18.0, y, html_text(plot.lines[i].name));
+        x, y - 4.0, colour_of(i), dashes_of(i), x + 18.0, y, html_text(plot.lines[i].name));
 }
 
 /// Beside the title where there is room, else in rows below the plot. Returns the height of these.
@@ -219,20 +198,14 @@ std::string to_svg(const SvgPlot& plot) {
                 axes.x.hold(line.x[i]);
                 axes.y.hold(line.y[i]);
             }
-    for (const PlotBand& band : plot.bands)
-        for (std::size_t i = 0; i < band.x.size(); ++i) axes.y.hold(band.low[i]), axes.y.hold(band.high[i]);
-    for (const PlotLevel& level : plot.levels) axes.y.hold(level.y);
     if (plot.y_from_zero) axes.y.hold(0.0);
     axes.x.widen();
-    if (plot.x_is_count) axes.x = {axes.x.low - 0.25, axes.x.high + 0.25};
     axes.y.widen();
     const double room = 0.04 * (axes.y.high - axes.y.low);
     axes.y.high += room;
     if (axes.y.low != 0.0) axes.y.low -= room;
     std::string svg = fmt::format("<title>{}</title>", html_text(plot.title));
-    for (const PlotBand& band : plot.bands) add_band(svg, band, axes);
     add_axes(svg, plot, axes);
-    for (const PlotLevel& level : plot.levels) add_level(svg, level, axes);
     for (const PlotMoment& moment : plot.moments)
         if (moment.x >= axes.x.low && moment.x <= axes.x.high) add_moment(svg, moment, axes.px(moment.x));
     for (std::size_t i = 0; i < plot.lines.size(); ++i) add_line(svg, plot.lines[i], axes, i);

@@ -34,6 +34,10 @@ const std::vector<Room>& rooms() {
         // The pictures of the module of Python are a library of their own: its core knows no OpenGL.
         {"python/render/",
          {"common/", "python/module/arrays.h", "render_client/dataset/", "render_client/volume/"}},
+        // Kernels of the package's studies.
+        {"python/studies/",
+         {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/", "haptic_server/",
+          "render_client/", "studies/"}},
         {"python/",
          {"common/", "simulation/", "devices/simulated/", "imaging/", "analysis/", "haptic_server/"}},
         {"studies/",

@@ -51,17 +51,6 @@ TEST(SvgPlotTest, KeepsTheNamesOfManyLinesInThePicture) {
     EXPECT_THAT(svg, HasSubstr("stroke='#0072b2' stroke-width='3' stroke-dasharray"));
 }
 
-TEST(SvgPlotTest, HasRoomForBandsAndLevels) {
-    const std::string svg = to_svg({.lines = {{.x = {0, 1}, .y = {1, 1}}},
-                                    .bands = {{.text = "<b>", .x = {0, 1}, .low = {0, 1}, .high = {2, 100}}},
-                                    .levels = {{50.0, "<i>"}}});
-    // 140 units high for 0 to 104; the plot's foot is at 170.
-    EXPECT_THAT(svg, HasSubstr("points='62.0,167.3 886.0,35.4 886.0,168.7 62.0,170.0 '"));
-    EXPECT_THAT(svg, HasSubstr("M62.0 102.7H886.0"));
-    EXPECT_THAT(svg, HasSubstr("&lt;b&gt;"));
-    EXPECT_THAT(svg, HasSubstr("&lt;i&gt;"));
-}
-
 TEST(SvgPlotTest, ShowsNamesAsText) {
     const std::string svg = to_svg({.title = "<i>",
                                     .lines = {{.name = "</svg>", .x = {0, 1}, .y = {0, 1}}, {}},
