@@ -2,7 +2,7 @@
 # end, and a signed repository of the packages in it. As try_debian.sh: bare roots are made once and kept in OSTEOMILL_ROOTS
 # (/var/tmp/osteomill-roots), of OSTEOMILL_MIRROR (http://deb.debian.org/debian).
 
-named=(osteomill-server osteomill-client osteomill-tools python3-osteomill osteomill-bridge-dev osteomill-doc)
+named=(osteomill-server osteomill-client osteomill-tools osteomill-study python3-osteomill osteomill-bridge-dev osteomill-doc)
 
 say() { printf '\n== %s\n' "$*"; }
 within() { chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
