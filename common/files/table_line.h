@@ -49,6 +49,8 @@ class TableLines {
         return false;
     }
     const std::string& line() const { return line_; }
+    /// Of the line, from 1.
+    int number() const { return number_; }
 
     /// Throws std::runtime_error, "NAME:LINE: WHY".
     [[noreturn]] void fail(const std::string& why) const {

@@ -3,6 +3,9 @@ import os
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 _Path = str | os.PathLike[str]
 
 VERSION: str
@@ -27,3 +30,18 @@ def local_time_text(unix_ns: int) -> str: ...
 def trainee_groups(file: _Path) -> dict[str, str]: ...
 def digest_of_recording(file: _Path) -> str: ...
 def read_session(file: _Path) -> dict[str, Any]: ...
+def table_lines(file: _Path) -> list[tuple[int, list[bytes]]]: ...
+def mean_slot_force_n(
+    *,
+    diameter_mm: float,
+    edges: int,
+    turns: str,
+    rpm: float,
+    feed_mm_per_s: float,
+    depth_mm: float,
+    axis: Sequence[float],
+    previous_groove_mm_higher: float | None,
+    cutting_n_per_mm2: Sequence[float] | npt.NDArray[np.float64],
+    edge_n_per_mm: Sequence[float] | npt.NDArray[np.float64],
+    finer: int = 1,
+) -> npt.NDArray[np.float64]: ...

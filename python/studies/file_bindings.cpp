@@ -11,7 +11,10 @@
 #include "common/files/atomic_file.h"
 #include "common/files/distinct_files.h"
 #include "common/files/input_file.h"
+#include "common/files/table_line.h"
 #include "common/text/foreign_json.h"
+#include "common/text/plain_text.h"
+#include "common/text/words.h"
 #include "python/studies/bindings.h"
 #include "python/studies/printable_error.h"
 
@@ -23,6 +26,19 @@ namespace {
 
 py::bytes read_file(const std::filesystem::path& file) {
     return with_printable_error([&] { return py::bytes(read_text(file, json_kind)); });
+}
+
+/// Number and cells of each line that says something.
+std::vector<std::pair<int, std::vector<py::bytes>>> table_lines(const std::filesystem::path& file) {
+    return with_printable_error([&] {
+        std::vector<std::pair<int, std::vector<py::bytes>>> found;
+        TableLines lines(read_text(file, table_kind), file.string());
+        while (lines.next()) {
+            const std::vector<std::string> cells = cells_of(lines.line());
+            found.emplace_back(lines.number(), std::vector<py::bytes>(cells.begin(), cells.end()));
+        }
+        return found;
+    });
 }
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
@@ -47,12 +63,16 @@ void bind_files(py::module_& module) {
     module.def(
         "depth_of_json", [](const std::string& text) { return depth_of_json(text); }, py::arg("text"),
         "How deep lists and objects lie in one another.");
-    module.def("write_file", &write_file, py::arg("file"), py::arg("text"),
-               "Replaces a file as a whole; of a link, the link.");
-    module.def("require_distinct_files", &require_distinct_files, py::arg("read"), py::arg("folder"),
-               py::arg("names"),
-               "Refuses where one of the files that options name is one that is written into the folder of "
-               "--out, under one of these names (fnmatch).");
+        "table_lines", &table_lines, py::arg("file"),
+        "Of a table in CSV, at most 64 MiB: the number of each line that is neither blank nor a comment, and "
+        "its cells, without blanks around them.");
+        module.def("write_file", &write_file, py::arg("file"), py::arg("text"),
+                   "Replaces a file as a whole; of a link, the link.");
+        module.def(
+            "require_distinct_files", &require_distinct_files, py::arg("read"), py::arg("folder"),
+            py::arg("names"),
+            "Refuses where one of the files that options name is one that is written into the folder of "
+            "--out, under one of these names (fnmatch).");
 }
 
 }  // namespace osteomill::python

@@ -31,7 +31,7 @@ STUDIES = (
     ("render", IN_KERNELS, "the pictures: frame time against accuracy, how smooth a cut looks"),
     ("realtime", IN_KERNELS, "how late the haptic loop wakes and how long it takes, in turns with cyclictest; then under stress-ng"),
     ("bridge", IN_KERNELS, "the way to an arm behind the bridge and back, beside a bare echo of the same size"),
-    ("calibrate", IN_KERNELS, "the six coefficients of the milling law from forces on a dynamometer; or which runs to make"),
+    ("calibrate", "calibrate", "the six coefficients of the milling law from forces on a dynamometer; or which runs to make"),
     ("sessions", "sessions", "recorded sessions of several trainees: tables, learning curves, an overview, a tidy CSV"),
     ("repeat", REPEAT, "run a study again, twice, and say what differs from its folder by more than its noise"),
 )
