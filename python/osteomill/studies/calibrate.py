@@ -75,7 +75,7 @@ def calibrate(options: argparse.Namespace, study: StudyRun) -> None:
     outcomes = study.sweep(
         fit_material,
         [how | {"runs": table.to_dict("list")} for table in tables],
-        name=lambda case: "material " + case["runs"]["material"][0],
+        name=lambda case: f"material {case['runs']['material'][0]}",
     )
     calibrations = [
         report.Calibration(table.material.iloc[0], table, Fit(**{key: _array_or_same(value) for key, value in outcome.items()}))
