@@ -35,6 +35,9 @@ constexpr double longest_wait_s = 0.001 - 1e-7;
 /// ripple.
 constexpr double least_look_voxels = 1.0;
 
+/// The full scan keeps each voxel of a burr: 64 MiB of the largest.
+constexpr double most_scanned_voxels_across = 200.0;
+
 /// Nobody feels the direction of a step that crosses the whole bone.
 constexpr double most_substeps = 64.0;
 
@@ -42,6 +45,14 @@ std::vector<Burr> as_summed(std::vector<Burr> burrs, const MillingSettings& sett
     if (!settings.has_edge_forces)
         for (Burr& burr : burrs) burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
     return burrs;
+}
+
+void require_scannable(const Burr& burr, double spacing_mm) {
+    require_ball(burr, "the full scan");
+    if (burr.diameter_mm > most_scanned_voxels_across * spacing_mm)
+        throw std::invalid_argument("burr '" + burr.name +
+                                    "' is more than 200 voxels across, the most that the "
+                                    "full scan takes: take the force model 'milling'");
 }
 
 /// Of a spindle that tilts on its way.
@@ -125,6 +136,10 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
     for (const Burr& burr : burrs_.all()) {
         require_valid(burr, bone_.grid().spacing_mm);
         if (settings.summation == ForceSummation::bins) require_ball(burr, "the force over bins");
+        if (settings.search == VoxelSearch::full_scan) {
+            require_scannable(burr, bone_.grid().spacing_mm);
+            scans_.emplace_back(burr.radius_mm() / bone_.grid().spacing_mm, settings.coverage);
+        }
         heads_.emplace_back();
         if (!burr.is_ball())
             heads_.back().emplace(burr.head, burr.diameter_mm, 1.0 / bone_.grid().spacing_mm);
@@ -153,7 +168,9 @@ void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting,
         else
             preview_carve(bone_, Sweep{sweep.from, sweep.from + ahead, sweep.radius}, carving, rubbed);
     }
-    if (cutting.head != nullptr)
+    if (!scans_.empty())
+        scans_[burr_].carve(bone_, sweep, cutting.frame, carving, changes, removed);
+    else if (cutting.head != nullptr)
         carve_head(bone_, {*cutting.head, cutting.frame, sweep.from, sweep.to}, carving, changes, removed);
     else
         carve(bone_, sweep, carved_at_position_ ? CarveHistory::carved_at_from : CarveHistory::none, carving,
@@ -194,7 +211,8 @@ double MillingModel::motion_mm(const BurrCommand& command) const noexcept {
 }
 
 bool MillingModel::can_wait(const BurrCommand& command) const noexcept {
-    return carved_at_position_ && !command.wants_engagement && since_milled_s_ < longest_wait_s &&
+    return scans_.empty() && carved_at_position_ && !command.wants_engagement &&
+           since_milled_s_ < longest_wait_s &&
            motion_mm(command) / bone_.grid().spacing_mm < shortest_path_voxels;
 }
 

@@ -14,6 +14,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/turning_burrs.h"
 #include "common/scene/uncut_tissues.h"
+#include "simulation/carving/full_scan.h"
 #include "simulation/cutting_force/instantaneous_force.h"
 #include "simulation/engagement/engagement_probe.h"
 #include "simulation/exchange/milling_step.h"
@@ -65,6 +66,7 @@ class MillingModel final : public ForceModel {
     TurningBurrs burrs_;
     std::vector<EngagementProbe> probes_;            // by burr
     std::vector<std::optional<BurrProfile>> heads_;  // likewise, in voxels; nothing for a ball
+    std::vector<FullScan> scans_;                    // likewise; none but for VoxelSearch::full_scan
     MillingSettings settings_;
     EdgeShares edge_shares_;
     bool has_edge_shares_;

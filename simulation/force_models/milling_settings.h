@@ -15,12 +15,19 @@ enum class ForceSummation {
     instants  ///< within the tooth period (instantaneous_force.h)
 };
 
+/// How a step finds the bone that it removes.
+enum class VoxelSearch {
+    crescent,  ///< only what two positions of the burr do not share (carve.h)
+    full_scan  ///< every voxel of the burr, as published (full_scan.h)
+};
+
 struct MillingSettings {
     bool has_edge_forces = true;  ///< false: the published law, whatever the burrs' edge coefficients
     ForceSummation summation = ForceSummation::voxels;
     ChipBins bins{};              ///< of ForceSummation::bins
     int instants_per_tooth = 20;  ///< of ForceSummation::instants
     VoxelCoverage coverage = VoxelCoverage::smoothed;
+    VoxelSearch search = VoxelSearch::crescent;
     InstructionSet instructions = best_instruction_set();
 };
 

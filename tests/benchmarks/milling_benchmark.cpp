@@ -28,7 +28,6 @@
 #include "studies/force/bone_block.h"
 #include "studies/force/studied_model.h"
 #include "tests/support/block.h"
-#include "tests/support/full_scan.h"
 
 namespace osteomill {
 namespace {
@@ -81,7 +80,8 @@ void CrescentAgainstFullScan(benchmark::State& state) {
     const Burr burr;
     const auto crescent = study::voxel_model()(volume(), burr);
     const auto mapping = study::voxel_model_with_engagement()(volume(), burr);
-    const auto scan = study::full_scan_model({.summation = ForceSummation::bins})(volume(), burr);
+    const auto scan = study::voxel_model(
+        {.summation = ForceSummation::bins, .search = VoxelSearch::full_scan})(volume(), burr);
     Way way(0.1 * static_cast<double>(state.range(0)), static_cast<double>(state.range(1)));
     const BurrCommand first = way.next();
     crescent->step(first);
