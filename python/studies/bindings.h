@@ -9,5 +9,6 @@ void bind_calibration(pybind11::module_& module);
 void bind_texts(pybind11::module_& module);
 void bind_files(pybind11::module_& module);
 void bind_sessions(pybind11::module_& module);
+void bind_forces(pybind11::module_& module);
 
 }  // namespace osteomill::python

@@ -14,4 +14,5 @@ PYBIND11_MODULE(_studies, module) {
     osteomill::python::bind_texts(module);
     osteomill::python::bind_files(module);
     osteomill::python::bind_sessions(module);
+    osteomill::python::bind_forces(module);
 }

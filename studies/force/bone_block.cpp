@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "common/bone/bone_builder.h"
@@ -54,6 +55,25 @@ Bone voxelised(const BoneBlock& block, double spacing_mm) {
         return VoxelValues{.fraction = fraction_below(centre_mm, block.up, spacing_mm),
                            .stiffness = code_of(centre_mm)};
     });
+}
+
+Bone cube_of_bone(int edge_voxels, double spacing_mm, int box_voxels) {
+    const int box = box_voxels > 0 ? box_voxels : edge_voxels;
+    if (edge_voxels <= 0 || box < edge_voxels || edge_voxels % brick_edge_voxels != 0 ||
+        box % brick_edge_voxels != 0)
+        throw std::invalid_argument("a cube of bone and its box have edges of multiples of 16 voxels");
+    const double half_mm = 0.5 * edge_voxels * spacing_mm;
+    const Grid grid{.size_voxels = glm::ivec3(box),
+                    .spacing_mm = spacing_mm,
+                    .origin_mm = glm::dvec3(-half_mm, -half_mm, -2.0 * half_mm) + 0.5 * spacing_mm};
+    BoneBuilder builder = BoneBuilder::homogeneous(grid, 1.0, false);
+    ByteBrick full;
+    full.fill(255);
+    const int bricks = edge_voxels / brick_edge_voxels;
+    for (int z = 0; z < bricks; ++z)
+        for (int y = 0; y < bricks; ++y)
+            for (int x = 0; x < bricks; ++x) builder.add_brick({x, y, z}, full, nullptr, nullptr);
+    return std::move(builder).build();
 }
 
 }  // namespace osteomill::study

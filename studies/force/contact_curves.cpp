@@ -30,15 +30,6 @@ glm::dvec3 place_at(double depth_mm, double x_mm) {
     return {x_mm, 0.017, five_millimetres().radius_mm() - depth_mm};
 }
 
-double resting_force_n(const std::string& name, const Bone& bone, double depth_mm) {
-    const auto model = make_force_model(name, bone, {five_millimetres()}, {});
-    ForgottenChanges changes;
-    const auto result = std::make_unique<MillingResult>();
-    model->step({.pose = {place_at(depth_mm, 0.031), {0.0, 0.0, 1.0}}, .elapsed_s = 0.001}, 0.0, changes,
-                *result);
-    return glm::length(result->force_n);
-}
-
 double milling_force_n(double depth_mm, double feed_mm_per_s) {
     return glm::length(mean_reference_force_n({.burr = five_millimetres(),
                                                .position_mm = place_at(depth_mm, 0.0),
@@ -47,6 +38,15 @@ double milling_force_n(double depth_mm, double feed_mm_per_s) {
 }
 
 }  // namespace
+
+double resting_force_n(const std::string& name, double depth_mm) {
+    const auto model = make_force_model(name, flat_block(), {five_millimetres()}, {});
+    ForgottenChanges changes;
+    const auto result = std::make_unique<MillingResult>();
+    model->step({.pose = {place_at(depth_mm, 0.031), {0.0, 0.0, 1.0}}, .elapsed_s = 0.001}, 0.0, changes,
+                *result);
+    return glm::length(result->force_n);
+}
 
 std::vector<std::string> contact_models() {
     std::vector<std::string> names;
@@ -63,10 +63,8 @@ std::vector<double> contact_depths_mm(bool quick) {
 }
 
 ContactRow measure_contact(double depth_mm) {
-    const Bone bone = flat_block();
     ContactRow row{.depth_mm = depth_mm};
-    for (const std::string& name : contact_models())
-        row.force_n.push_back(resting_force_n(name, bone, depth_mm));
+    for (const std::string& name : contact_models()) row.force_n.push_back(resting_force_n(name, depth_mm));
     for (const double feed : feeds_mm_per_s) row.milling_force_n.push_back(milling_force_n(depth_mm, feed));
     return row;
 }

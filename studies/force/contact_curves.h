@@ -21,6 +21,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContactRow, depth_mm, force_n, milling_force_
 std::vector<std::string> contact_models();
 std::vector<double> contact_depths_mm(bool quick);
 
+/// Length of the force that a model feels of such a burr, N.
+double resting_force_n(const std::string& model, double depth_mm);
+
 /// A 5 mm burr, upright, spindle off, over 0.1 mm voxels; the milling force at 10 000 rpm.
 ContactRow measure_contact(double depth_mm);
 

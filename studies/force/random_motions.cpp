@@ -82,9 +82,11 @@ RandomMotion draw_motion(Draw& draw, double voxel_mm) {
     return drawn;
 }
 
-/// Along a path that dives the force changes with the depth: its mean by Gauss's five points.
+}  // namespace
+
 glm::dvec3 reference_over_path_n(const RandomMotion& drawn) {
     if (!drawn.dives) return mean_reference_force_n(motion_of(drawn.motion), bone_of(drawn.motion));
+    // By Gauss's five points.
     constexpr std::array<double, 5> points{0.046910077030668, 0.230765344947158, 0.5, 0.769234655052841,
                                            0.953089922969332};
     constexpr std::array<double, 5> weights{0.118463442528095, 0.239314335249683, 0.284444444444444,
@@ -100,8 +102,6 @@ glm::dvec3 reference_over_path_n(const RandomMotion& drawn) {
     }
     return force_n;
 }
-
-}  // namespace
 
 std::vector<RandomMotion> random_motions(int count, std::uint64_t seed, double voxel_mm) {
     Draw draw(seed);

@@ -53,6 +53,10 @@ struct RandomResult {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RandomResult, reference_n, force_n, error, ripple, deviations,
                                    largest_step, step_us)
 
+/// Mean force by the analytical reference. Along a path that dives the force changes with the depth: its mean
+/// over it.
+glm::dvec3 reference_over_path_n(const RandomMotion& drawn);
+
 RandomResult measure(const RandomMotion& motion, const MakeModel& make_model);
 
 /// Table with a header, a line a motion.

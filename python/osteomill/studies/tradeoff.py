@@ -1,0 +1,47 @@
+"""Speed against accuracy, for every choice that costs time: one page, with the published method, the default, the
+front of the best, and what each built-in scene needs.
+
+Each part is in a file of its own, which says what it measures: tradeoff_force.py. Times hold for the machine that
+measured them; compare them within a chart.
+"""
+
+import argparse
+from typing import Any
+
+from osteomill.studies import tradeoff_force
+from osteomill.studies.study_run import StudyRun
+
+NAME = "tradeoff"
+HELP = "speed against accuracy, on one page, for every choice that costs time"
+JOBS = 1  # it measures times
+ONE_BY_ONE = True
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--quick", action="store_true", help="fewer choices, shorter runs: a minute")
+
+
+def measure(case: dict[str, Any]) -> dict[str, float]:
+    return tradeoff_force.measure(case)
+
+
+def run(options: argparse.Namespace, study: StudyRun) -> None:
+    cases = tradeoff_force.cases(options.quick)
+    outcomes = study.sweep(measure, cases, lambda case: f"{case['part']}, {case['family']}, {case['label']}")
+    force = tradeoff_force.table_of(cases, outcomes)
+    needs = tradeoff_force.needs_of(force)
+    study.table("tradeoff_force", force)
+    study.table("tradeoff_needs", needs)
+    study.json("tradeoff", {"force": force.to_dict("records"), "needs": needs.to_dict("records")})
+    from osteomill.studies.tradeoff_page import page_of
+
+    study.chart("tradeoff", page_of(force, needs))
+    study.say(_default_in_words(force))
+    study.say(f"tradeoff.svg, the tables (CSV) and tradeoff.json are in {study.out}")
+
+
+def _default_in_words(force: Any) -> str:
+    row = force[force["is_default"] & (force["varied"] == "voxels")].iloc[0]
+    published = force[force["is_published"] & (force["varied"] == "voxels")].iloc[0]
+    return (f"force: the default takes {row.step_us:.1f} us a step, {row.times_faster:.0f} times less than the published "
+            f"method, and is off by {row.error_percent:.2f} % (published {published.error_percent:.2f} %)")
