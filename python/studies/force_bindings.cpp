@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "imaging/case/bone_source.h"
+#include "imaging/phantoms/phantom.h"
 #include "python/module/arrays.h"
 #include "python/studies/bindings.h"
 #include "studies/force/bone_block.h"
@@ -148,6 +150,10 @@ Bone block(const Vector& low_mm, const Vector& high_mm, double voxel_mm,
     return study::voxelised(made, voxel_mm);
 }
 
+Bone scene_bone(const std::string& name) {
+    return load_bone(phantom_scene(name)).bone;
+}
+
 /// A motion of 1 mm depth at 6 mm/s and 10 000 rpm, but for what is said.
 SteadyCase steady_case(const std::string& name, const Burr& burr, double feed_mm_per_s, double depth_mm) {
     return {.name = name, .burr = burr, .velocity_mm_per_s = {feed_mm_per_s, 0.0, 0.0}, .depth_mm = depth_mm};
@@ -175,6 +181,14 @@ void bind_models(py::module_& module) {
         .def_static("cube", &study::cube_of_bone, py::arg("edge_voxels"), py::arg("voxel_mm"),
                     py::arg("box_voxels") = 0, py::call_guard<py::gil_scoped_release>(),
                     "Solid, its top face at z = 0, in a box of that edge; edges are multiples of 16.")
+        .def_static("scene", &scene_bone, py::arg("name"), py::call_guard<py::gil_scoped_release>(),
+                    "Of a built-in scene.")
+        .def_property_readonly("box_mm3",
+                               [](const Bone& bone) {
+                                   const glm::dvec3 edges_mm =
+                                       glm::dvec3(bone.grid().size_voxels) * bone.grid().spacing_mm;
+                                   return edges_mm.x * edges_mm.y * edges_mm.z;
+                               })
         .def_property_readonly("memory_bytes", [](const Bone& bone) { return memory_bytes(bone); })
         .def_property_readonly("bone_mm3", [](const Bone& bone) { return bone_volume_mm3(bone); });
     module.def(

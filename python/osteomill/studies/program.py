@@ -25,7 +25,7 @@ REPEAT = "repeat"
 
 # Name, module of osteomill.studies, what it is.
 STUDIES = (
-    ("force", IN_KERNELS, "the milling force: voxel model against analytical reference"),
+    ("force", "force", "the milling force: voxel model against analytical reference"),
     ("tradeoff", "tradeoff", "speed against accuracy, on one page, for every choice that costs time"),
     ("stability", IN_KERNELS, "the stability map: which coupling holds where, and how true it is there"),
     ("polishing", IN_KERNELS, "the published polishing experiment: its figures"),

@@ -1,0 +1,100 @@
+"""Steady motions drawn at random, and the accuracy of the voxel model over them: the check of what the documents
+promise, on motions that nothing was tuned to.
+
+A motion is of a burr of 1 to 5 mm, 4 to 12 edges, either sense of rotation, 5 000 to 80 000 rpm, its spindle leaning
+by up to 70 degrees, at 0.2 to 60 mm/s, one voxel to the equator deep, over a surface that lies anyhow. One in three
+dives; a third of the others follow a groove that the same burr cut before.
+"""
+
+import functools
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from osteomill import _studies
+from osteomill.studies.force_series import ForceSeries, relative_error
+
+Drawn = dict[str, Any]  # arguments of random_motions
+
+
+def cases_of(drawn: Drawn) -> list[dict[str, Any]]:
+    return [{"part": "random", "index": index, "drawn": drawn} for index in range(drawn["count"])]
+
+
+@functools.lru_cache(maxsize=1)
+def _motions(drawn: tuple[tuple[str, Any], ...]) -> list[_studies.RandomMotion]:
+    return _studies.random_motions(**dict(drawn))
+
+
+def motion_of(case: dict[str, Any]) -> _studies.RandomMotion:
+    return _motions(tuple(sorted(case["drawn"].items())))[case["index"]]
+
+
+def measure(case: dict[str, Any]) -> dict[str, Any]:
+    drawn = motion_of(case)
+    series = ForceSeries(*drawn.run(_studies.Milling()))
+    force_n, reference_n = series.mean_force_n(), drawn.reference()
+    return {"reference_n": reference_n, "force_n": force_n, "error": relative_error(force_n, reference_n),
+            "ripple": series.ripple(), "deviations": series.deviations(), "largest_step": series.largest_step(),
+            "step_us": float(np.percentile(series.step_us, 50))}
+
+
+def table_of(cases: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> pd.DataFrame:
+    """A line a motion."""
+    rows = []
+    for case, found in zip(cases, outcomes):
+        drawn = motion_of(case)
+        motion, burr = drawn.motion, drawn.motion.burr
+        rows.append({
+            "name": motion.name, "diameter_mm": burr.diameter_mm, "depth_mm": motion.depth_mm,
+            "spindle_tilt_deg": drawn.tilt_deg, "spindle_azimuth_deg": drawn.azimuth_deg, "dives": drawn.dives,
+            "feed_mm_per_s": motion.feed_mm_per_s, "rpm": burr.rpm, "edges": burr.edges, "clockwise": motion.clockwise,
+            "groove_mm_higher": motion.groove_mm_higher, "milling_rate_hz": drawn.milling_rate_hz, "voxel_mm": drawn.voxel_mm,
+            **{f"reference_{axis}_n": value for axis, value in zip("xyz", found["reference_n"])},
+            **{f"force_{axis}_n": value for axis, value in zip("xyz", found["force_n"])},
+            "error_percent": 100.0 * found["error"], "ripple_percent": 100.0 * found["ripple"],
+            "largest_step": found["largest_step"], "step_us": found["step_us"],
+        })
+    return pd.DataFrame(rows)
+
+
+def summary_of(drawn: Drawn, table: pd.DataFrame, outcomes: list[dict[str, Any]]) -> dict[str, Any]:
+    """Of all; of motions along the surface alone what a dive has not."""
+    along = table[~table["dives"]]
+    windows = [100.0 * share for found, dives in zip(outcomes, table["dives"]) if not dives for share in found["deviations"]]
+    brisk = along[along["feed_mm_per_s"] >= 5.0]
+    fast = along[along["milling_rate_hz"] >= 1000.0]
+    worst = table.sort_values("error_percent", ascending=False, kind="stable").head(10)
+    return {
+        "seed": drawn["seed"], "voxel_mm": drawn["voxel_mm"], "edge_forces": drawn["edge_forces"], "heads": drawn["heads"],
+        "cases": len(table),
+        "median_error_percent": percentile(table["error_percent"], 50),
+        **{f"p{share}_error_percent": percentile(table["error_percent"], share) for share in (90, 95, 99)},
+        "max_error_percent": percentile(table["error_percent"], 100),
+        "along_median_error_percent": percentile(along["error_percent"], 50),
+        "along_p90_error_percent": percentile(along["error_percent"], 90),
+        "ripple_p90_percent": percentile(along["ripple_percent"], 90),
+        "ripple_p90_from_5_mm_per_s_percent": percentile(brisk["ripple_percent"], 90),
+        "ripple_max_percent": percentile(along["ripple_percent"], 100),
+        "window_p95_percent": percentile(windows, 95),
+        "largest_step_p99": percentile(fast["largest_step"], 99),
+        "largest_step_max": percentile(fast["largest_step"], 100),
+        "step_us_p50": percentile(table["step_us"], 50),
+        "worst": worst[["name", "error_percent", "ripple_percent"]].to_dict("records"),
+    }
+
+
+def percentile(values: Any, share: float) -> float:
+    """0 where there are no values."""
+    return float(np.percentile(values, share)) if len(values) else 0.0
+
+
+def words_of(summary: dict[str, Any]) -> str:
+    return (
+        "{cases} motions of seed {seed}: error median {median_error_percent:.2f} %, 90 % within {p90_error_percent:.2f}, "
+        "95 % within {p95_error_percent:.2f}, 99 % within {p99_error_percent:.2f}, worst {max_error_percent:.2f} %; "
+        "along the surface error median {along_median_error_percent:.2f} %, 90 % within {along_p90_error_percent:.2f}, "
+        "ripple 90 % within {ripple_p90_percent:.2f} (from 5 mm/s on {ripple_p90_from_5_mm_per_s_percent:.2f}), worst "
+        "{ripple_max_percent:.2f} %; means over 10 ms there 95 % within {window_p95_percent:.2f} %, largest step at 1 kHz "
+        "{largest_step_max:.2f} times the mean (99 % under {largest_step_p99:.2f})").format(**summary)
