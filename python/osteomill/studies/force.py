@@ -15,7 +15,7 @@ import numpy as np
 from osteomill import _studies
 from osteomill.studies import force_curves, force_random
 from osteomill.studies.force_series import ForceSeries, relative_error
-from osteomill.studies.options import UsageError, existing_file, number_within, whole_within
+from osteomill.studies.options import UsageError, number_within, whole_within
 from osteomill.studies.study_run import StudyRun
 
 WRITES = ("cases.json", "cases-*.jsonl")
@@ -31,7 +31,7 @@ MEASURES: dict[str, Callable[[dict[str, Any]], Any]] = {
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--cases", type=existing_file, metavar="FILE",
+    parser.add_argument("--cases", type=pathlib.Path, metavar="FILE",
                         help="run the steady motions of this JSON file (the schema of tests/data/milling_forces.json) and "
                         "write OUT/cases.json; nothing else is run")
     parser.add_argument("--random", type=whole_within(1, 1_000_000), metavar="N",
@@ -80,7 +80,7 @@ def measure(case: dict[str, Any]) -> Any:
 
 def name_of(case: dict[str, Any]) -> str:
     if case["part"] == "random":
-        return force_random.motion_of(case).motion.name
+        return str(force_random.motion_of(case).motion.name)
     return ", ".join(str(value) for key, value in case.items() if key != "quick")
 
 

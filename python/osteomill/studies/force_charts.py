@@ -45,7 +45,9 @@ def contact(table: pd.DataFrame) -> Figure:
         axes.plot(table["depth_mm"], table[name], color=charts.BLACK, linewidth=2.6, label=f"{name} (reference)", **looks)
     models = [name for name in table.columns if name != "depth_mm" and not name.startswith("milling")]
     for name, colour, marker in zip(models, (charts.BLUE, charts.RED, charts.GREEN, charts.PINK), "os^v"):
-        axes.plot(table["depth_mm"], table[name], color=colour, marker=marker, label=name)
+        is_first = marker == "o"  # petersik lies on it
+        axes.plot(table["depth_mm"], table[name], color=colour, marker=marker, label=name, markersize=9 if is_first else 5,
+                  markerfacecolor="none" if is_first else colour)
     axes.set(xlabel="depth, mm", ylabel="length of the force, N", xlim=(0.0, 2.5), ylim=(0.0, 10.0),
              title="Force of the bone on an upright 5 mm burr: contact models at rest, milling on its way")
     axes.legend()
@@ -85,7 +87,7 @@ def scaling(tables: dict[str, pd.DataFrame]) -> Figure:
         _ticks(axes, table[varied])
         axes.set(xlabel=titles[varied])
     figure.axes[0].set_ylabel("time of a step (median), us")
-    figure.axes[1].legend(loc="center")
+    figure.axes[1].legend(loc="lower center")
     return figure
 
 
@@ -105,5 +107,5 @@ def memory(table: pd.DataFrame) -> Figure:
                       xytext=(10, -4 if number % 2 == 0 else -12), textcoords="offset points", fontsize=9, color=charts.GREEN)
     _logarithmic(axes)
     axes.set(xlabel="bone, mm^3", ylabel="memory, MiB", title="Memory follows the bone, not the box around it (voxels of 0.1 mm; scenes have their own)")
-    axes.legend(loc="upper left")
+    axes.legend(loc="lower right")
     return figure

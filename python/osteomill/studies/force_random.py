@@ -28,7 +28,8 @@ def _motions(drawn: tuple[tuple[str, Any], ...]) -> list[_studies.RandomMotion]:
 
 
 def motion_of(case: dict[str, Any]) -> _studies.RandomMotion:
-    return _motions(tuple(sorted(case["drawn"].items())))[case["index"]]
+    motions = _motions(tuple(sorted(case["drawn"].items())))
+    return motions[int(case["index"])]
 
 
 def measure(case: dict[str, Any]) -> dict[str, Any]:

@@ -19,7 +19,7 @@ class ForceSeries:
     step_us: Array  # time that the step took
 
     def mean_force_n(self) -> Array:
-        return self.force_n.mean(axis=0)
+        return np.asarray(self.force_n.mean(axis=0))
 
     def removal_mm3_per_s(self) -> float:
         return float(self.removed_mm3.sum() / (self.step_s * len(self.removed_mm3)))

@@ -96,7 +96,7 @@ def run_motion(
     *,
     voxel_mm: float,
     milling_rate_hz: float,
-    lattice_shift_mm: Sequence[float],
+    lattice_shift_mm: Sequence[float] | Array,
     run_in_s: float = 0.0,
     most_steps: int | None = None,
 ) -> list[ForceSeries]:

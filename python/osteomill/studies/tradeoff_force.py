@@ -14,7 +14,7 @@ import pandas as pd
 from osteomill import _studies
 from osteomill.studies.studied_motions import LATTICE_SHIFTS, error_and_ripple, run_motion, studied_motions
 
-PUBLISHED = {"summation": "bins", "coverage": "binary", "search": "full_scan"}
+PUBLISHED: dict[str, Any] = {"summation": "bins", "coverage": "binary", "search": "full_scan"}
 VOXELS_MM = (0.27, 0.2, 0.16, 0.1, 0.08, 0.05)
 DEFAULT_VOXEL_MM = 0.1
 RATES_HZ = (25.0, 100.0, 1000.0, 10_000.0)
