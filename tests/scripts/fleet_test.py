@@ -7,6 +7,7 @@ import glob
 import os
 import pathlib
 import pwd
+import socket
 import subprocess
 import sys
 import tempfile
@@ -98,6 +99,47 @@ class Fleet(unittest.TestCase):
             last = outcome.stderr.splitlines()[-1]
             self.assertIn(reason, last)
             self.assertNotIn("secret", outcome.stderr)
+
+    def failure(self, url):
+        """The one line with which adding to a database fails."""
+        out = tempfile.mkdtemp(dir=self.folder)
+        outcome = subprocess.run([STUDY, "sessions", self.folder / "a", "--out", out, "--database", url],
+                                 capture_output=True, text=True, timeout=120)
+        self.assertEqual(outcome.returncode, 1, outcome.stderr)
+        return outcome.stderr.splitlines()[-1]
+
+    def test_a_database_that_says_nothing_is_given_up(self):
+        with socket.create_server(("127.0.0.1", 0)) as silent:
+            url = f"postgresql://nobody@127.0.0.1:{silent.getsockname()[1]}/x"
+            self.assertIn("timeout expired", self.failure(url))
+
+    def test_a_station_that_was_left_in_the_middle_holds_nobody_up(self):
+        holder = subprocess.Popen([POSTGRES[-1] + "/psql", "-At", self.database.url], text=True,
+                                  stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        with holder:
+            holder.stdin.write("BEGIN; SELECT 'held', pg_advisory_xact_lock(1869836397);\n")
+            holder.stdin.flush()
+            while "held" not in holder.stdout.readline():
+                pass
+            line = self.failure(self.database.url + "&options=-c%20lock_timeout%3D500ms")
+            self.assertIn("another station is adding its sessions", line)
+            holder.stdin.close()
+
+    def test_a_database_in_another_encoding_holds_the_same_letters(self):
+        run(POSTGRES[-1] + "/createdb", "-E", "LATIN1", "-T", "template0", "--locale=C", "latin1",
+            "--maintenance-db", self.database.url)
+        url = self.database.url.replace("/postgres?", "/latin1?")
+        run(STUDY, "sessions", self.folder / "a", "--out", self.folder / "out_latin1", "--database", url)
+        name = run(POSTGRES[-1] + "/psql", "-At", "-c", "SELECT DISTINCT trainee FROM session", url,
+                   env={**os.environ, "PGCLIENTENCODING": "UTF8"})
+        self.assertEqual(name, "Zoë a\n")
+        recording = self.folder / "far" / "0.pcap"
+        recording.parent.mkdir()
+        run(SERVER, "--scene", "cube", "--clock", "virtual", "--duration-s", "1", "--trainee", "Łukasz", "--record", recording)
+        outcome = subprocess.run([STUDY, "sessions", recording, "--out", self.folder / "out_far", "--database", url],
+                                 capture_output=True, text=True)
+        self.assertEqual(outcome.returncode, 1)
+        self.assertIn("the database should be one of UTF8", outcome.stderr.splitlines()[-1])
 
 
 if not POSTGRES:
