@@ -88,6 +88,8 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
     failure.of([&] {
         if (recording && !recording->error.empty()) throw std::runtime_error(recording->error);
         if (!files.report) return;
+        // Clients have had the end by now, and all else lies on the disk.
+        output.out->say("the session has ended; its report is being made");
         const std::string error = write_report(recording_in(*files.report), *files.report, [](double) {});
         if (!error.empty()) throw std::runtime_error(error);
         output.out->say(fmt::format("report: {}", (*files.report / "report.html").string()));
