@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <cerrno>
 #include <cstring>
 #include <stdexcept>
 
@@ -24,8 +25,12 @@ void write(png_image& image, const glm::ivec2& size_px, const void* pixels, cons
     image.width = static_cast<png_uint_32>(size_px.x);
     image.height = static_cast<png_uint_32>(size_px.y);
     AtomicFile whole(file, Link::replace);  // its name is ours
-    if (!png_image_write_to_file(&image, whole.part().c_str(), 0, pixels, 0, colours))
-        throw std::runtime_error("cannot write the picture " + file.string() + ": " + image.message);
+    errno = 0;
+    if (!png_image_write_to_file(&image, whole.part().c_str(), 0, pixels, 0, colours)) {
+        const int reason = errno;  // libpng knows no more than that there was one
+        throw std::runtime_error("cannot write the picture " + file.string() + ": " +
+                                 (reason != 0 ? std::strerror(reason) : image.message));
+    }
     whole.commit_unsynced();
 }
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,8 +12,11 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
@@ -23,6 +27,7 @@ FilmFile::FilmFile(const std::filesystem::path& file, const glm::ivec2& size_px,
     std::vector<std::string> command{"ffmpeg",
                                      "-loglevel",
                                      "error",
+                                     "-xerror",  // else it ends well on a full disk
                                      "-f",
                                      "rawvideo",
                                      "-pixel_format",
@@ -49,9 +54,11 @@ FilmFile::FilmFile(const std::filesystem::path& file, const glm::ivec2& size_px,
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
         throw std::runtime_error(fmt::format("{}: {}", file.string(), std::strerror(errno)));
+    complaints_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+    if (complaints_ >= 0) ::posix_spawn_file_actions_adddup2(&actions, complaints_, STDERR_FILENO);
     // A CTRL-C is this program's to answer.
     posix_spawnattr_t attributes;
     ::posix_spawnattr_init(&attributes);
@@ -63,6 +70,7 @@ FilmFile::FilmFile(const std::filesystem::path& file, const glm::ivec2& size_px,
     pipe_ = ends[1];
     if (error == 0) return;
     ::close(pipe_);
+    ::close(complaints_);
     throw std::runtime_error(fmt::format(
         "{}: a film is made by the program ffmpeg, which cannot be run: {}; install Debian's package ffmpeg",
         file.string(), std::strerror(error)));
@@ -70,6 +78,7 @@ FilmFile::FilmFile(const std::filesystem::path& file, const glm::ivec2& size_px,
 
 FilmFile::~FilmFile() {
     end_program();
+    ::close(complaints_);
 }
 
 void FilmFile::add(const Picture& picture) {
@@ -77,7 +86,10 @@ void FilmFile::add(const Picture& picture) {
     while (done < picture.rgb.size()) {
         const ssize_t written = ::write(pipe_, picture.rgb.data() + done, picture.rgb.size() - done);
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail();
+        if (written < 0) {
+            end_program();  // and has said why
+            fail();
+        }
         done += static_cast<std::size_t>(written);
     }
 }
@@ -98,7 +110,12 @@ bool FilmFile::end_program() {
 }
 
 void FilmFile::fail() const {
-    throw std::runtime_error(fmt::format("{}: ffmpeg could not make it", file_.path().string()));
+    std::array<char, 500> said{};
+    const ssize_t bytes = ::pread(complaints_, said.data(), said.size(), 0);
+    const std::string_view all(said.data(), bytes > 0 ? static_cast<std::size_t>(bytes) : 0);
+    const std::string why = printable(std::string(all.substr(0, all.find('\n'))));
+    throw std::runtime_error(
+        fmt::format("{}: ffmpeg could not make it{}{}", file_.path().string(), why.empty() ? "" : ": ", why));
 }
 
 }  // namespace osteomill
