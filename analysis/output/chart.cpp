@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace osteomill::study {
 
@@ -20,6 +22,19 @@ std::string quoted(const std::string& text) {
 }
 
 constexpr int shell_found_no_program = 127;
+
+/// gnuplot ends well on a full disk, too.
+void require_whole(const std::filesystem::path& chart) {
+    constexpr std::string_view end = "</svg>";
+    std::ifstream in(chart, std::ios::binary);
+    constexpr std::streamsize last_bytes = 16;  // line breaks may follow
+    std::string last(last_bytes, '\0');
+    in.seekg(-last_bytes, std::ios::end).read(last.data(), last_bytes);
+    if (in && last.find(end) != std::string::npos) return;
+    std::error_code ignored;
+    std::filesystem::remove(chart, ignored);
+    throw std::runtime_error(chart.string() + ": gnuplot could not write all of it: is the disk full?");
+}
 
 }  // namespace
 
@@ -42,6 +57,7 @@ void draw_chart(const std::filesystem::path& scripts, const std::string& name,
         throw std::runtime_error("gnuplot is not installed (package gnuplot-nox): the tables are in " +
                                  folder.string() + ", the charts are not");
     if (status != 0) throw std::runtime_error(script.string() + ": gnuplot failed: " + last_line);
+    require_whole(folder / (name + ".svg"));
 }
 
 void require_charts() {

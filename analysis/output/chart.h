@@ -8,7 +8,7 @@ namespace osteomill::study {
 
 /// Runs `NAME.gp` of the folder `scripts` with the variable `folder` set to where the tables are; it writes
 /// NAME.svg there. Throws std::runtime_error in one line where gnuplot is not installed, the script is not
-/// there, or gnuplot fails (with the last line of what it said).
+/// there, or gnuplot fails (with the last line of what it said) or cannot write all of the chart.
 void draw_chart(const std::filesystem::path& scripts, const std::string& name,
                 const std::filesystem::path& folder);
 

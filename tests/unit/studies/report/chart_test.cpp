@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::study {
@@ -39,6 +40,19 @@ TEST(Chart, SaysInOneLineWhyThereIsNone) {
     EXPECT_THAT(refusal("missing"), HasSubstr("missing.gp: is not there"));
     std::ofstream(folder / "bad.gp") << "plot 1 +\n";
     EXPECT_THAT(refusal("bad"), AllOf(HasSubstr("bad.gp: gnuplot failed"), HasSubstr("line 1")));
+}
+
+TEST(Chart, OfWhichAFullDiskHasNoRoomIsNone) {
+    const testing::TemporaryFolder folder;
+    std::ofstream(folder / "dots.gp") << "set terminal svg\nset output folder.'/dots.svg'\nplot sin(x)\n";
+    const testing::FileSizeLimit disk(1000);
+    try {
+        draw_chart(folder.path(), "dots", folder.path());
+        FAIL() << "drawn";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("dots.svg: gnuplot could not write all of it"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "dots.svg"));
 }
 
 TEST(Chart, HasScriptsOfItsOwn) {
