@@ -13,7 +13,7 @@
 namespace osteomill::shader_files_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class ShaderFilesTest : public OffscreenTest {};
 
@@ -79,7 +79,7 @@ TEST_F(ShaderFilesTest, ErrorsNameFileAndLine) {
         // Mesa's way of saying it, and NVIDIA's.
         const std::string file_name = "background.frag.glsl", at = std::to_string(line);
         EXPECT_THAT(error.what(),
-                    testing::AnyOf(HasSubstr(file_name + ':' + at), HasSubstr(file_name + '(' + at + ')')));
+                    ::testing::AnyOf(HasSubstr(file_name + ':' + at), HasSubstr(file_name + '(' + at + ')')));
     }
 }
 

@@ -16,7 +16,7 @@ namespace {
 const glm::ivec2 size_px(200, 150);
 const Grid grid{.size_voxels = {96, 96, 80}, .origin_mm = {-4.75, -4.75, -3.95}};
 
-class BothRenderers : public OffscreenTest, public testing::WithParamInterface<RendererChoice> {
+class BothRenderers : public OffscreenTest, public ::testing::WithParamInterface<RendererChoice> {
   protected:
     /// Draws and leaves the picture, with its depth, in the framebuffer.
     const gl::Framebuffer& drawn(const BoneTextures& textures, const Camera& camera) {
@@ -157,7 +157,7 @@ TEST_P(BothRenderers, ShowWhatIsBehindHiddenBoneAndNothingOfIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, BothRenderers,
-                         testing::Values(RendererChoice::raycast, RendererChoice::slices),
+                         ::testing::Values(RendererChoice::raycast, RendererChoice::slices),
                          [](const auto& tested) {
                              return tested.param == RendererChoice::raycast ? "Raycast" : "Slices";
                          });
