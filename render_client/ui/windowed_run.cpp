@@ -254,7 +254,7 @@ class Drawing {
         drawn_ = start;
         session_.resize(input_.framebuffer_size_px);
         session_.view().scale = static_cast<float>(options_.ui_scale.value_or(input_.content_scale));
-        panels_.feed(input_);
+        if (panels_.feed(input_)) redraw_.note_change(start);
         commands_.work_clutch();
         camera_.aim(session_);
         const gl::Framebuffer& framebuffer = session_.draw(elapsed_s);
@@ -265,7 +265,7 @@ class Drawing {
                 glm::dvec2(view_motion()),
             session_.size_px());
         for (const Action action :
-             actions_of(input_.presses, situation_of(drills_, source_.player() != nullptr)))
+             actions_of(input_.pressed_keys(), situation_of(drills_, source_.player() != nullptr)))
             if (action == Action::end && start_ && start_->is_due(session_.link().status) &&
                 start_->page.tour_card)
                 start_->page.tour_card.reset();

@@ -95,7 +95,7 @@ void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
     const glm::dvec2 tilt_px(static_cast<double>(is_down(GLFW_KEY_RIGHT)) - is_down(GLFW_KEY_LEFT),
                              static_cast<double>(is_down(GLFW_KEY_DOWN)) - is_down(GLFW_KEY_UP));
     if (tilt_px != glm::dvec2(0.0)) hand_.tilt_in_picture(turned_px * tilt_px, picture_.camera);
-    for (const int key : input.presses)
+    for (const int key : input.pressed_keys())
         if (!picture_.panels_have_keyboard && key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
             hand_.choose_burr(static_cast<std::size_t>(key - GLFW_KEY_1));
     hand_.set_pedal(is_down(GLFW_KEY_SPACE) || pedal_switched_down_);

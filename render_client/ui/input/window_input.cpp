@@ -4,6 +4,12 @@
 
 namespace osteomill {
 
+std::vector<int> WindowInput::pressed_keys() const {
+    std::vector<int> keys;
+    for (const KeyPress& press : presses) keys.push_back(press.key);
+    return keys;
+}
+
 void WindowInput::append(const WindowInput& later) {
     const WindowInput before = std::exchange(*this, later);
     for (std::size_t i = 0; i < buttons; ++i) went_down[i] = went_down[i] || before.went_down[i];

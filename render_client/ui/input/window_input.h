@@ -13,6 +13,13 @@ namespace osteomill {
 /// What is seen becomes so many times as wide with each notch of the wheel.
 inline constexpr double zoom_per_notch = 0.88;
 
+/// A key of GLFW that went down, with what was held as it did.
+struct KeyPress {
+    int key = 0;
+    bool shift = false, ctrl = false, alt = false;
+    bool operator==(const KeyPress&) const = default;
+};
+
 struct WindowInput {
     static constexpr std::size_t most_keys = 512;  ///< GLFW numbers fewer
     enum Button : std::size_t { left, right, middle, buttons };
@@ -31,13 +38,14 @@ struct WindowInput {
 
     // Since it was last taken.
     std::array<bool, buttons> went_down{};  ///< though it may be up again
-    std::vector<int> presses{};             ///< keys of GLFW that went down, even if they are up again
+    std::vector<KeyPress> presses{};        ///< though the key may be up again
     std::vector<char32_t> typed{};          ///< characters, as the keyboard's layout makes them
     glm::dvec2 wheel{0.0};                  ///< notches
     bool has_news = false;                  ///< anything happened, or part of the window has to be shown anew
 
     /// Pixels of the picture in a unit of the window.
     glm::dvec2 px_per_unit() const { return glm::dvec2(framebuffer_size_px) / size; }
+    std::vector<int> pressed_keys() const;
     /// What happened after this: its state, and both their events.
     void append(const WindowInput& later);
     /// The state stays, the events go.

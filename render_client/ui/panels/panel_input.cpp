@@ -27,10 +27,10 @@ constexpr std::array panel_keys{
 
 #if IMGUI_VERSION_NUM >= 18700
 
-void feed_modifiers(const WindowInput& input, ImGuiIO& io) {
-    io.AddKeyEvent(ImGuiMod_Shift, input.shift);
-    io.AddKeyEvent(ImGuiMod_Ctrl, input.ctrl);
-    io.AddKeyEvent(ImGuiMod_Alt, input.alt);
+void feed_modifiers(bool shift, bool ctrl, bool alt, ImGuiIO& io) {
+    io.AddKeyEvent(ImGuiMod_Shift, shift);
+    io.AddKeyEvent(ImGuiMod_Ctrl, ctrl);
+    io.AddKeyEvent(ImGuiMod_Alt, alt);
 }
 
 void feed_key(ImGuiKey key, bool is_down, ImGuiIO& io) {
@@ -39,10 +39,10 @@ void feed_key(ImGuiKey key, bool is_down, ImGuiIO& io) {
 
 #else
 
-void feed_modifiers(const WindowInput& input, ImGuiIO& io) {
-    io.KeyShift = input.shift;
-    io.KeyCtrl = input.ctrl;
-    io.KeyAlt = input.alt;
+void feed_modifiers(bool shift, bool ctrl, bool alt, ImGuiIO& io) {
+    io.KeyShift = shift;
+    io.KeyCtrl = ctrl;
+    io.KeyAlt = alt;
 }
 
 void feed_key(ImGuiKey_ key, bool is_down, ImGuiIO& io) {
@@ -71,8 +71,8 @@ void give_clipboard(Clipboard& clipboard, ImGuiIO& io) {
     io.GetClipboardTextFn = [](void* from) { return static_cast<Clipboard*>(from)->paste().c_str(); };
 }
 
-bool PanelInput::Switch::next(int presses, bool is_held) {
-    waiting += presses;
+bool PanelInput::Button::next(bool is_pressed, bool is_held) {
+    waiting += is_pressed ? 1 : 0;
     const bool was_down = std::exchange(is_down, waiting > 0 || is_held);
     if (waiting == 0) return is_down;
     if (was_down)
@@ -82,12 +82,30 @@ bool PanelInput::Switch::next(int presses, bool is_held) {
     return is_down;
 }
 
-void PanelInput::feed(const WindowInput& input, ImGuiIO& io) {
+std::optional<KeyPress> PanelInput::next_press(const WindowInput& input) {
+    waiting_.insert(waiting_.end(), input.presses.begin(), input.presses.end());
+    std::optional<KeyPress> press;
+    std::bitset<WindowInput::most_keys> down = keys_down_ & input.keys_down;
+    if (!waiting_.empty()) {
+        const auto key = static_cast<std::size_t>(waiting_.front().key);
+        if (keys_down_[key]) {
+            down.reset(key);  // the release before the next press
+        } else {
+            press = waiting_.front();
+            waiting_.pop_front();
+            down.set(key);
+        }
+    }
+    keys_down_ = down;
+    return press;
+}
+
+bool PanelInput::feed(const WindowInput& input, ImGuiIO& io) {
     constexpr float nowhere = -std::numeric_limits<float>::max();
     const glm::vec2 at(input.cursor * input.px_per_unit());
     io.MousePos = input.has_cursor ? ImVec2(at.x, at.y) : ImVec2(nowhere, nowhere);
     const auto is_held = [&](WindowInput::Button button) {
-        return buttons_[button].next(input.went_down[button] ? 1 : 0, input.is_down[button]);
+        return buttons_[button].next(input.went_down[button], input.is_down[button]);
     };
     io.MouseDown[ImGuiMouseButton_Left] = is_held(WindowInput::left);
     io.MouseDown[ImGuiMouseButton_Right] = is_held(WindowInput::right);
@@ -95,12 +113,13 @@ void PanelInput::feed(const WindowInput& input, ImGuiIO& io) {
     io.MouseWheel += static_cast<float>(input.wheel.y);
     io.MouseWheelH += static_cast<float>(input.wheel.x);
     for (const char32_t character : input.typed) io.AddInputCharacter(character);
-    feed_modifiers(input, io);
-    for (const auto& [key, in_imgui] : panel_keys) {
-        const auto presses = std::count(input.presses.begin(), input.presses.end(), key);
-        const auto number = static_cast<std::size_t>(key);
-        feed_key(in_imgui, keys_[number].next(static_cast<int>(presses), input.keys_down[number]), io);
-    }
+    const KeyPress held =
+        next_press(input).value_or(KeyPress{.shift = input.shift, .ctrl = input.ctrl, .alt = input.alt});
+    feed_modifiers(held.shift, held.ctrl, held.alt, io);
+    for (const auto& [key, in_imgui] : panel_keys)
+        feed_key(in_imgui, keys_down_[static_cast<std::size_t>(key)], io);
+    return !waiting_.empty() ||
+           std::any_of(buttons_.begin(), buttons_.end(), [](const Button& b) { return b.waiting > 0; });
 }
 
 }  // namespace osteomill

@@ -6,6 +6,9 @@
 #include <imgui.h>
 
 #include <array>
+#include <bitset>
+#include <deque>
+#include <optional>
 
 #include "render_client/ui/input/clipboard.h"
 #include "render_client/ui/input/window_input.h"
@@ -19,23 +22,26 @@ void prepare_panel_input(ImGuiIO& io);
 /// ImGui keeps them to itself.
 void give_clipboard(Clipboard& clipboard, ImGuiIO& io);
 
-/// Mouse and keys, frame after frame. A press that is shorter than a frame lasts for one; presses that follow
-/// one another within a frame, or frame upon frame, each come with a release before them, so that none is
-/// lost.
+/// Mouse and keys, frame after frame. A press that is shorter than a frame lasts for one. Keys are pressed
+/// one in a frame, in their order and with what was held then, and what is pressed again is released before;
+/// so none is lost or mistaken, however long a frame takes.
 class PanelInput {
   public:
-    void feed(const WindowInput& input, ImGuiIO& io);
+    /// Whether presses wait for the frames after the next one.
+    bool feed(const WindowInput& input, ImGuiIO& io);
 
   private:
-    struct Switch {
+    struct Button {
         bool is_down = false;
         int waiting = 0;
-        /// Whether it is down in the next frame: `presses` came since the last one, `is_held` now.
-        bool next(int presses, bool is_held);
+        bool next(bool is_pressed, bool is_held);
     };
+    /// The press that the next frame sees, if one is due; keys are up and down by it and by `input`.
+    std::optional<KeyPress> next_press(const WindowInput& input);
 
-    std::array<Switch, WindowInput::most_keys> keys_{};
-    std::array<Switch, WindowInput::buttons> buttons_{};
+    std::deque<KeyPress> waiting_;
+    std::bitset<WindowInput::most_keys> keys_down_;
+    std::array<Button, WindowInput::buttons> buttons_{};
 };
 
 }  // namespace osteomill

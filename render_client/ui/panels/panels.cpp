@@ -131,8 +131,8 @@ void Panels::use(Clipboard& clipboard) {
     give_clipboard(clipboard, ImGui::GetIO());
 }
 
-void Panels::feed(const WindowInput& input) {
-    input_.feed(input, ImGui::GetIO());
+bool Panels::feed(const WindowInput& input) {
+    return input_.feed(input, ImGui::GetIO());
 }
 
 void Panels::begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s, ThemeName theme,

@@ -70,7 +70,7 @@ void Window::watch_input() {
         return input;
     };
     // Asking for a key's state now and then would miss a press in between.
-    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int held) {
         WindowInput& input = input_of(window);
         if (key < 0 || static_cast<std::size_t>(key) >= WindowInput::most_keys) return;
         HeldKeys& keys = static_cast<Window*>(glfwGetWindowUserPointer(window))->keys_;
@@ -78,7 +78,10 @@ void Window::watch_input() {
         if (action == GLFW_RELEASE)
             keys.release(index, glfwGetTime());
         else if (keys.press(index, glfwGetTime()))
-            input.presses.push_back(key);
+            input.presses.push_back({.key = key,
+                                     .shift = (held & GLFW_MOD_SHIFT) != 0,
+                                     .ctrl = (held & GLFW_MOD_CONTROL) != 0,
+                                     .alt = (held & GLFW_MOD_ALT) != 0});
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {
         input_of(window).typed.push_back(character);

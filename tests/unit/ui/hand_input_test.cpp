@@ -149,7 +149,7 @@ TEST(HandInput, DragsABurrInAirOverTheBoneUnderThePointerAndTheWheelIsDepth) {
 TEST(HandInput, AsksForAToolThatAnotherHasButDoesNotHoldOnToIt) {
     Desk desk;
     desk.source.tool->driver = ToolDriver::another;
-    desk.input.presses = {GLFW_KEY_2};
+    desk.input.presses = {{GLFW_KEY_2}};
     desk.step();
     ASSERT_EQ(desk.source.sent.size(), 1u);
     EXPECT_EQ(desk.source.sent.back().burr, 1u);
@@ -245,7 +245,7 @@ TEST(HandInput, TakesNoLettersForCommandsWhileATextIsWritten) {
     desk.picture.panels_have_keyboard = true;
     desk.desk.show(desk.picture);
     desk.input.keys_down[GLFW_KEY_SPACE] = desk.input.keys_down[GLFW_KEY_W] = true;
-    desk.input.presses = {GLFW_KEY_W, GLFW_KEY_2};
+    desk.input.presses = {{GLFW_KEY_W}, {GLFW_KEY_2}};
     desk.step();
     EXPECT_TRUE(desk.source.sent.empty());
 }

@@ -9,17 +9,17 @@ using ::testing::ElementsAre;
 
 TEST(InputMailbox, LosesNothingHoweverSeldomItIsEmptied) {
     InputMailbox mailbox;
-    WindowInput click{.cursor = {1.0, 2.0}, .presses = {65}, .wheel = {0.0, 1.0}, .has_news = true};
+    WindowInput click{.cursor = {1.0, 2.0}, .presses = {{65}}, .wheel = {0.0, 1.0}, .has_news = true};
     click.went_down[WindowInput::left] = true;
     mailbox.post(click);
-    mailbox.post({.cursor = {3.0, 4.0}, .presses = {66}, .wheel = {0.0, 0.5}, .has_news = true});
+    mailbox.post({.cursor = {3.0, 4.0}, .presses = {{66}}, .wheel = {0.0, 0.5}, .has_news = true});
     mailbox.post({.cursor = {3.0, 4.0}});
 
     const WindowInput taken = mailbox.take();
     EXPECT_EQ(taken.cursor, glm::dvec2(3.0, 4.0));
     EXPECT_TRUE(taken.went_down[WindowInput::left]) << "though it is up again";
     EXPECT_FALSE(taken.is_down[WindowInput::left]);
-    EXPECT_THAT(taken.presses, ElementsAre(65, 66));
+    EXPECT_THAT(taken.pressed_keys(), ElementsAre(65, 66));
     EXPECT_EQ(taken.wheel.y, 1.5);
     EXPECT_TRUE(taken.has_news);
 

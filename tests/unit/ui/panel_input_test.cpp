@@ -28,7 +28,7 @@ class PanelInputTest : public ::testing::Test {
     ~PanelInputTest() override { ImGui::DestroyContext(); }
 
     void draw() {
-        panel_input_.feed(input_, ImGui::GetIO());
+        is_waiting_ = panel_input_.feed(input_, ImGui::GetIO());
         input_.forget_events();
         ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
         ImGui::NewFrame();
@@ -45,7 +45,7 @@ class PanelInputTest : public ::testing::Test {
 
     /// A key that is down and up again between two frames.
     void strike(int key) {
-        input_.presses.push_back(key);
+        input_.presses.push_back({.key = key, .ctrl = input_.ctrl});
         for (int i = 0; i < 3; ++i) draw();
     }
     void click(ImVec2 at) {
@@ -59,6 +59,7 @@ class PanelInputTest : public ::testing::Test {
 
     WindowInput input_;
     PanelInput panel_input_;
+    bool is_waiting_ = false;
     std::array<char, 32> text_{};
     ImVec2 text_at_{}, button_at_{};
     int presses_ = 0;
@@ -83,11 +84,43 @@ TEST_F(PanelInputTest, KeysOfOneSlowFrameAreAllPressed) {
     click(text_at_);
     input_.typed = {U'a', U'b', U'c'};
     draw();
-    input_.presses = {GLFW_KEY_BACKSPACE, GLFW_KEY_BACKSPACE};
+    input_.presses = {{GLFW_KEY_BACKSPACE}, {GLFW_KEY_BACKSPACE}};
     draw();
-    input_.presses = {GLFW_KEY_BACKSPACE};
+    input_.presses = {{GLFW_KEY_BACKSPACE}};
     for (int i = 0; i < 6; ++i) draw();
     EXPECT_EQ(text(), "");
+}
+
+TEST_F(PanelInputTest, CommandsOfOneSlowFrameComeInTheirOrderThoughCtrlIsUpAgain) {
+    click(text_at_);
+    input_.typed = {U'a', U'b'};
+    draw();
+    std::string copied;
+    Clipboard clipboard(
+        [&] { clipboard.serve([&](const std::string& text) { copied = text; }, [] { return "cd"; }); });
+    give_clipboard(clipboard, ImGui::GetIO());
+    input_.presses = {{.key = GLFW_KEY_A, .ctrl = true},
+                      {.key = GLFW_KEY_X, .ctrl = true},
+                      {.key = GLFW_KEY_V, .ctrl = true},
+                      {.key = GLFW_KEY_V, .ctrl = true},
+                      {.key = GLFW_KEY_BACKSPACE}};
+    int frames = 0;
+    do draw();
+    while (is_waiting_ && ++frames < 20);
+    EXPECT_EQ(copied, "ab");
+    EXPECT_EQ(text(), "cdc");
+}
+
+TEST_F(PanelInputTest, AKeyThatIsHeldIsPressedOnce) {
+    click(button_at_);
+    input_.cursor = {300.0, 250.0};
+    strike(GLFW_KEY_DOWN);  // shows the focus
+    input_.presses = {{GLFW_KEY_SPACE}};
+    input_.keys_down.set(GLFW_KEY_SPACE);
+    for (int i = 0; i < 6; ++i) draw();
+    input_.keys_down.reset(GLFW_KEY_SPACE);
+    for (int i = 0; i < 3; ++i) draw();
+    EXPECT_EQ(presses_, 2) << "the click, the key";
 }
 
 TEST_F(PanelInputTest, KeysEditATextThatWasClicked) {
