@@ -94,7 +94,7 @@ class StatisticsTest(unittest.TestCase):
         tied = statistics.compare_ranks([0.0, 0.0, 1.0], [1.0, 2.0])
         self.assertEqual((tied.u, tied.p, round(tied.cliffs_delta, 6)), (0.5, 0.4, -0.833333))
         self.assertIsNone(statistics.compare_ranks([0.0] * 101, [1.0] * 100))
-        self.assertLess(statistics.compare_ranks([0.0] * 100, [1.0] * 100).p, 1e-50)
+        self.assertLess(statistics.compare_ranks([0.0] * 40, [1.0] * 60).p, 1e-25)
 
     def test_what_is_too_little_has_no_number(self):
         self.assertIsNone(statistics.mean_of([]))

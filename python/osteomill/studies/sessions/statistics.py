@@ -164,8 +164,11 @@ def _ways_of_sums(ranks: "np.ndarray[tuple[int], np.dtype[np.int64]]", count: in
     """In how many ways `count` of the ranks have each sum."""
     ways = np.zeros((count + 1, int(ranks.sum()) + 1))
     ways[0, 0] = 1.0
-    for rank in ranks:
-        ways[1:, rank:] += ways[:-1, : ways.shape[1] - rank].copy()
+    behind = 1  # the largest sum so far
+    for n, rank in enumerate(ranks.tolist(), 1):
+        behind += rank
+        most = min(n, count)
+        ways[1 : most + 1, rank:behind] += ways[:most, : behind - rank].copy()
     found: "np.ndarray[tuple[int], np.dtype[np.float64]]" = ways[count]
     return found
 
