@@ -28,9 +28,10 @@ inline constexpr std::array told_first{Fault::device_lost,  Fault::device_jumped
                                        Fault::overrun,      Fault::in_bone};
 static_assert(told_first.size() == all_faults.size());
 
-/// Whether it ends the permission of a pedal that is held: the pedal was pressed for other bone than the bone
-/// that the burr is in afterwards, or by a hand that did not move it there. Each does so by itself, whatever
-/// else is wrong (fault_set.h).
+/// Whether it ends the permission of a pedal for as long as it lasts, also of one that is pressed meanwhile:
+/// for other bone than the bone that the burr is in afterwards, or by a hand that did not move it there. Each
+/// does so by itself, whatever else is wrong (fault_set.h). Every fault ends it as it begins
+/// (safety_monitor.h).
 constexpr bool withdraws_pedal(Fault fault) noexcept {
     switch (fault) {
         case Fault::device_lost:

@@ -60,6 +60,10 @@ class PedalLatch {
         if (is_withdrawn || seen == PedalSeen::lapsed) is_locked_ = true;
         if (seen == PedalSeen::up) is_locked_ = false;
     }
+    /// Later in the tick: a pedal that is held has no effect before it has been up.
+    void withdraw() noexcept {
+        if (seen_ != PedalSeen::up) is_locked_ = true;
+    }
 
     /// The spindle may turn.
     bool is_pressed() const { return seen_ == PedalSeen::down && !is_locked_; }

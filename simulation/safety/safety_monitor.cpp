@@ -22,7 +22,10 @@ glm::dvec3 SafetyMonitor::pass(const glm::dvec3& wanted_n, bool is_sound, double
     const glm::dvec3 felt_n = is_untried_ && is_finite(wanted_n) ? glm::dvec3(0.0) : wanted_n;
     const glm::dvec3 force_n = guard_.tick(felt_n, keeps_off_, elapsed_s);
     if (!guard_.is_engaged()) is_untried_ = false;
-    if (has_just_let_go()) ++fault_counts_[static_cast<std::size_t>(guard_.fault())];
+    if (has_just_let_go()) {
+        ++fault_counts_[static_cast<std::size_t>(guard_.fault())];
+        pedal_.withdraw();
+    }
     return force_n;
 }
 

@@ -34,8 +34,9 @@
 // earlier fault.
 //
 // The spindle turns while the pedal is down, its latch (pedal_latch.h) is free and the tool touches bone.
-// Beside the reasons in pedal_latch.h, it is locked by each fault that withdraws_pedal() (fault.h), whatever
-// else is wrong in the same tick: the pedal was pressed then for other bone than the bone it is in now.
+// Beside the reasons in pedal_latch.h, it is locked where the force goes off, for whatever reason: a spindle
+// that stopped starts again by a fresh press alone. And it is locked for as long as a fault lasts that
+// withdraws_pedal() (fault.h), whatever else is wrong in the same tick.
 //
 // In no state does a fault lead to a force: from the tick of a fault until settle_s have passed without one
 // and clear of bone, the force only shrinks, and within fade_out_s it is zero. safety_monitor_test.cpp visits

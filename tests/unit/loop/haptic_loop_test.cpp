@@ -186,7 +186,7 @@ TEST(HapticLoop, FadesTheForceOfASessionThatEndsAndStopsTheSpindle) {
     EXPECT_LE(ticks, ticks_to_fade());
 }
 
-TEST(HapticLoop, ComesBackByItselfWhenTheModelRunsAgain) {
+TEST(HapticLoop, BringsTheForceBackByItselfWhenTheModelRunsAgainAndTheSpindleByAFreshPress) {
     Bench bench;
     bench.mill();
     bench.model_runs = false;
@@ -199,7 +199,13 @@ TEST(HapticLoop, ComesBackByItselfWhenTheModelRunsAgain) {
         before = now;
     }
     EXPECT_EQ(before, glm::dvec3(2.0, 0.0, 0.0));
-    EXPECT_TRUE(bench.command().spindle_on) << "the tool never left its place";
+    EXPECT_FALSE(bench.command().spindle_on);
+    bool pedal = false;
+    bench.device.script = [&](double) { return DeviceState{.pedal = {pedal}}; };
+    bench.run(1);
+    pedal = true;
+    bench.run(1);
+    EXPECT_TRUE(bench.command().spindle_on);
 }
 
 TEST(HapticLoop, DoesNotLetACouplingsNanReachTheHand) {
@@ -250,6 +256,9 @@ TEST(HapticLoop, FadesOutOnAStreakOfMissedDeadlines) {
     bench.run(15, 2);
     EXPECT_EQ(bench.shown().fault, describe(Fault::overrun));
     EXPECT_EQ(bench.loop().fault_counts()[static_cast<std::size_t>(Fault::overrun)], 1u);
+    bench.run(1000);
+    EXPECT_EQ(bench.shown().fault, describe(Fault::none));
+    EXPECT_FALSE(bench.command().spindle_on) << "under a pedal that was held throughout";
 }
 
 TEST(HapticLoop, ShowsThatProtectedTissueWasTouchedLongEnoughToBeSeen) {
@@ -421,6 +430,10 @@ TEST(HapticLoop, DoesNotShakeAForceThatIsOffOrFades) {
         is_back = now_n >= 0.5;
     }
     EXPECT_TRUE(is_back);
+    EXPECT_FALSE(shaken.shakes(300)) << "the burr stands until the pedal is pressed anew";
+    shaken.pedal = false;
+    shaken.shakes(1);
+    shaken.pedal = true;
     EXPECT_TRUE(shaken.shakes(300));
 }
 
@@ -497,8 +510,13 @@ class InterruptedBench : public ::testing::TestWithParam<bool> {
         (is_late ? bench.model_runs : bench.next.valid) = false;
         bench.run(100);
         EXPECT_NE(bench.shown().fault, describe(Fault::none));
+        // The fault has stopped the spindle: only a press that came later may turn it again.
+        bench.device.script = [](double) { return DeviceState{}; };
+        bench.run(2);
+        bench.device.script = [](double) { return DeviceState{.pedal = {true}}; };
+        bench.run(2);
     }
-    /// All is well again, under a pedal that is held.
+    /// All is well again, under a pedal that was pressed meanwhile.
     bool spindle_turns_afterwards() {
         bench.model_runs = bench.next.valid = true;
         bench.run(1000);
