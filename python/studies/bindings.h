@@ -7,6 +7,7 @@ namespace osteomill::python {
 
 void bind_calibration(pybind11::module_& module);
 void bind_texts(pybind11::module_& module);
+void bind_couplings(pybind11::module_& module);
 void bind_files(pybind11::module_& module);
 void bind_sessions(pybind11::module_& module);
 void bind_forces(pybind11::module_& module);

@@ -15,4 +15,5 @@ PYBIND11_MODULE(_studies, module) {
     osteomill::python::bind_files(module);
     osteomill::python::bind_sessions(module);
     osteomill::python::bind_forces(module);
+    osteomill::python::bind_couplings(module);
 }

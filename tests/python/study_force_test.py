@@ -11,7 +11,7 @@ import unittest
 import numpy as np
 
 from osteomill import Burr, _studies
-from osteomill.studies import tradeoff, tradeoff_force
+from osteomill.studies import tradeoff, tradeoff_coupling, tradeoff_force
 from osteomill.studies.force_series import ForceSeries, relative_error
 from osteomill.studies.study_run import StudyRun
 from osteomill.studies.studied_motions import error_and_ripple, studied_motions
@@ -107,6 +107,13 @@ class TradeoffTest(unittest.TestCase):
         self.assertGreater(default["times_faster"], 1.0)
         self.assertEqual([row["scene"] for row in found["needs"]], list(tradeoff_force.SCENES))
         self.assertTrue(all(row["is_held"] for row in found["needs"]))
+        couplings = {row["method"]: row for row in found["coupling"]}
+        self.assertEqual(set(couplings), set(tradeoff_coupling.QUICK_METHODS))
+        for row in couplings.values():
+            self.assertTrue(row["tick_us"] > 0.0 and row["rms_error_percent"] > 0.0, row)
+        self.assertEqual(couplings["implicit"]["stable_percent"], 100.0)
+        self.assertLess(couplings["hold"]["stable_percent"], 100.0)
+        self.assertLess(couplings["implicit"]["rms_error_percent"], couplings["hold"]["rms_error_percent"])
         for words in ("time of a step (median), us", "error of the mean force, %", "the default, voxels of 0.1 mm"):
             self.assertIn(words, page)
 

@@ -102,9 +102,11 @@ def memory(table: pd.DataFrame) -> Figure:
     axes.plot(boxes["bone_mm3"], boxes["box_mm3"] * voxels_per_mm3 * bytes_per_voxel / 2**20, color=charts.GREY, marker="x",
               linestyle="none", label="what a byte for each voxel of those boxes would take")
     axes.plot(scenes["bone_mm3"], scenes["mebibytes"], color=charts.GREEN, marker="^", linestyle="none", label="built-in scenes")
-    for number, (_, row) in enumerate(scenes.sort_values("bone_mm3").iterrows()):
-        axes.annotate(f"{row['name']}: {row['bytes_per_mm3']:.0f} B/mm^3, {row['start_s']:.1f} s", (row["bone_mm3"], row["mebibytes"]),
-                      xytext=(10, -4 if number % 2 == 0 else -12), textcoords="offset points", fontsize=9, color=charts.GREEN)
+    # From the smallest to the largest, beside it or below, so that neighbours do not meet.
+    places = (((-9, -4), "right"), ((-9, -4), "right"), ((4, -16), "left"), ((9, -4), "left"), ((-9, -4), "right"))
+    for (_, row), (offset, alignment) in zip(scenes.sort_values("bone_mm3").iterrows(), places):
+        axes.annotate(f"{row['name']}, {row['bytes_per_mm3']:.0f} B/mm^3", (row["bone_mm3"], row["mebibytes"]), xytext=offset,
+                      textcoords="offset points", fontsize=9, color=charts.GREEN, ha=alignment)
     _logarithmic(axes)
     axes.set(xlabel="bone, mm^3", ylabel="memory, MiB", title="Memory follows the bone, not the box around it (voxels of 0.1 mm; scenes have their own)")
     axes.legend(loc="lower right")

@@ -23,15 +23,15 @@ LOOKS: dict[str, dict[str, Any]] = {
 DEFAULT_RING = {"marker": "o", "markersize": 13, "markerfacecolor": "none", "markeredgecolor": charts.BLACK,
                 "markeredgewidth": 1.8, "linestyle": "none"}
 
-SCENE_STAR = {"marker": "*", "markersize": 13, "color": charts.YELLOW, "markeredgecolor": charts.BLACK, "linestyle": "none"}
-LABEL_PLACES = (((-9, -3), "right"), ((9, -3), "left"), ((4, 10), "left"), ((9, -3), "left"), ((-9, -3), "right"))
+SCENE_STAR = {"marker": "*", "markersize": 13, "color": charts.YELLOW, "markeredgecolor": charts.BLACK, "linestyle": "none",
+              "zorder": 5}
 WHITE_GROUND = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
 
 
-def page_of(force: pd.DataFrame, needs: pd.DataFrame) -> Figure:
-    page = charts.figure(15.0, 15.0)
-    page.suptitle("What a choice costs and what it is worth: the force of five motions at 6 mm/s, against the analytical reference")
-    grid = page.add_gridspec(3, 2, height_ratios=(10, 2.6, 9))
+def page_of(force: pd.DataFrame, needs: pd.DataFrame, coupling: pd.DataFrame) -> Figure:
+    page = charts.figure(15.0, 22.0)
+    page.suptitle("What a choice costs and what it is worth")
+    grid = page.add_gridspec(4, 2, height_ratios=(10, 2.6, 9, 9))
     voxels_error, voxels_ripple = page.add_subplot(grid[0, 0]), page.add_subplot(grid[0, 1])
     _draw_voxels(voxels_error, force, needs, "error_percent", "error of the mean force, %", NEEDED_ERROR_PERCENT)
     _draw_voxels(voxels_ripple, force, needs, "ripple_percent", "largest ripple of means over 10 ms, %", NEEDED_RIPPLE_PERCENT)
@@ -40,6 +40,9 @@ def page_of(force: pd.DataFrame, needs: pd.DataFrame) -> Figure:
     legend.legend(*voxels_error.get_legend_handles_labels(), loc="center", ncol=3)
     _draw_rates(page.add_subplot(grid[2, 0]), force)
     _draw_burrs(page.add_subplot(grid[2, 1]), force)
+    coupling_error, coupling_share = page.add_subplot(grid[3, 0]), page.add_subplot(grid[3, 1])
+    _draw_couplings(coupling_error, coupling, "rms_error_percent", "error of the force in time, %")
+    _draw_couplings(coupling_share, coupling, "stable_percent", "share of the range that is stable, %")
     return page
 
 
@@ -48,6 +51,23 @@ def _loglog(axes: Axes, x_label: str, y_label: str) -> None:
     axes.margins(x=0.12)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter("{x:g}")
+
+
+def _label(axes: Axes, x: Any, y: Any, texts: list[str]) -> None:
+    """Names points on their right; names that would meet are pushed apart. The axes have their ranges by now."""
+    gap_pt = 12.0
+    points_per_pixel = 72.0 / axes.figure.dpi
+    axes.autoscale_view()
+    heights_pt = [points_per_pixel * axes.transData.transform(point)[1] for point in zip(x, y)]
+    placed_pt: list[float] = []
+    order = sorted(range(len(texts)), key=heights_pt.__getitem__)
+    for i in order:
+        placed_pt.append(max(heights_pt[i], placed_pt[-1] + gap_pt) if placed_pt else heights_pt[i])
+    # Back towards their points by half of what the topmost was pushed.
+    back_pt = 0.5 * (placed_pt[-1] - heights_pt[order[-1]]) if placed_pt else 0.0
+    for i, place_pt in zip(order, placed_pt):
+        axes.annotate(texts[i], (list(x)[i], list(y)[i]), xytext=(11, place_pt - back_pt - heights_pt[i] - 3),
+                      textcoords="offset points", fontsize=9, bbox=WHITE_GROUND)
 
 
 def _draw_voxels(axes: Axes, force: pd.DataFrame, needs: pd.DataFrame, column: str, y_label: str, needed: float) -> None:
@@ -65,12 +85,9 @@ def _draw_voxels(axes: Axes, force: pd.DataFrame, needs: pd.DataFrame, column: s
     axes.axhline(needed, color=charts.GREY, linestyle=":", label="what a hand needs")
     axes.plot(needs["step_us"], needs[column], label="coarsest voxels that the first burr of a built-in scene needs, at 1 kHz",
               **SCENE_STAR)
-    # From the left to the right beside it or above it, so that neighbours do not meet.
-    for (_, row), (offset, alignment) in zip(needs.sort_values("step_us").iterrows(), LABEL_PLACES):
-        axes.annotate(f"{row['scene']}, {row['voxel_mm']:g} mm", (row["step_us"], row[column]), xytext=offset,
-                      textcoords="offset points", fontsize=9, ha=alignment, bbox=WHITE_GROUND)
     _loglog(axes, "time of a step (median), us", y_label)
-    axes.set_title("5 mm burr, 100 Hz; along a line the voxels shrink from left to right:\n"
+    _label(axes, needs["step_us"], needs[column], [f"{row['scene']}, {row['voxel_mm']:g} mm" for _, row in needs.iterrows()])
+    axes.set_title("Force of a 5 mm burr, 100 Hz: along a line the voxels shrink from left to right,\n"
                    + ", ".join(f"{mm:g}" for mm in sorted(set(tried["voxel_mm"]), reverse=True)) + " mm", fontsize=10)
 
 
@@ -86,18 +103,42 @@ def _draw_rates(axes: Axes, force: pd.DataFrame) -> None:
             axes.annotate(row["label"], (row["core_percent"], row["ripple_percent"]), xytext=(7, 4),
                           textcoords="offset points", fontsize=9)
     _loglog(axes, "share of a core, %", "largest ripple of means over 10 ms, %")
-    axes.set_title("Steps of 25 Hz to 10 kHz (ripple: of whole steps where they are longer): 5 mm burr, voxels of 0.1 mm",
+    axes.set_title("Force: steps of 25 Hz to 10 kHz, 5 mm burr, voxels of 0.1 mm\n(ripple: of whole steps where they are longer)",
                    fontsize=10)
 
 
 def _draw_burrs(axes: Axes, force: pd.DataFrame) -> None:
     for (varied, family), rows in force[force["varied"].isin(["burr", "edges"])].groupby(["varied", "family"], sort=False):
         looks = LOOKS[str(family)] | ({"linestyle": "--", "markerfacecolor": "white"} if varied == "edges" else {})
-        axes.plot(rows["step_us"], rows["error_percent"], label="new voxels only, smoothed, with edges that rub" if varied == "edges" else "_", **looks)
+        axes.plot(rows["step_us"], rows["error_percent"], label="with edges that rub" if varied == "edges" else "_", **looks)
         for _, row in rows.iterrows():
             axes.annotate(row["label"], (row["step_us"], row["error_percent"]),
                           xytext=(4, -14) if varied == "edges" else (6, 4),
                           textcoords="offset points", fontsize=9)
     axes.legend(loc="center right")
     _loglog(axes, "time of a step (median), us", "error of the mean force, %")
-    axes.set_title("Burrs of 1.5 to 5 mm, also with edges that rub: voxels of 0.1 mm, 100 Hz", fontsize=10)
+    axes.set_title("Force: burrs of 1.5 to 5 mm, also with edges that rub: voxels of 0.1 mm, 100 Hz", fontsize=10)
+
+
+def _draw_couplings(axes: Axes, coupling: pd.DataFrame, column: str, y_label: str) -> None:
+    tried = coupling.dropna(subset=[column]).sort_values(column, ignore_index=True)
+    for _, row in tried.iterrows():
+        colour = charts.AMBER if row["is_published"] else charts.BLUE if row["is_default"] else charts.GREY
+        axes.plot(row["tick_us"], row[column], marker="s" if row["is_published"] else "o", color=colour, linestyle="none")
+    default = tried[tried["is_default"]]
+    axes.plot(default["tick_us"], default[column], label="the default", **DEFAULT_RING)
+    axes.set(xscale="log", xlabel="time of a haptic tick (median), us", ylabel=y_label)
+    axes.set_xlim(0.01, 1000.0)
+    axes.margins(y=0.15)
+    axes.xaxis.set_major_formatter("{x:g}")
+    if column == "rms_error_percent":
+        axes.set_yscale("log")
+        axes.yaxis.set_major_formatter("{x:g}")
+    else:
+        axes.set_ylim(0.0, 110.0)
+    for quick in (True, False):  # those that only remember, and those that solve
+        rows = tried[(tried["tick_us"] < 1.0) == quick]
+        _label(axes, rows["tick_us"], rows[column],
+               [row["method"] + (" (published)" if row["is_published"] else "") for _, row in rows.iterrows()])
+    axes.legend(loc="upper center")
+    axes.set_title("Couplings: slots and walls, three grips, milling at 100 Hz and 1 kHz, up to a tick of delay", fontsize=10)
