@@ -16,6 +16,8 @@ from osteomill import _studies
 
 DEFAULT = "implicit"
 PUBLISHED = "interpolate"  # the published line between two forces of the model
+WHOLE_RANGE = "slots and walls, three grips, milling at 100 Hz and 1 kHz, up to a tick of delay"
+QUICK_RANGE = "slots, three grips, milling at 1 kHz, no delay"
 QUICK_METHODS = ("implicit", "virtual-coupling", "hold", "interpolate", "sample-estimate-hold")
 
 
@@ -45,7 +47,7 @@ def measure(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def table_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> pd.DataFrame:
-    table = pd.DataFrame([{"method": case["method"]} | found for case, found in zip(choices, outcomes)])
+    table = pd.DataFrame([{"method": case["method"], "range": QUICK_RANGE if case["quick"] else WHOLE_RANGE} | found for case, found in zip(choices, outcomes)])
     table["is_default"] = table["method"] == DEFAULT
     table["is_published"] = table["method"] == PUBLISHED
     return table

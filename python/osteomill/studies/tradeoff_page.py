@@ -141,4 +141,4 @@ def _draw_couplings(axes: Axes, coupling: pd.DataFrame, column: str, y_label: st
         _label(axes, rows["tick_us"], rows[column],
                [row["method"] + (" (published)" if row["is_published"] else "") for _, row in rows.iterrows()])
     axes.legend(loc="upper center")
-    axes.set_title("Couplings: slots and walls, three grips, milling at 100 Hz and 1 kHz, up to a tick of delay", fontsize=10)
+    axes.set_title(f"Couplings: {coupling['range'].iloc[0]}", fontsize=10)
