@@ -12,6 +12,7 @@ import zipfile
 
 SOURCE = pathlib.Path(sys.argv.pop())
 RENDER = "_render" + sysconfig.get_config_var("EXT_SUFFIX")
+STUDIES = "_studies" + sysconfig.get_config_var("EXT_SUFFIX")
 CORE = "_core" + sysconfig.get_config_var("EXT_SUFFIX")
 PYTHON = f"cp{sys.version_info.major}{sys.version_info.minor}"
 WHEEL = f"osteomill-1.2.3-{PYTHON}-{PYTHON}-{sysconfig.get_platform().replace('-', '_')}.whl"
@@ -58,7 +59,8 @@ class Release(unittest.TestCase):
         for module in modules.iterdir():
             module.unlink()
         shutil.copy("/bin/false", modules / core)
-        shutil.copy("/bin/true", modules / RENDER)
+        for module in (RENDER, STUDIES):
+            shutil.copy("/bin/true", modules / module)
         shutil.copy("/bin/true", made / "usr/bin/haptic_server")
         (made / "DEBIAN/control").write_text("Package: osteomill-server\nVersion: 1.2.3\nArchitecture: all\n"
                                              "Maintainer: a <a@b.example>\nDescription: a\n")

@@ -10,6 +10,7 @@ repeats it to get its spread.
 import dataclasses
 import itertools
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -127,7 +128,7 @@ def one_factor_at_a_time(lattice: Lattice, runs: int) -> Design:
     """The obvious choice: the middle of each list, then one list after the other through its other values; from the
     start again until there are enough runs. A tilt is varied in all its directions."""
     diameter = _middle(lattice.diameters_mm)
-    middle = {"diameter_mm": diameter, "edges": lattice.edges, "turns": lattice.turns, "rpm": _middle(lattice.rpm),
+    middle: dict[str, Any] = {"diameter_mm": diameter, "edges": lattice.edges, "turns": lattice.turns, "rpm": _middle(lattice.rpm),
               "feed_mm_per_s": _middle(lattice.feeds_mm_per_s), "depth_mm": min(_middle(lattice.depths_mm), 0.5 * diameter),
               "tilt_deg": 0.0, "tilt_direction_deg": 0.0}
     varied = {"diameter_mm": lattice.diameters_mm, "feed_mm_per_s": lattice.feeds_mm_per_s, "rpm": lattice.rpm,
@@ -145,7 +146,7 @@ def _middle(values: Sequence[float]) -> float:
 
 
 def design_of(settings: pd.DataFrame, regressors: Array) -> Design:
-    stacked = np.vstack(regressors)
+    stacked = np.vstack(list(regressors))
     information = stacked.T @ stacked
     condition = scaled_condition(stacked)
     if condition >= 1e6:  # far below where rounding makes an inverse worthless

@@ -175,7 +175,8 @@ def _softly_fitted(design: Array, measured: Array, begin: Array) -> Array:
 
 def _weights(residuals: Array) -> Array:
     """Of soft L1: psi(r) / r."""
-    return 1.0 / np.sqrt(1.0 + (residuals / LARGE_RESIDUAL) ** 2)
+    weights: Array = 1.0 / np.sqrt(1.0 + (residuals / LARGE_RESIDUAL) ** 2)
+    return weights
 
 
 def _scatter(residuals: Array, freedom: int, is_robust: bool) -> float:

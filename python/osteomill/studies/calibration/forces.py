@@ -61,7 +61,7 @@ def forces_of(runs: pd.DataFrame, drift: str = "none") -> Forces:
     law = np.vstack([regressors_of(run) for run in runs.itertuples()])
     slopes = np.kron(runs[["time"]].to_numpy(float), of_each_axis)
     zeros = np.kron(np.ones((len(runs), 1)), of_each_axis)
-    unknowns = [*COEFFICIENTS, *DRIFTS[drift]]
+    unknowns = list(COEFFICIENTS) + list(DRIFTS[drift])
     return Forces(
         runs=runs.run.tolist(),
         unknowns=unknowns,
