@@ -4,6 +4,7 @@
 #include <deque>
 #include <mutex>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "common/files/session_file.h"
@@ -212,7 +213,8 @@ void RecordingWriter::Shared::run() {
         lock.lock();
         if (is_given_up) return;
         report.error = error;
-        if (error.empty()) report.file = file.path();
+        std::error_code failed;  // it may have its name although its folder could not be synced
+        if (!std::filesystem::exists(file.part(), failed)) report.file = file.path();
     }
     has_thread = false;
     changed.notify_all();
@@ -235,6 +237,13 @@ std::string RecordingWriter::Shared::make_whole() {
         return failure.what();
     }
     return {};
+}
+
+std::string ending_of(const RecordingReport& report) {
+    std::error_code failed;
+    if (report.error.empty() || report.frames == 0 || !std::filesystem::is_regular_file(report.file, failed))
+        return report.error;
+    return report.error + "; what there is lies in " + report.file.string() + ", which packet_replay reads";
 }
 
 }  // namespace osteomill

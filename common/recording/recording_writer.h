@@ -36,6 +36,10 @@ struct RecordingReport {
     std::string error{};             ///< one line; empty where all frames are in the file
 };
 
+/// One line about a recording that has ended with an error: what, and where that which was written lies and
+/// can be read. Empty where all frames are in the file.
+std::string ending_of(const RecordingReport& report);
+
 /// What there is to tell of a recording under way.
 enum class RecordingNews {
     stands_still,  ///< nothing more can be written, for now or for good

@@ -17,7 +17,7 @@ namespace osteomill {
 
 namespace {
 
-/// Writes one thing after the other although one of them fails, and keeps the first failure.
+/// Writes one thing after the other although one of them fails, keeps the first failure and says the others.
 class FirstFailure {
   public:
     template <typename Write>
@@ -25,7 +25,10 @@ class FirstFailure {
         try {
             write_one();
         } catch (const std::exception& error) {
-            if (line_.empty()) line_ = error.what();
+            if (line_.empty())
+                line_ = error.what();
+            else
+                spdlog::error("{}", error.what());
         }
     }
     void require_none() const {
@@ -86,7 +89,7 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
         if (files.json_histograms) write_json(histograms_us(report), *files.json_histograms);
     });
     failure.of([&] {
-        if (recording && !recording->error.empty()) throw std::runtime_error(recording->error);
+        if (recording && !recording->error.empty()) throw std::runtime_error(ending_of(*recording));
         if (!files.report) return;
         // Clients have had the end by now, and all else lies on the disk.
         output.out->say("the session has ended; its report is being made");

@@ -51,6 +51,12 @@ SessionInfo info_of(const ShownOptions& options, const SessionScene& scene, cons
     return info;
 }
 
+/// Clients are told what is wrong with the recording as with saving.
+StreamingOptions with_teller(StreamingOptions streaming, SessionKeeper& keeper) {
+    if (streaming.record) streaming.record->tell = [&keeper](const std::string& line) { keeper.tell(line); };
+    return streaming;
+}
+
 }  // namespace
 
 ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirror, MillingSession& session,
@@ -59,8 +65,8 @@ ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirro
       controls_(session.exchange().gate, *session.exchange().restored, session.exchange().placements,
                 requests(options, scene.scene, device)),
       live_(session.exchange().tool, session.exchange().changes, &controls_, std::move(options.script)),
-      server_(options.streaming, info_of(options, scene, session.bone().grid(), device), std::move(mirror),
-              live_, device.operator_channel.get(),
+      server_(with_teller(options.streaming, keeper_), info_of(options, scene, session.bone().grid(), device),
+              std::move(mirror), live_, device.operator_channel.get(),
               structures_outside_bone_labels(scene.structures, scene.scene, session.bone())) {
     live_.listen_to(session.exchange().cuts);
     if (has_ct(scene.source, session.bone().grid()))

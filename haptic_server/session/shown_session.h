@@ -38,7 +38,7 @@ class ShownSession {
 
     StreamingServer& server() { return server_; }
     bool finish_requested() const { return keeper_.finish_requested(); }
-    /// What is wrong with saving, to the log and to clients.
+    /// What is wrong with saving or recording, to the log and to clients.
     void tell(const std::string& line) { keeper_.tell(line); }
 
     /// Begins to say goodbye, and waits for a bone that is being saved. Call once the session has ended.

@@ -34,12 +34,12 @@ SessionRecorder::SessionRecorder(const RecordTo& to, v2::Hello hello, const Bone
       feed_(of_recording(std::move(hello), to), mirror, packers_, structures),
       writer_(
           to.file,
-          [this](RecordingNews news, const std::string& line) {
+          [this, tell = to.tell](RecordingNews news, const std::string& line) {
               if (!is_under_way_) return;
-              if (news == RecordingNews::goes_on)
-                  spdlog::warn("{}", line);
-              else
-                  spdlog::error("{}; the session goes on, and the recording, too, once there is room", line);
+              if (news == RecordingNews::goes_on) return spdlog::warn("{}", line);
+              const std::string all =
+                  line + "; the session goes on, and the recording, too, once it can be written";
+              tell ? tell(all) : spdlog::error("{}", all);
           },
           WhenDiskIsFull::try_again) {
     hand_over(Wait::for_the_disk);

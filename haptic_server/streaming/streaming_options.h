@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,8 @@ struct RecordTo {
     bool with_ticks = true;
     /// Where the haptic loop leaves them, for the recording alone; null: nowhere.
     SampleQueue<TickSample>* ticks = nullptr;
+    /// For people, when the recording can no longer be written; any thread. Empty: into the log.
+    std::function<void(const std::string& line)> tell{};
 };
 
 struct StreamingOptions {

@@ -304,6 +304,19 @@ TEST_F(OutputFiles, WhoseFolderIsRemovedAreElsewhereAndThatIsSaidAtOnce) {
     }
 }
 
+TEST_F(OutputFiles, AreAllNamedWhereSeveralCannotBeWritten) {
+    ChildProcess session(server({"--listen", "127.0.0.1:0", "--save-bone", file("a.nrrd"), "--json",
+                                 file("a.json"), "--record", file("a.pcap")}));
+    ASSERT_TRUE(session.line_after("listening on"));
+    for (const std::string name : {"a.nrrd", "a.json", "a.pcap"}) fs::create_directory(file(name));
+    session.send_signal(SIGTERM);
+    EXPECT_EQ(session.wait(), 1);
+    EXPECT_THAT(session.err(),
+                AllOf(HasSubstr(file("a.nrrd") + ": "), HasSubstr(file("a.json") + ": "),
+                      HasSubstr("lies in " + file("a.part.pcap") + ", which packet_replay reads")));
+    EXPECT_EQ(run_program({PACKET_REPLAY, file("a.part.pcap"), "--info"}).status, 0);
+}
+
 TEST_F(OutputFiles, WhoseSourceIsWrittenOverAreSavedAndThatIsSaidAtOnce) {
     ASSERT_EQ(
         run_program(server({"--clock", "virtual", "--duration-s", "0.1", "--save-bone", file("carved.nrrd")}))

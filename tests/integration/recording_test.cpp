@@ -344,7 +344,8 @@ TEST_F(Recording, StandsStillWhileTheDiskIsFullAndTheSessionGoesOn) {
     const Finished server = record_on_disk_of(needed - 5, "a.pcap", "full.json");
     EXPECT_EQ(server.status, 1);
     EXPECT_THAT(server.err, AllOf(HasSubstr("a.part.pcap: no more than "), HasSubstr("File too large"),
-                                  HasSubstr("the session goes on")));
+                                  HasSubstr("the session goes on"),
+                                  HasSubstr("lies in " + file("a.part.pcap") + ", which packet_replay")));
     const auto full = json("full.json");
     EXPECT_EQ(full.at("bone_checksum"), json("server.json").at("bone_checksum"));
     EXPECT_EQ(full.at("ticks"), json("server.json").at("ticks"));

@@ -144,6 +144,20 @@ TEST(RecordingWriter, StaysAPartWhereFramesAreMissing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.pcap"));
 }
 
+TEST(RecordingWriter, SaysWhereTheFramesLieIfTheFileCannotHaveItsName) {
+    const testing::TemporaryFolder folder;
+    RecordingWriter writer(folder / "a.pcap", {}, WhenDiskIsFull::try_again);
+    writer.push(Stamp{}, "kept");
+    std::filesystem::create_directory(folder / "a.pcap");
+    writer.commit();
+    const auto part = folder / "a.part.pcap";
+    EXPECT_EQ(writer.report().file, part);
+    EXPECT_EQ(ending_of(writer.report()), (folder / "a.pcap").string() +
+                                              ": cannot be written: Is a directory; what there is lies in " +
+                                              part.string() + ", which packet_replay reads");
+    EXPECT_EQ(PacketReader(part).next()->message.size(), 4U);
+}
+
 TEST(RecordingWriter, NeverWaitsForASlowDiskAndHoldsNoMoreThanItMay) {
     const testing::TemporaryFolder folder;
     const auto pipe = folder / "pipe";  // nobody reads it: the slowest disk there is
