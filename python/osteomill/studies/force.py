@@ -104,11 +104,11 @@ def _run_random(options: argparse.Namespace, study: StudyRun) -> None:
 
 
 def _run_file(options: argparse.Namespace, study: StudyRun) -> None:
-    names = [motion.name for motion in _studies.steady_cases(options.cases)]
+    names: list[str] = [motion.name for motion in _studies.steady_cases(options.cases)]
     cases = [{"file": str(options.cases), "index": index, "voxel_mm": options.voxel_mm or 0.1,
               "milling_rate_hz": options.milling_rate_hz or 100.0, "travel_mm": options.travel_mm or 2.0}
              for index in range(len(names))]
-    reports = study.sweep(report_of_case, cases, lambda case: names[case["index"]])
+    reports = study.sweep(report_of_case, cases, lambda case: names[int(case["index"])])
     study.json("cases", reports)
     study.say(f"{len(cases)} cases in {study.out / 'cases.json'}")
 

@@ -25,7 +25,7 @@ FORCES_OF_A_RUN = len(AXES)
 SLOPES = [f"drift_{axis}" for axis in AXES]  # N, from the first run that was made to the last
 ZEROS = [f"zero_{axis}" for axis in AXES]  # N, at the first
 #: What each way of drifting adds to what is to be found.
-DRIFTS = {"none": [], "slope": SLOPES, "line": SLOPES + ZEROS}
+DRIFTS: dict[str, list[str]] = {"none": [], "slope": SLOPES, "line": SLOPES + ZEROS}
 
 
 @dataclasses.dataclass(frozen=True)
