@@ -90,7 +90,7 @@ class Simulation:
 
 
 class CalibrationCoverageTest(unittest.TestCase):
-    LABS = 300
+    LABS = 200
 
     def assert_held(self, lab, low_percent, high_percent, **how):
         """Of each coefficient, in a share of labs that is not contradicted: all six together in one seed of a thousand."""
@@ -119,7 +119,7 @@ class CalibrationCoverageTest(unittest.TestCase):
         self.assert_held(NO_ZERO, 95, 95, drift="line")
 
     def test_the_jackknife_of_a_robust_fit_holds(self):
-        self.LABS = 100
+        self.LABS = 60
         self.assert_held(CLEAN, 93, 96, is_robust=True)
         found = self.assert_held(WRONG[0], 93, 99, is_robust=True)
         squares = Simulation(WRONG[0], self.LABS, seed=11)

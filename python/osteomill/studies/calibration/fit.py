@@ -39,6 +39,8 @@ TWO_SIDED_95 = 0.975
 #: Where soft L1 turns from squares to distances, in spreads: Huber's choice, which costs a twentieth of the
 #: information where nothing went wrong.
 LARGE_RESIDUAL = 1.345
+#: What a median of absolute residuals tells of their scatter, as a share of what their squares tell where all are sound.
+EFFICIENCY_OF_MEDIAN = 0.37
 #: A coefficient is named where its part in a dependency is at least this share of the largest part.
 NOTABLE_PART = 0.2
 
@@ -52,6 +54,7 @@ class Solution:
     condition: float  #: of the scaled design, see LARGEST_CONDITION
     freedom: int  #: forces too many
     scatter: float  #: of the forces about the fit, in spreads; NaN where none is too many
+    scatter_freedom: float  #: how well that is known
 
 
 @dataclasses.dataclass(frozen=True)
@@ -108,15 +111,12 @@ def fit_forces(forces: Forces, is_robust: bool = False) -> Fit:
     probability = float(scipy.stats.chi2.sf(chi_squared, whole.freedom))
     widened_by = 1.0
     if is_robust:
-        covariance = _jackknifed(forces, rest)
-        factor = scipy.stats.t.ppf(TWO_SIDED_95, len(forces.runs) - 1)
+        covariance, factor = _jackknifed(forces, rest), _students(len(forces.runs) - 1)
     elif probability < IMPROBABLE:
         widened_by = float(np.sqrt(chi_squared / whole.freedom))
-        covariance = widened_by**2 * whole.covariance
-        factor = scipy.stats.t.ppf(TWO_SIDED_95, whole.freedom)
+        covariance, factor = widened_by**2 * whole.covariance, _students(whole.freedom)
     else:
-        covariance = whole.covariance
-        factor = scipy.stats.norm.ppf(TWO_SIDED_95)
+        covariance, factor = whole.covariance, float(scipy.stats.norm.ppf(TWO_SIDED_95))
     uncertainty = np.sqrt(np.diag(covariance))
     surprises = [_surprise(forces.of_run(run), others) for run, others in enumerate(rest)]
     fit = Fit(
@@ -140,6 +140,10 @@ def fit_forces(forces: Forces, is_robust: bool = False) -> Fit:
     return fit
 
 
+def _students(freedom: int) -> float:
+    return float(scipy.stats.t.ppf(TWO_SIDED_95, freedom))
+
+
 def solve(forces: Forces, is_robust: bool = False) -> Solution:
     """Of a design that tells all unknowns apart."""
     design = forces.design()
@@ -150,12 +154,14 @@ def solve(forces: Forces, is_robust: bool = False) -> Solution:
     if is_robust:
         scaled_value = _softly_fitted(design / lengths, measured, scaled_value)
     residuals = measured - design / lengths @ scaled_value
+    freedom = len(residuals) - len(lengths)
     return Solution(
         value=scaled_value / lengths,
         covariance=(right.T / singular**2) @ right / np.outer(lengths, lengths),
         condition=float(singular[0] / singular[-1]),
-        freedom=len(residuals) - len(lengths),
-        scatter=_scatter(residuals, len(residuals) - len(lengths), is_robust),
+        freedom=freedom,
+        scatter=_scatter(residuals, freedom, is_robust),
+        scatter_freedom=freedom * EFFICIENCY_OF_MEDIAN if is_robust else freedom,
     )
 
 
@@ -211,7 +217,7 @@ def _surprise(run: Forces, others: Solution | None) -> tuple[Array, float]:
         return error_n * np.nan, np.nan
     covariance = others.scatter**2 * (np.diag(run.spread_n**2) + run.regressors @ others.covariance @ run.regressors.T)
     distance = float(error_n @ np.linalg.solve(covariance, error_n)) / len(error_n)
-    probability = float(scipy.stats.f.sf(distance, len(error_n), others.freedom))
+    probability = float(scipy.stats.f.sf(distance, len(error_n), others.scatter_freedom))
     return error_n / np.sqrt(np.diag(covariance)), probability
 
 
