@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/calibration/calibration_options.h"
 #include "analysis/output/cases/kept_command.h"
 #include "analysis/output/repeated/manifest.h"
 #include "common/program/commit.h"
@@ -33,9 +32,8 @@ int main(int argc, char** argv) {
     CLI::App app("Studies of the simulator: numbers and charts.", "osteomill_study");
     app.set_version_flag("--version", OSTEOMILL_VERSION);
     app.require_subcommand(0, 1);
-    const std::vector<StudyCommand> studies{add_force(app),      add_stability(app), add_polishing(app),
-                                            add_render(app),     add_realtime(app),  add_bridge(app),
-                                            add_calibration(app)};
+    const std::vector<StudyCommand> studies{add_force(app),  add_stability(app), add_polishing(app),
+                                            add_render(app), add_realtime(app),  add_bridge(app)};
     std::vector<std::string> names;
     std::vector<StudyCommand> repeated;
     for (const StudyCommand& study : studies) {

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "analysis/calibration/steady_case.h"
 #include "python/module/arrays.h"
 #include "python/studies/bindings.h"
+#include "studies/force/steady_case.h"
 
 namespace osteomill::python {
 

@@ -1,8 +1,8 @@
 // A run of a model through a steady motion, with what it reports.
 #pragma once
 
-#include "analysis/calibration/steady_case.h"
 #include "studies/force/force_series.h"
+#include "studies/force/steady_case.h"
 #include "studies/force/studied_model.h"
 
 namespace osteomill::study {

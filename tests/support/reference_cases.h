@@ -2,7 +2,7 @@
 // with mean forces from an independent quadrature (2880 x 2880 points).
 #pragma once
 
-#include "analysis/calibration/steady_case.h"
+#include "studies/force/steady_case.h"
 
 namespace osteomill::testing {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/calibration/steady_case.h"
 #include "analysis/output/cases/json_values.h"
 #include "analysis/output/surroundings.h"
+#include "studies/force/steady_case.h"
 
 namespace osteomill::study {
 

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "analysis/calibration/steady_case.h"
 #include "simulation/cutting_force/edge_advance.h"
 #include "simulation/cutting_force/reference_force.h"
+#include "studies/force/steady_case.h"
 #include "tests/support/steady_motion.h"
 
 namespace osteomill::edge_force_test {

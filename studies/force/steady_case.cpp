@@ -1,4 +1,4 @@
-#include "analysis/calibration/steady_case.h"
+#include "studies/force/steady_case.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
