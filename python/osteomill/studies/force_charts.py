@@ -41,8 +41,8 @@ def curves(tables: dict[str, pd.DataFrame]) -> Figure:
 def contact(table: pd.DataFrame) -> Figure:
     figure = charts.figure()
     axes = figure.subplots()
-    for name, looks in (("milling 6 mm/s", {"linestyle": "-"}), ("milling 2 mm/s", {"linestyle": "--"})):
-        axes.plot(table["depth_mm"], table[name], color=charts.BLACK, linewidth=2.6, label=f"{name} (reference)", **looks)
+    for name, line in (("milling 6 mm/s", "-"), ("milling 2 mm/s", "--")):
+        axes.plot(table["depth_mm"], table[name], color=charts.BLACK, linestyle=line, linewidth=2.6, label=f"{name} (reference)")
     models = [name for name in table.columns if name != "depth_mm" and not name.startswith("milling")]
     for name, colour, marker in zip(models, (charts.BLUE, charts.RED, charts.GREEN, charts.PINK), "os^v"):
         is_first = marker == "o"  # petersik lies on it

@@ -85,7 +85,7 @@ def _mean_reference_n(
     apart_s = 1e-4 * duration_s
     forces = []
     for t in (np.arange(instants) + 0.5) * duration_s / instants:
-        velocity = (path(t + apart_s) - path(t - apart_s)) / (2.0 * apart_s)
+        velocity = np.asarray((path(t + apart_s) - path(t - apart_s)) / (2.0 * apart_s), dtype=np.float64)
         forces.append(_studies.reference_force(burr, path(t), axis, velocity, layer))
     return np.asarray(np.mean(forces, axis=0))
 

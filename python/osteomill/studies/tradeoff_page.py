@@ -20,10 +20,10 @@ LOOKS: dict[str, dict[str, Any]] = {
     "map": {"color": charts.GREY, "marker": "P", "linestyle": "none"},
     "instants": {"color": charts.BLACK, "marker": "D", "linestyle": "none"},
 }
-DEFAULT_RING = {"marker": "o", "markersize": 13, "markerfacecolor": "none", "markeredgecolor": charts.BLACK,
+DEFAULT_RING: dict[str, Any] = {"marker": "o", "markersize": 13, "markerfacecolor": "none", "markeredgecolor": charts.BLACK,
                 "markeredgewidth": 1.8, "linestyle": "none"}
 
-SCENE_STAR = {"marker": "*", "markersize": 13, "color": charts.YELLOW, "markeredgecolor": charts.BLACK, "linestyle": "none",
+SCENE_STAR: dict[str, Any] = {"marker": "*", "markersize": 13, "color": charts.YELLOW, "markeredgecolor": charts.BLACK, "linestyle": "none",
               "zorder": 5}
 WHITE_GROUND = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
 

@@ -116,7 +116,7 @@ def _exchanged(information: Array, runs: int, random: np.random.Generator) -> tu
                 taken[place] = best
                 total = rest + information[best]
                 has_changed = True
-    return float(_log_determinant(total)), sorted(taken.tolist())
+    return float(_log_determinant(total)), sorted(int(run) for run in taken)
 
 
 def _log_determinant(information: Array) -> Array:

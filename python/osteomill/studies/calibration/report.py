@@ -189,7 +189,8 @@ def _accepted(fit: Fit, first: int) -> str:
 
 
 def _drift(fit: Fit) -> list[tuple[str, float, float]]:
-    return list(zip(fit.unknowns, fit.value, fit.half_width))[len(COEFFICIENTS) :]
+    fitted = list(zip(fit.unknowns, fit.value, fit.half_width))[len(COEFFICIENTS) :]
+    return [(name, float(value), float(half_width)) for name, value, half_width in fitted]
 
 
 def chart_of_fit(calibrations: Sequence[Calibration]) -> Figure:
