@@ -84,9 +84,10 @@ def run_cases(
     """
     others = multiprocessing.active_children()
     with concurrent.futures.ProcessPoolExecutor(jobs or processors(), initializer=_begin_worker) as pool:
-        futures = {pool.submit(_outcome, function, cases[index]): index for index in indices}
-        workers = [child for child in multiprocessing.active_children() if child not in others]
+        workers: list[Any] = []
         try:
+            futures = {pool.submit(_outcome, function, cases[index]): index for index in indices}
+            workers = [child for child in multiprocessing.active_children() if child not in others]
             for future in concurrent.futures.as_completed(futures):
                 yield futures[future], json.loads(future.result())
         except BrokenProcessPool:

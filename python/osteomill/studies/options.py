@@ -36,7 +36,18 @@ class Parser(argparse.ArgumentParser):
                 raise UsageError(f"{name}: is given without a value")
             if not word:
                 raise UsageError("an argument is empty: a variable of a script that was not set?")
+        self._require_values(words)
         return self.parse_intermixed_args(list(words))
+
+    def _require_values(self, words: Sequence[str]) -> None:
+        """argparse of Python 3.13 takes the name of the next option for a value of one that has several."""
+        for place, word in enumerate(words):
+            action = self._option_string_actions.get(word)
+            if action is None or not isinstance(action.nargs, int) or action.nargs == 0:
+                continue
+            values = words[place + 1 : place + 1 + action.nargs]
+            if len(values) < action.nargs or any(value in self._option_string_actions for value in values):
+                raise UsageError(f"{word}: expected {action.nargs} arguments")
 
     def error(self, message: str) -> NoReturn:
         message = re.sub("^argument (-h/)?", "", message)
