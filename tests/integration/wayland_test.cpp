@@ -7,9 +7,11 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <thread>
 
+#include "render_client/volume/png_file.h"
 #include "tests/support/picture_difference.h"
 #include "tests/support/wayland_display.h"
 
@@ -18,6 +20,9 @@ namespace {
 
 using namespace std::chrono_literals;
 using Shell = WaylandDisplay::Shell;
+
+constexpr const char* copier = "/usr/bin/wl-copy";
+constexpr const char* paster = "/usr/bin/wl-paste";
 
 class WaylandTest : public ::testing::TestWithParam<int> {
   protected:
@@ -52,6 +57,11 @@ class WaylandTest : public ::testing::TestWithParam<int> {
             std::this_thread::sleep_for(100ms);
             return false;
         });
+    }
+    /// Before it draws, the screen is black, as if a window filled it.
+    void show_desktop(const glm::ivec2& size_px) {
+        display_.emplace(size_px, GetParam(), Shell::desktop);
+        ASSERT_TRUE(comes_true([&] { return free_part() > 0.9; }));
     }
     Picture screen() const { return display_->outside().screen(); }
     bool xdotool(const std::vector<std::string>& arguments) const {
@@ -90,6 +100,75 @@ class WaylandTest : public ::testing::TestWithParam<int> {
 
 INSTANTIATE_TEST_SUITE_P(PixelsInAUnit, WaylandTest, ::testing::Values(1, 2),
                          [](const auto& scale) { return "Scale" + std::to_string(scale.param); });
+
+TEST_P(WaylandTest, ShowsEveryPixelOfWhatAnOffscreenRunDrawsAndAnswersMouseAndKeys) {
+    start_server();
+    show_desktop({480, 360});
+    const Finished offscreen =
+        run_program(client({"--offscreen", "--frames", "3", "--no-panels", "--window-size", "480x360",
+                            "--screenshots", folder("offscreen")}));
+    ASSERT_EQ(offscreen.status, 0) << offscreen.err;
+    const Picture first = read_png(folder("offscreen") + "/final.png");
+    window_.emplace(display_->shown_here(client({"--no-panels", "--window-size", units(480, 360)})));
+    ASSERT_TRUE(shows(first)) << difference(screen(), first) << window_->err();
+
+    press("F1");
+    EXPECT_TRUE(shows_otherwise_than(first, 0.2)) << "help";
+    press("F1");
+    EXPECT_TRUE(shows(first)) << "help goes again";
+    ASSERT_TRUE(xdotool({"mousemove", "240", "180", "mousedown", "3"}));
+    EXPECT_TRUE(comes_true([&] {
+        xdotool({"mousemove_relative", "7", "2"});
+        return difference(screen(), first) >= 0.1;
+    })) << "the view turns";
+    ASSERT_TRUE(xdotool({"mouseup", "3"}));
+    press("Home");
+    EXPECT_TRUE(shows(first)) << "the first view";
+    ASSERT_TRUE(xdotool({"keydown", "w"}));
+    EXPECT_TRUE(shows_otherwise_than(first, 0.01)) << "the burr moves";
+    ASSERT_TRUE(xdotool({"keyup", "w"}));
+
+    server_->send_signal(SIGINT);
+    ASSERT_EQ(server_->wait(), 0);
+    press("Escape");
+    EXPECT_EQ(window_->wait(), 0) << window_->err();
+}
+
+TEST_P(WaylandTest, CutsCopiesAndPastesToAndFromOtherPrograms) {
+    for (const char* program : {copier, paster})
+        if (!std::filesystem::exists(program))
+            GTEST_SKIP() << "needs " << program << " (apt-get install wl-clipboard)";
+    std::filesystem::create_directories(folder("kept"));
+    std::ofstream(folder("kept/window.toml")) << "tour_seen = true\n";
+    show_desktop({1280, 800});
+    window_.emplace(display_->shown_here(client({"--window-size", units(1280, 800)})));
+    ASSERT_TRUE(comes_true([&] { return free_part() < 0.1; })) << window_->err();
+    ASSERT_TRUE(stands_still());
+    const auto other_program_has = [&](const std::string& text) {
+        return comes_true([&] {
+            return run_program(display_->shown_here({paster, "--no-newline"})).out == text;
+        });
+    };
+    const auto press_and_wait = [&](const std::string& key) {
+        press(key);
+        EXPECT_TRUE(stands_still()) << key;
+    };
+    ChildProcess other_program(display_->shown_here({copier, "--foreground", "Zo\u00eb"}));
+    ASSERT_TRUE(other_program_has("Zo\u00eb")) << other_program.err();
+    // The trainee's name, where hands and eyes of any scale find it.
+    ASSERT_TRUE(xdotool({"mousemove", "380", GetParam() == 1 ? "618" : "596", "click", "1"}));
+    press_and_wait("ctrl+a");
+    press_and_wait("ctrl+v");
+    press_and_wait("x");
+    press_and_wait("ctrl+a");
+    press_and_wait("ctrl+c");
+    EXPECT_TRUE(other_program_has("Zo\u00ebx")) << window_->err();
+    press_and_wait("End");
+    press_and_wait("y");
+    press_and_wait("ctrl+a");
+    press_and_wait("ctrl+x");
+    EXPECT_TRUE(other_program_has("Zo\u00ebxy")) << window_->err();
+}
 
 TEST_P(WaylandTest, EndsWhenAskedThoughItIsHidden) {
     start_server();
