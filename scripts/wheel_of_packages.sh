@@ -16,4 +16,9 @@ SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
 OSTEOMILL_MODULES=$(dirname "$(find "$installed" -name "_core.*.so")") \
     /usr/bin/python3 -m pip --quiet wheel --no-build-isolation --no-index --no-deps --wheel-dir "$folder" ./python
-scripts/bill_of_materials.py "$installed"/usr/bin/* >"$folder/osteomill-$version-$suite.spdx.json"
+# A script loads no library by itself.
+programs=()
+for program in "$installed"/usr/bin/*; do
+    [ "$(head -c 2 "$program")" = '#!' ] || programs+=("$program")
+done
+scripts/bill_of_materials.py "${programs[@]}" >"$folder/osteomill-$version-$suite.spdx.json"

@@ -62,6 +62,7 @@ class Release(unittest.TestCase):
         for module in (RENDER, STUDIES):
             shutil.copy("/bin/true", modules / module)
         shutil.copy("/bin/true", made / "usr/bin/haptic_server")
+        (made / "usr/bin/osteomill_study").write_text("#!/usr/bin/python3 -Xutf8\n")
         (made / "DEBIAN/control").write_text("Package: osteomill-server\nVersion: 1.2.3\nArchitecture: all\n"
                                              "Maintainer: a <a@b.example>\nDescription: a\n")
         for suite, package in SUITES.items():
