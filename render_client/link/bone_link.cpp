@@ -164,8 +164,7 @@ std::optional<ToolState> BoneLink::newest_tool() const {
     return impl_->connection.newest_tool();
 }
 std::string BoneLink::finish() {
-    impl_->connection.finish_recording();
-    return impl_->connection.recording_error();
+    return impl_->connection.finish_recording();
 }
 
 }  // namespace osteomill

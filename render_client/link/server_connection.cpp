@@ -120,8 +120,10 @@ std::string ServerConnection::recording_error() const {
     return recorder_ ? recorder_->report().error : std::string();
 }
 
-void ServerConnection::finish_recording() {
-    if (recorder_) recorder_->commit();
+std::string ServerConnection::finish_recording() {
+    if (!recorder_) return {};
+    recorder_->commit();
+    return ending_of(recorder_->report());
 }
 
 void ServerConnection::reconnect() {

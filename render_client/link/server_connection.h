@@ -71,8 +71,8 @@ class ServerConnection {
     void resume();
     /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
     std::string recording_error() const;
-    /// Writes what still waits; what comes later is not recorded.
-    void finish_recording();
+    /// Writes what still waits; what comes later is not recorded. One line where some of it is not.
+    std::string finish_recording();
     /// Drops what has come of this connection and begins another.
     void reconnect();
     /// To another server from now on.
