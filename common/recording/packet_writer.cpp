@@ -1,10 +1,10 @@
 #include "common/recording/packet_writer.h"
 
 #include <pcap/pcap.h>
-#include <stdio_ext.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <utility>
@@ -13,73 +13,103 @@
 
 namespace osteomill {
 
-namespace {
+/// Bytes of a pcap file, which libpcap writes into memory.
+class PacketWriter::Format {
+  public:
+    Format()
+        : format_(pcap_open_dead_with_tstamp_precision(DLT_USER0, static_cast<int>(largest_frame_bytes),
+                                                       PCAP_TSTAMP_PRECISION_NANO)) {
+        std::FILE* memory = ::open_memstream(&bytes_, &size_);
+        // Where it makes no output of the stream, libpcap has closed it.
+        if (format_ != nullptr && memory != nullptr) output_ = pcap_dump_fopen(format_, memory);
+        if (output_ == nullptr) throw std::bad_alloc();
+    }
+    ~Format() {
+        pcap_dump_close(output_);
+        pcap_close(format_);
+        std::free(bytes_);
+    }
+    Format(const Format&) = delete;
+    Format& operator=(const Format&) = delete;
 
-constexpr std::uint64_t file_header_bytes = 24;
+    /// What a file begins with, before the first packet; valid until that.
+    std::string_view file_header() { return flushed(); }
 
-}  // namespace
+    /// A packet with its header; valid until the next.
+    std::string_view packet(Stamp stamp, std::string_view message) {
+        using namespace std::chrono;
+        const auto whole_s = floor<seconds>(stamp);
+        pcap_pkthdr header{};
+        header.ts.tv_sec = whole_s.time_since_epoch().count();
+        header.ts.tv_usec = (stamp - whole_s).count();  // nanoseconds: this file's precision
+        header.caplen = header.len = static_cast<bpf_u_int32>(message.size());
+        ::fseeko(pcap_dump_file(output_), 0, SEEK_SET);
+        pcap_dump(reinterpret_cast<u_char*>(output_), &header,
+                  reinterpret_cast<const u_char*>(message.data()));
+        return flushed();
+    }
 
-void PacketWriter::Close::operator()(pcap* format) const {
-    pcap_close(format);
+  private:
+    std::string_view flushed() {
+        // pcap_dump says nothing of failures; stdio remembers them. Memory alone can fail here.
+        if (pcap_dump_flush(output_) != 0 || std::ferror(pcap_dump_file(output_)) != 0)
+            throw std::bad_alloc();
+        return {bytes_, size_};
+    }
+
+    pcap_t* format_;
+    pcap_dumper_t* output_ = nullptr;
+    char* bytes_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+void PacketWriter::Close::operator()(Format* format) const {
+    delete format;
 }
 
-void PacketWriter::Close::operator()(pcap_dumper* output) const {
-    pcap_dump_close(output);
+void PacketWriter::Close::operator()(std::FILE* opened) const {
+    std::fclose(opened);
 }
 
 PacketWriter::PacketWriter(std::filesystem::path file)
-    : file_(std::move(file)),
-      format_(pcap_open_dead_with_tstamp_precision(DLT_USER0, static_cast<int>(largest_frame_bytes),
-                                                   PCAP_TSTAMP_PRECISION_NANO)) {
-    if (!format_) throw std::bad_alloc();
-    std::FILE* stream = std::fopen(file_.c_str(), "wbe");
-    if (stream == nullptr)
+    : file_(std::move(file)), opened_(std::fopen(file_.c_str(), "wbe")), format_(new Format) {
+    if (!opened_)
         throw RecordingError(file_.string() + ": cannot write the recording: " + std::strerror(errno));
-    // Each packet is flushed anyway. What stdio holds for a disk that does not answer it would try to write
-    // once more when the program ends, for ever.
-    std::setvbuf(stream, nullptr, _IONBF, 0);
-    output_.reset(pcap_dump_fopen(format_.get(), stream));
-    if (!output_ || pcap_dump_flush(output_.get()) != 0) {
-        // Where it makes no output of the stream, libpcap has closed it.
-        throw RecordingError(file_.string() + ": cannot write the recording: " + std::strerror(errno));
-    }
-    whole_bytes_ = file_header_bytes;
+    const std::string_view header = format_->file_header();
+    if (const int reason = write_all(header); reason != 0)
+        throw RecordingError(file_.string() + ": cannot write the recording: " + std::strerror(reason));
+    whole_bytes_ = header.size();
 }
 
 void PacketWriter::write(Stamp stamp, std::string_view message) {
-    using namespace std::chrono;
     if (message.size() > largest_frame_bytes)
         throw RecordingError(file_.string() + ": a frame of " + std::to_string(message.size()) +
                              " bytes does not fit a recording");
-    const auto whole_s = floor<seconds>(stamp);
-    pcap_pkthdr header{};
-    header.ts.tv_sec = whole_s.time_since_epoch().count();
-    header.ts.tv_usec = (stamp - whole_s).count();  // nanoseconds: this file's precision
-    header.caplen = header.len = static_cast<bpf_u_int32>(message.size());
-    std::FILE* stream = pcap_dump_file(output_.get());
-    std::clearerr(stream);
-    errno = 0;
-    pcap_dump(reinterpret_cast<u_char*>(output_.get()), &header,
-              reinterpret_cast<const u_char*>(message.data()));
-    // pcap_dump says nothing of failures; stdio remembers them.
-    if (pcap_dump_flush(output_.get()) != 0 || std::ferror(stream) != 0) fail();
+    const std::string_view packet = format_->packet(stamp, message);
+    if (const int reason = write_all(packet); reason != 0) fail(reason);
     ++packets_;
-    whole_bytes_ += packet_header_bytes + message.size();
+    whole_bytes_ += packet.size();
 }
 
-void PacketWriter::fail() {
-    const int reason = errno;
-    std::FILE* stream = pcap_dump_file(output_.get());
+int PacketWriter::write_all(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(::fileno(opened_.get()), bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return errno;
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return 0;
+}
+
+void PacketWriter::fail(int reason) {
+    const int descriptor = ::fileno(opened_.get());
     const auto whole = static_cast<off_t>(whole_bytes_);
-    // What could not be written must not turn up behind what comes later.
-    ::__fpurge(stream);
     // A packet that is torn would be no harm at the end, but some tools complain of it. Where it cannot be
     // cut off it stays, until another is written over it.
-    [[maybe_unused]] const int ignored =
-        ::ftruncate(::fileno(stream), whole) + ::fseeko(stream, whole, SEEK_SET);
-    throw RecordingError(
-        file_.string() + ": no more than " + std::to_string(packets_) +
-        " frames could be written: " + (reason != 0 ? std::strerror(reason) : "it cannot be written"));
+    [[maybe_unused]] const auto ignored =
+        ::ftruncate(descriptor, whole) + ::lseek(descriptor, whole, SEEK_SET);
+    throw RecordingError(file_.string() + ": no more than " + std::to_string(packets_) +
+                         " frames could be written: " + std::strerror(reason));
 }
 
 }  // namespace osteomill

@@ -1,5 +1,6 @@
 // Writer of packets into a recording (see packet.h), each at once: written packets are in the file whatever
-// happens to the program. It waits for the disk: threads that must not use RecordingWriter.
+// happens to the program. It waits for the disk: threads that must not use RecordingWriter. While it waits no
+// stream of stdio is locked: from glibc 2.41 on, the end of a program waits for each such lock.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,6 @@
 #include <string_view>
 
 #include "common/recording/packet.h"
-
-struct pcap;
-struct pcap_dumper;
 
 namespace osteomill {
 
@@ -29,15 +27,17 @@ class PacketWriter {
     std::uint64_t bytes() const { return whole_bytes_; }
 
   private:
+    class Format;
     struct Close {
-        void operator()(pcap* format) const;
-        void operator()(pcap_dumper* output) const;
+        void operator()(Format* format) const;
+        void operator()(std::FILE* opened) const;
     };
-    [[noreturn]] void fail();
+    int write_all(std::string_view bytes);  // 0, or why not: as errno
+    [[noreturn]] void fail(int reason);
 
     std::filesystem::path file_;
-    std::unique_ptr<pcap, Close> format_;
-    std::unique_ptr<pcap_dumper, Close> output_;
+    std::unique_ptr<std::FILE, Close> opened_;  // written by its descriptor, not through stdio
+    std::unique_ptr<Format, Close> format_;
     std::uint64_t packets_ = 0;
     std::uint64_t whole_bytes_ = 0;  // up to the last whole packet
 };
