@@ -41,14 +41,16 @@ class BillOfMaterials(unittest.TestCase):
             self.assertEqual(package["versionInfo"], output_of("dpkg-query", "-W", "-f", "${Version}", package["name"]))
             self.assertTrue(package["licenseComments"].split(": ")[1])
         named = {p["name"].split(":")[0]: p["licenseComments"] for p in self.packages.values()}
-        self.assertIn("Expat", named["libspdlog1.10"])  # as its copyright file says
+        spdlog = next(name for name in named if name.startswith("libspdlog"))  # its version is the system's
+        self.assertIn("Expat", named[spdlog])  # as its copyright file says
         self.assertIn("Zlib", named["zlib1g"])
 
     def test_digests_are_those_of_sha256sum(self):
         for program in PROGRAMS:
             entry = next(p for p in self.bill["packages"] if p["name"] == os.path.basename(program))
             self.assertEqual(entry["checksums"][0]["checksumValue"], output_of("sha256sum", program).split()[0])
-        library, digest = self.packages["SPDXRef-package-libspdlog1.10-amd64"]["comment"].split(" sha256:")
+        spdlog = next(package for package in self.packages.values() if package["name"].startswith("libspdlog"))
+        library, digest = spdlog["comment"].split(" sha256:")
         self.assertEqual(digest.split(";")[0], output_of("sha256sum", library).split()[0])
 
     def test_has_the_same_bytes_again(self):

@@ -44,13 +44,13 @@ class LabCertificates {
         make("client " + name);
         return files(name);
     }
-    /// A client's whose certificate held until yesterday.
+    /// A client's whose certificate held until 2024.
     TlsFiles expired_client() const { return expired(client("past"), "clientAuth"); }
     TlsFiles expired_server() const { return expired(server("past"), "serverAuth"); }
     /// As a CA signs that knows nothing of roles: without extended key usage.
     TlsFiles client_without_usage() const {
         const TlsFiles files = client("plain");
-        sign_anew(files, "keyUsage=critical,digitalSignature", 9);
+        sign_anew(files, "keyUsage=critical,digitalSignature", "-days 9");
         return files;
     }
     /// The list of revoked certificates, with one more where a name is given.
@@ -70,18 +70,24 @@ class LabCertificates {
                 .key = folder_ / (name + ".key"),
                 .ca = folder_ / "ca.pem"};
     }
-    /// The same key with a certificate that held until yesterday.
+    /// The same key with a certificate that held until 2024.
     TlsFiles expired(const TlsFiles& files, const std::string& usage) const {
-        sign_anew(files, "extendedKeyUsage=" + usage, -1);
+        sign_anew(files, "extendedKeyUsage=" + usage, "-startdate 20240101000000Z -enddate 20240102000000Z");
         return files;
     }
-    /// The same key with another certificate of the lab's CA.
-    void sign_anew(const TlsFiles& files, const std::string& extension, int days) const {
+    /// The same key with another certificate of the lab's CA. By `openssl ca`, since `openssl x509` signs
+    /// none that has ended: from OpenSSL 3.4 on it refuses -days -1.
+    void sign_anew(const TlsFiles& files, const std::string& extension, const std::string& validity) const {
         const std::string name = files.certificate.stem().string();
-        run("cd " + folder_.path().string() + " && echo " + extension +
-            " > anew.ext && openssl req -new -key " + name + ".key -subj /CN=" + name +
-            " | openssl x509 -req -CA ca.pem -CAkey ca.key -days " + std::to_string(days) +
-            " -extfile anew.ext -out " + name + ".pem 2> /dev/null");
+        std::ofstream(folder_ / "anew.cnf")
+            << "[ca]\ndefault_ca = lab\n[lab]\ndatabase = anew.txt\nnew_certs_dir = .\npolicy = any\n"
+               "default_md = sha256\nrand_serial = yes\nunique_subject = no\n[any]\ncommonName = "
+               "supplied\n[usage]\n"
+            << extension << '\n';
+        run("cd " + folder_.path().string() + " && touch anew.txt && openssl req -new -key " + name +
+            ".key -subj /CN=" + name + " -out anew.csr && openssl ca -batch -notext -config anew.cnf " +
+            "-cert ca.pem -keyfile ca.key -extensions usage " + validity + " -in anew.csr -out " + name +
+            ".pem 2> /dev/null");
     }
     void make(const std::string& what) const {
         run(std::string(MAKE_LAB_CERTIFICATES) + " " + folder_.path().string() + " " + what);
