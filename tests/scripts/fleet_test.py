@@ -38,11 +38,15 @@ class Database:
         if os.getuid() == 0:
             run("chown", "postgres:postgres", self.cluster)
         run(*self.as_owner, POSTGRES[-1] + "/initdb", "-D", self.cluster, "-A", "trust", "-E", "UTF8", "--no-sync", cwd="/")
-        run(*self.as_owner, POSTGRES[-1] + "/pg_ctl", "-D", self.cluster, "-w", "-l", self.cluster / "log",
-            "-o", f"-c listen_addresses='' -c unix_socket_directories='{self.cluster}' -c fsync=off", "start", cwd="/")
+        self.start()
         self.url = f"postgresql://{self.user}@/postgres?host={self.cluster}"
 
+    def start(self):
+        run(*self.as_owner, POSTGRES[-1] + "/pg_ctl", "-D", self.cluster, "-w", "-l", self.cluster / "log",
+            "-o", f"-c listen_addresses='' -c unix_socket_directories='{self.cluster}' -c fsync=off", "start", cwd="/")
+
     def stop(self):
+        """At once, as a crash does."""
         run(*self.as_owner, POSTGRES[-1] + "/pg_ctl", "-D", self.cluster, "-m", "immediate", "stop", cwd="/")
 
     def rows(self, query):
@@ -125,6 +129,36 @@ class Fleet(unittest.TestCase):
             self.assertIn("another station is adding its sessions", line)
             holder.stdin.close()
 
+    def test_a_server_that_dies_in_the_middle_keeps_all_or_nothing(self):
+        out = tempfile.mkdtemp(dir=self.folder)
+        run(POSTGRES[-1] + "/psql", "-At", "-c", "DROP TABLE IF EXISTS metric, session", self.database.url)
+        holder = subprocess.Popen([POSTGRES[-1] + "/psql", "-At", self.database.url], text=True, stdin=subprocess.PIPE,
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        with holder:
+            # What is added waits for it.
+            holder.stdin.write("CREATE TABLE session (digest text PRIMARY KEY, file text NOT NULL, trainee text NOT NULL,"
+                               " case_name text NOT NULL, began_unix_ns bigint NOT NULL);\n"
+                               "BEGIN; INSERT INTO session SELECT 'x', '', '', '', 0; SELECT 'held';"
+                               " LOCK TABLE session IN ACCESS EXCLUSIVE MODE;\n")
+            holder.stdin.flush()
+            while "held" not in holder.stdout.readline():
+                pass
+            station = subprocess.Popen([STUDY, "sessions", self.folder / "a", "--out", out, "--database", self.database.url],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            while self.database.rows("SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock'") == [["0"]]:
+                self.assertIsNone(station.poll())
+            self.database.stop()
+            error = station.communicate(timeout=120)[1]
+            holder.stdin.close()
+        self.assertEqual(station.returncode, 1, error)
+        self.assertRegex(error.splitlines()[-1], "^osteomill_study: .*(terminat|clos)")
+        self.database.start()
+        self.assertEqual(self.database.rows("SELECT * FROM session"), [])
+        with self.study("a") as again:
+            error = again.communicate(timeout=120)[1]
+        self.assertEqual(again.returncode, 0, error)
+        self.assertEqual(self.database.rows("SELECT trainee, count(*) FROM session GROUP BY trainee"), [["Zoë a", "2"]])
+
     def test_a_database_in_another_encoding_holds_the_same_letters(self):
         run(POSTGRES[-1] + "/createdb", "-E", "LATIN1", "-T", "template0", "--locale=C", "latin1",
             "--maintenance-db", self.database.url)
@@ -143,6 +177,6 @@ class Fleet(unittest.TestCase):
 
 
 if not POSTGRES:
-    print("skipped: PostgreSQL is not installed (package postgresql-15)")
+    print("skipped: PostgreSQL is not installed (package postgresql)")
     sys.exit(77)
 unittest.main(argv=sys.argv[:1])
