@@ -49,6 +49,7 @@ glm::dvec3 no_longer_than(const glm::dvec3& step_mm, double longest_mm) {
 void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
     position_mm_ = carving_mm_ = target_mm_ = hand_mm_ = position_mm;
     apart_mj_ = 0.0;
+    pulled_n_ = glm::dvec3(0.0);
     map_step_ = 0;
     walls_ = {};
     correction_.reset();
@@ -198,14 +199,19 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
     return solved;
 }
 
-void BurrProxy::move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, const glm::dvec3& hand_step_mm,
+void BurrProxy::move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, const LinearPull& pull,
                      double tick_s) noexcept {
-    const glm::dvec3 slowed_mm =
-        hand_step_mm + no_longer_than(step_mm - hand_step_mm, most_slip_mm_per_s_ * tick_s);
-    if (glm::length(slowed_mm) < glm::length(step_mm))
-        position_mm_ += slowed_mm;
-    else
-        position_mm_ = step_mm == target_mm - position_mm_ ? target_mm : position_mm_ + step_mm;
+    const glm::dvec3 change_n = pull.force_n(step_mm) - pulled_n_;
+    const double most_n = most_release_n_per_s * tick_s;
+    if (pulled_n_ != glm::dvec3(0.0) && glm::length(change_n) > most_n) {
+        const glm::dvec3 lets_go_to_n = pulled_n_ + no_longer_than(change_n, most_n);
+        const glm::dvec3 slowed_mm = (pull.offset_n - lets_go_to_n) / pull.stiffness_n_per_mm;
+        if (glm::length(slowed_mm) < glm::length(step_mm)) {
+            position_mm_ += slowed_mm;
+            return;
+        }
+    }
+    position_mm_ = step_mm == target_mm - position_mm_ ? target_mm : position_mm_ + step_mm;
 }
 
 void BurrProxy::cut_toward(const glm::dvec3& target_mm, const glm::dvec3& hand_mm, const LinearPull& pull,
@@ -228,7 +234,7 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const glm::dvec3& hand_m
     apart_mj_ = std::clamp(apart_mj_ + drive_mj(cutting_n, solved.step_mm, hand_step_mm), 0.0,
                            scale_.energy_mj(most_apart_mj));
 
-    move(solved.step_mm, target_mm, hand_step_mm, tick_s);
+    move(solved.step_mm, target_mm, pull, tick_s);
     correction_.add_prediction(cutting_n, tick_s);
     remember_cuts(engagement);
     trail(solved.bone_force_n != glm::dvec3(0.0), engagement);
@@ -243,7 +249,7 @@ void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull
     apart_mj_ = 0.0;
     if (contacts.empty()) {
         walls_ = {};
-        move(pull_mm, target_mm, target_mm - target_mm_, tick_s);
+        move(pull_mm, target_mm, pull, tick_s);
         return;
     }
     const ContactStep solved = relaxed_step(pull, contacts);
@@ -259,18 +265,25 @@ void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull
     if (glm::length(pull_mm - step_mm) > glm::length(target_mm_ - position_mm_))
         position_mm_ += step_mm;
     else
-        move(step_mm, target_mm, target_mm - target_mm_, tick_s);
+        move(step_mm, target_mm, pull, tick_s);
+}
+
+void BurrProxy::remember_pull(const LinearPull& pull, const glm::dvec3& before_mm,
+                              const glm::dvec3& target_mm) noexcept {
+    pulled_n_ = position_mm_ == target_mm ? glm::dvec3(0.0) : pull.force_n(position_mm_ - before_mm);
 }
 
 void BurrProxy::advance(const glm::dvec3& target_mm, const glm::dvec3& hand_mm, const LinearPull& pull,
                         double tick_s, bool spindle_on, const MillingResult& latest) noexcept {
     take_over(latest);
     iterations_ = 0;
+    const glm::dvec3 before_mm = position_mm_;
     if (spindle_on)
         cut_toward(target_mm, hand_mm, pull, tick_s, latest.engagement);
     else
         press_toward(target_mm, pull, tick_s, Meets::all_as_walls, latest.engagement);
     if (!spindle_on) carving_mm_ = position_mm_;
+    remember_pull(pull, before_mm, target_mm);
     target_mm_ = target_mm;
     hand_mm_ = hand_mm;
 }
@@ -279,8 +292,10 @@ void BurrProxy::advance_on_walls(const glm::dvec3& hand_mm, const LinearPull& pu
                                  const MillingResult& latest) noexcept {
     take_over(latest);
     iterations_ = 0;
+    const glm::dvec3 before_mm = position_mm_;
     press_toward(hand_mm, pull, tick_s, Meets::walls_only, latest.engagement);
     carving_mm_ = position_mm_;
+    remember_pull(pull, before_mm, hand_mm);
     target_mm_ = hand_mm_ = hand_mm;
 }
 

@@ -38,8 +38,8 @@
 //
 // First, a massless burr that breaks through would reach the hand within a tick, and the hand would feel the
 // spring relax all at once. The same happens when a spindle stops and the bone that pulled the burr along
-// becomes a wall. A real handpiece has mass, and a spindle slows down: so the burr moves relative to the hand
-// no faster than most_release_n_per_s allows, and the spring relaxes over some ticks.
+// becomes a wall. A real handpiece has mass, and a spindle slows down: so the burr moves no farther than
+// most_release_n_per_s lets the force of spring and damper fall, and they relax over some ticks.
 //
 // Second, edges pull sideways, so bone can drive the burr along: the symmetric part of its resistance may
 // have a negative eigenvalue -N. Then the burr may run away from the hand, and a ring of such contacts may
@@ -75,8 +75,7 @@ class BurrProxy {
     explicit BurrProxy(double wall_friction = 0.0, const PatientLimits& arm = {})
         : wall_friction_(wall_friction),
           scale_(arm.scale),
-          wall_n_per_mm3_(std::max(wall_n_per_mm3, arm.scale.stiffness_n_per_mm(wall_n_per_mm3))),
-          most_slip_mm_per_s_(most_release_n_per_s / arm.max_stiffness_n_per_mm) {}
+          wall_n_per_mm3_(std::max(wall_n_per_mm3, arm.scale.stiffness_n_per_mm(wall_n_per_mm3))) {}
 
     /// Puts the proxy somewhere, without any known contact.
     void place(const glm::dvec3& position_mm) noexcept;
@@ -117,7 +116,7 @@ class BurrProxy {
     /// How fast bone pushes a shank out that is deeper in it than the pull presses it, at the arm: slower
     /// than a hand that yields.
     static constexpr double most_push_out_mm_per_s = 5.0;
-    /// How fast the spring may let go: 0.15 N a tick, half of what is felt as a knock.
+    /// How fast spring and damper may let go: 0.15 N a tick, half of what is felt as a knock.
     static constexpr double most_release_n_per_s = 150.0;
 
     // Energies are the hand's, at the arm.
@@ -161,15 +160,17 @@ class BurrProxy {
     /// Without cutting.
     void press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, Meets meets,
                       const Engagement& engagement) noexcept;
-    /// By a step toward the target, or as much of it as the spring may let go of in a tick beside a hand that
-    /// steps itself.
-    void move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, const glm::dvec3& hand_step_mm,
+    /// By a step toward the target, or as much of it as spring and damper may let go of in a tick.
+    void move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, const LinearPull& pull,
               double tick_s) noexcept;
 
+    void remember_pull(const LinearPull& pull, const glm::dvec3& before_mm,
+                       const glm::dvec3& target_mm) noexcept;
+
     double wall_friction_;
+    glm::dvec3 pulled_n_{0.0};  // of spring and damper on the burr in the last tick; 0 where it is the hand
     ArmScale scale_;
     double wall_n_per_mm3_;
-    double most_slip_mm_per_s_;
     glm::dvec3 position_mm_{0.0};
     glm::dvec3 carving_mm_{0.0};
     glm::dvec3 target_mm_{0.0};  // of the last tick

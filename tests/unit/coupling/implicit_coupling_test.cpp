@@ -60,6 +60,30 @@ Steady cut_on_rails(double depth_mm, double feed_mm_per_s, double rpm, int ticks
     return steady;
 }
 
+TEST(ImplicitCoupling, LetsGoBySpringAndDamperTogetherNoFasterThanIsFelt) {
+    // Through the end of a block, with the spring stretched as far as a fast hand does.
+    for (const double feed_mm_per_s : {20.0, 60.0}) {
+        Burr burr = five_mm_burr();
+        burr.spindle_rev_per_s = 5'000.0 / 60.0;
+        ImplicitCoupling coupling({.device = {.max_stiffness_n_per_mm = spring_n_per_mm}});
+        Lockstep loop(coupling, make_block({-1.0, -6.0, -6.0}, {4.0, 8.0, 0.0}, 0.1), burr, 1);
+        glm::dvec3 before(0.0);
+        double peak_n = 0.0, largest_release_n = 0.0;
+        for (int tick = 0; tick < 1500; ++tick) {
+            const double travel_mm = std::min(feed_mm_per_s * 0.001 * tick, 16.0);
+            const glm::dvec3 force_n = loop.tick({-4.0 + travel_mm, 0.013, 1.0}, true).force_n;
+            if (glm::length(force_n) < glm::length(before))
+                largest_release_n = std::max(largest_release_n, glm::distance(force_n, before));
+            peak_n = std::max(peak_n, glm::length(force_n));
+            before = force_n;
+        }
+        EXPECT_GT(peak_n, 1.0) << feed_mm_per_s;
+        EXPECT_EQ(before, glm::dvec3(0.0)) << feed_mm_per_s;
+        EXPECT_LE(largest_release_n, 0.15 + 1e-9) << feed_mm_per_s;
+        RecordProperty("largest_release_n", std::to_string(largest_release_n));
+    }
+}
+
 class SteadyCut : public ::testing::TestWithParam<std::tuple<double, double, double, int>> {};
 
 TEST_P(SteadyCut, RendersTheForceOfTheMillingModelWithoutChatter) {
