@@ -17,7 +17,6 @@
 #include "common/text/address_text.h"
 #include "common/text/plain_text.h"
 #include "studies/bridge/bridge_study.h"
-#include "studies/force/force_study.h"
 #include "studies/polishing/polishing_study.h"
 #include "studies/realtime/realtime_study.h"
 #include "studies/render/render_study.h"
@@ -32,8 +31,8 @@ int main(int argc, char** argv) {
     CLI::App app("Studies of the simulator: numbers and charts.", "osteomill_study");
     app.set_version_flag("--version", OSTEOMILL_VERSION);
     app.require_subcommand(0, 1);
-    const std::vector<StudyCommand> studies{add_force(app),  add_stability(app), add_polishing(app),
-                                            add_render(app), add_realtime(app),  add_bridge(app)};
+    const std::vector<StudyCommand> studies{add_stability(app), add_polishing(app), add_render(app),
+                                            add_realtime(app), add_bridge(app)};
     std::vector<std::string> names;
     std::vector<StudyCommand> repeated;
     for (const StudyCommand& study : studies) {

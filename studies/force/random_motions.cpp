@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -10,7 +9,6 @@
 #include <random>
 
 #include "common/scene/burr_frame.h"
-#include "common/statistics/percentile.h"
 
 namespace osteomill::study {
 
@@ -145,115 +143,6 @@ void draw_heads(std::vector<RandomMotion>& motions, std::uint64_t seed) {
             ", {} {:.2f} mm long, tip {:.2f}, neck {:.2f}", head_shape_names[static_cast<std::size_t>(shape)],
             burr.head.length_mm, burr.head.tip_diameter_mm, burr.head.neck_diameter_mm);
     }
-}
-
-RandomResult measure(const RandomMotion& motion, const MakeModel& make_model) {
-    const ForceSeries series = run_steady(motion.motion, motion.run, make_model);
-    RandomResult result{.motion = motion,
-                        .reference_n = reference_over_path_n(motion),
-                        .force_n = mean_force_n(series),
-                        .ripple = ripple(series),
-                        .deviations = deviations(series),
-                        .largest_step = largest_step(series),
-                        .step_us = percentile(series.step_us, 0.5)};
-    result.error = relative_error(result.force_n, result.reference_n);
-    return result;
-}
-
-Table table_of(const std::vector<RandomResult>& results) {
-    Table table({"name",
-                 "diameter_mm",
-                 "depth_mm",
-                 "spindle_tilt_deg",
-                 "spindle_azimuth_deg",
-                 "dives",
-                 "feed_mm_per_s",
-                 "rpm",
-                 "edges",
-                 "clockwise",
-                 "groove_mm_higher",
-                 "milling_rate_hz",
-                 "voxel_mm",
-                 "reference_x_n",
-                 "reference_y_n",
-                 "reference_z_n",
-                 "force_x_n",
-                 "force_y_n",
-                 "force_z_n",
-                 "error_percent",
-                 "ripple_percent",
-                 "largest_step",
-                 "step_us"});
-    for (const RandomResult& r : results) {
-        const SteadyCase& c = r.motion.motion;
-        table.add({c.name,
-                   c.burr.diameter_mm,
-                   c.depth_mm,
-                   r.motion.tilt_deg,
-                   r.motion.azimuth_deg,
-                   r.motion.dives,
-                   glm::length(c.velocity_mm_per_s),
-                   60.0 * c.burr.spindle_rev_per_s,
-                   c.burr.edges,
-                   c.burr.sense == SpindleSense::clockwise,
-                   or_empty(c.previous_groove_mm_higher),
-                   r.motion.run.milling_rate_hz,
-                   r.motion.run.voxel_mm,
-                   r.reference_n.x,
-                   r.reference_n.y,
-                   r.reference_n.z,
-                   r.force_n.x,
-                   r.force_n.y,
-                   r.force_n.z,
-                   100.0 * r.error,
-                   100.0 * r.ripple,
-                   r.largest_step,
-                   r.step_us});
-    }
-    return table;
-}
-
-nlohmann::ordered_json summary_of(const std::vector<RandomResult>& results) {
-    std::vector<double> errors, errors_along, ripples, brisk_ripples, windows, largest, steps_us;
-    std::vector<const RandomResult*> worst;
-    for (const RandomResult& r : results) {
-        errors.push_back(100.0 * r.error);
-        if (!r.motion.dives) {
-            errors_along.push_back(100.0 * r.error);
-            ripples.push_back(100.0 * r.ripple);
-            if (glm::length(r.motion.motion.velocity_mm_per_s) >= 5.0)
-                brisk_ripples.push_back(100.0 * r.ripple);
-            for (const double share : r.deviations) windows.push_back(100.0 * share);
-            if (r.motion.run.milling_rate_hz >= 1000.0) largest.push_back(r.largest_step);
-        }
-        steps_us.push_back(r.step_us);
-        worst.push_back(&r);
-    }
-    std::sort(worst.begin(), worst.end(),
-              [](const RandomResult* a, const RandomResult* b) { return a->error > b->error; });
-    constexpr std::size_t most_named = 10;
-    worst.resize(std::min(worst.size(), most_named));
-    nlohmann::ordered_json summary{{"cases", results.size()},
-                                   {"median_error_percent", percentile(errors, 0.5)},
-                                   {"p90_error_percent", percentile(errors, 0.9)},
-                                   {"p95_error_percent", percentile(errors, 0.95)},
-                                   {"p99_error_percent", percentile(errors, 0.99)},
-                                   {"max_error_percent", percentile(errors, 1.0)},
-                                   {"along_median_error_percent", percentile(errors_along, 0.5)},
-                                   {"along_p90_error_percent", percentile(errors_along, 0.9)},
-                                   {"ripple_p90_percent", percentile(ripples, 0.9)},
-                                   {"ripple_p90_from_5_mm_per_s_percent", percentile(brisk_ripples, 0.9)},
-                                   {"ripple_max_percent", percentile(ripples, 1.0)},
-                                   {"window_p95_percent", percentile(windows, 0.95)},
-                                   {"largest_step_p99", percentile(largest, 0.99)},
-                                   {"largest_step_max", percentile(largest, 1.0)},
-                                   {"step_us_p50", percentile(steps_us, 0.5)},
-                                   {"worst", nlohmann::ordered_json::array()}};
-    for (const RandomResult* r : worst)
-        summary["worst"].push_back({{"name", r->motion.motion.name},
-                                    {"error_percent", 100.0 * r->error},
-                                    {"ripple_percent", 100.0 * r->ripple}});
-    return summary;
 }
 
 }  // namespace osteomill::study

@@ -56,7 +56,7 @@ TEST(Chart, OfWhichAFullDiskHasNoRoomIsNone) {
 }
 
 TEST(Chart, HasScriptsOfItsOwn) {
-    EXPECT_TRUE(std::filesystem::exists(chart_scripts() / "curves.gp"));
+    EXPECT_TRUE(std::filesystem::exists(chart_scripts() / "sites.gp"));
 }
 
 TEST(Chart, FindsItsScriptsWhereTheProgramIsInstalled) {
