@@ -16,12 +16,8 @@
 #include "common/program/option_checks.h"
 #include "common/text/address_text.h"
 #include "common/text/plain_text.h"
-#include "studies/bridge/bridge_study.h"
-#include "studies/polishing/polishing_study.h"
-#include "studies/realtime/realtime_study.h"
 #include "studies/render/render_study.h"
 #include "studies/repeat/repeat.h"
-#include "studies/stability/map/stability_study.h"
 
 int main(int argc, char** argv) {
     using namespace osteomill;
@@ -31,8 +27,7 @@ int main(int argc, char** argv) {
     CLI::App app("Studies of the simulator: numbers and charts.", "osteomill_study");
     app.set_version_flag("--version", OSTEOMILL_VERSION);
     app.require_subcommand(0, 1);
-    const std::vector<StudyCommand> studies{add_stability(app), add_polishing(app), add_render(app),
-                                            add_realtime(app), add_bridge(app)};
+    const std::vector<StudyCommand> studies{add_render(app)};
     std::vector<std::string> names;
     std::vector<StudyCommand> repeated;
     for (const StudyCommand& study : studies) {

@@ -7,9 +7,12 @@ namespace osteomill::python {
 
 void bind_calibration(pybind11::module_& module);
 void bind_texts(pybind11::module_& module);
-void bind_couplings(pybind11::module_& module);
 void bind_files(pybind11::module_& module);
 void bind_sessions(pybind11::module_& module);
 void bind_forces(pybind11::module_& module);
+void bind_stability(pybind11::module_& module);
+void bind_polishing(pybind11::module_& module);
+void bind_real_time(pybind11::module_& module);
+void bind_bridge(pybind11::module_& module);
 
 }  // namespace osteomill::python

@@ -220,6 +220,13 @@ void bind_steady(py::module_& module) {
         .def_property_readonly(
             "mean_force_n", [](const SteadyCase& c) { return array_of(c.mean_force_n); }, "Of the file.")
         .def_readonly("removal_mm3_per_s", &SteadyCase::removal_mm3_per_s, "Of the file.")
+        .def(
+            "with_edges",
+            [](SteadyCase c, const Vector& edges) {
+                c.burr.edge_coefficients_n_per_mm = vector_of(edges);
+                return c;
+            },
+            py::arg("edge_coefficients_n_per_mm"), "The same with a burr whose edges rub.")
         .def("reference", &steady_reference,
              "By the analytical reference: the mean force (3,), N, and what is removed, mm^3/s.")
         .def(

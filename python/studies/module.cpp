@@ -15,5 +15,8 @@ PYBIND11_MODULE(_studies, module) {
     osteomill::python::bind_files(module);
     osteomill::python::bind_sessions(module);
     osteomill::python::bind_forces(module);
-    osteomill::python::bind_couplings(module);
+    osteomill::python::bind_stability(module);
+    osteomill::python::bind_polishing(module);
+    osteomill::python::bind_real_time(module);
+    osteomill::python::bind_bridge(module);
 }

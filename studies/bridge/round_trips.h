@@ -2,7 +2,6 @@
 // the machine does falls on both.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "devices/bridge/bridge_address.h"
@@ -13,8 +12,6 @@ struct RoundTrips {
     std::vector<double> bridge_us;  ///< from an arm's pose to the force that answers it
     std::vector<double> echo_us;    ///< of a datagram of the same size that comes back as it is
 };
-
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RoundTrips, bridge_us, echo_us)
 
 /// Where the ends are: threads made within `at_server` and `at_arm` are there.
 struct Ends {

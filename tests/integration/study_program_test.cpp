@@ -319,7 +319,7 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
 }
 
 TEST_F(StudyProgram, SaysAtTheStartThatItCannotDrawCharts) {
-    for (const char* study : {"polishing", "render", "realtime", "stability", "stability --sites"}) {
+    for (const char* study : {"render", "render --full-rate"}) {
         const Outcome outcome = run(std::string(study) + " --out " + out_, "PATH=/nowhere ");
         EXPECT_EQ(outcome.exit_code, 1) << study;
         EXPECT_EQ(outcome.err,

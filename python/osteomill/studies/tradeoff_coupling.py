@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 
 from osteomill import _studies
+from osteomill.studies.stability_points import METHODS, Point, map_points
 
 DEFAULT = "implicit"
 PUBLISHED = "interpolate"  # the published line between two forces of the model
@@ -22,7 +23,7 @@ QUICK_METHODS = ("implicit", "virtual-coupling", "hold", "interpolate", "sample-
 
 
 def cases(quick: bool) -> list[dict[str, Any]]:
-    return [{"part": "coupling", "method": method, "quick": quick} for method in _studies.map_methods()
+    return [{"part": "coupling", "method": method, "quick": quick} for method in METHODS
             if not quick or method in QUICK_METHODS]
 
 
@@ -31,16 +32,17 @@ def _shared() -> _studies.SceneCache:
     return _studies.SceneCache()
 
 
-def points_of(method: str, quick: bool) -> list[_studies.MapCase]:
-    """Quick: cutting alone, at 1 kHz and without a delay."""
-    return [point for point in _studies.map_cases(method, True)
-            if not quick or (point.is_cutting and point.milling_rate_hz == 1000.0 and point.delay_ticks == 0)]
+def points_of(method: str, quick: bool) -> list[Point]:
+    """Of the map itself, on an ideal device. Quick: cutting alone, at 1 kHz and without a delay."""
+    return [{key: value for key, value in point.items() if key != "part"} for point in map_points(True, False)
+            if point["part"] == "map" and point["method"] == method
+            and (not quick or (point["scene"] == "cutting" and point["milling_rate_hz"] == 1000.0 and point["delay_ticks"] == 0))]
 
 
 def measure(case: dict[str, Any]) -> dict[str, Any]:
-    outcomes = [_studies.run_map_case(point, _shared()) for point in points_of(case["method"], case["quick"])]
-    stable = [outcome for outcome in outcomes if outcome.is_stable]
-    errors = [outcome.rms_error_n / outcome.truth_mean_n for outcome in stable]
+    outcomes = [_studies.run_map_case(_shared(), **point) for point in points_of(case["method"], case["quick"])]
+    stable = [outcome for outcome in outcomes if outcome["is_stable"]]
+    errors = [outcome["rms_error_n"] / outcome["truth_mean_n"] for outcome in stable]
     return {"points": len(outcomes), "stable_percent": 100.0 * len(stable) / len(outcomes),
             "rms_error_percent": 100.0 * float(np.median(errors)) if errors else None,
             "tick_us": float(np.median(_studies.coupling_tick_us(case["method"], 200 if case["quick"] else 600)))}

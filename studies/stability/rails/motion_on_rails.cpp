@@ -1,15 +1,12 @@
 #include "studies/stability/rails/motion_on_rails.h"
 
-#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <memory>
 
-#include "analysis/output/study_run.h"
-#include "common/statistics/percentile.h"
 #include "simulation/coupling/couplings.h"
 #include "simulation/force_models/milling_model.h"
 #include "studies/force/bone_block.h"
-#include "studies/force/force_series.h"
 #include "studies/force/random_motions.h"
 
 namespace osteomill::study {
@@ -41,10 +38,6 @@ std::vector<SteadyCase> motions_on_rails(int count, std::uint64_t seed) {
         motions.push_back(c);
     }
     return motions;
-}
-
-double OnRails::error() const {
-    return relative_error(hand_n, model_n);
 }
 
 OnRails run_on_rails(const SteadyCase& c, const std::string& coupling_name) {
@@ -86,45 +79,6 @@ OnRails run_on_rails(const SteadyCase& c, const std::string& coupling_name) {
     }
     run.is_driven = coupling->solve_counts().damped > damped_before;
     return run;
-}
-
-nlohmann::ordered_json summary_of(const std::vector<RailsResult>& results) {
-    std::vector<double> errors_percent;
-    const RailsResult* worst = nullptr;
-    for (const RailsResult& r : results) {
-        if (r.run.is_driven) continue;
-        errors_percent.push_back(100.0 * r.run.error());
-        if (worst == nullptr || r.run.error() > worst->run.error()) worst = &r;
-    }
-    return {{"cases", results.size()},
-            {"driven", results.size() - errors_percent.size()},
-            {"median_error_percent", percentile(errors_percent, 0.5)},
-            {"p95_error_percent", percentile(errors_percent, 0.95)},
-            {"max_error_percent", percentile(errors_percent, 1.0)},
-            {"worst", worst == nullptr ? "" : worst->name}};
-}
-
-void run_rails_study(const RailsStudyOptions& options, const std::filesystem::path& out,
-                     const StudySurroundings& surroundings) {
-    StudyRun run(out, surroundings);
-    auto motions = motions_on_rails(options.count, options.seed);
-    if (options.has_edge_forces)
-        for (SteadyCase& motion : motions) motion.burr.edge_coefficients_n_per_mm = {0.3, 0.3, 0.0};
-    std::vector<PlannedCases<OnRails>> planned;
-    for (const std::string& method : options.methods)
-        planned.push_back(run.plan(
-            motions, [&](const SteadyCase& motion) { return method + ", " + motion.name; },
-            [&method](const SteadyCase& motion) { return run_on_rails(motion, method); }));
-    if (!run.perform()) return;
-    nlohmann::ordered_json summary;
-    for (std::size_t m = 0; m < planned.size(); ++m) {
-        std::vector<RailsResult> results;
-        for (const OnRails& outcome : planned[m].outcomes())
-            results.push_back({motions[results.size()].name, outcome});
-        summary[options.methods[m]] = summary_of(results);
-    }
-    run.write(summary, "rails");
-    run.say("{}", summary.dump(2));
 }
 
 }  // namespace osteomill::study

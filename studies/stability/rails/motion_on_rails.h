@@ -3,13 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "analysis/output/cases/json_values.h"
-#include "analysis/output/surroundings.h"
 #include "studies/force/steady_case.h"
 
 namespace osteomill::study {
@@ -24,33 +20,11 @@ struct OnRails {
     glm::dvec3 model_n{0.0};  ///< mean of the milling model, over the burr's own way
     /// Bone pulled the burr away from the hand, so that it was damped (burr_proxy.h): no steady motion.
     bool is_driven = false;
-    double error() const;  ///< their distance, a share of the latter
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OnRails, hand_n, model_n, is_driven)
 
 /// A quarter of a second of `c` with the coupling of that name, after three quarters to get there: milling
 /// and haptic loop at 1 kHz, in turns, a device without steps or friction that goes where it is meant to.
 /// Throws std::invalid_argument for an unknown coupling.
 OnRails run_on_rails(const SteadyCase& c, const std::string& coupling);
-
-struct RailsResult {
-    std::string name;
-    OnRails run;
-};
-
-/// cases; driven: how many of them bone drove; of the others median_error_percent, p95_error_percent,
-/// max_error_percent, and the worst by name.
-nlohmann::ordered_json summary_of(const std::vector<RailsResult>& results);
-
-struct RailsStudyOptions {
-    int count = 0;
-    std::uint64_t seed = 1;
-    std::vector<std::string> methods{};
-    bool has_edge_forces = false;  ///< burrs whose edges rub with 0.3 N/mm
-};
-
-/// motions_on_rails() with each method: rails.json in `out`. Throws as StudyRun does.
-void run_rails_study(const RailsStudyOptions& options, const std::filesystem::path& out,
-                     const StudySurroundings& surroundings);
 
 }  // namespace osteomill::study

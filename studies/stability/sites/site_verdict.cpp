@@ -93,14 +93,4 @@ SiteVerdict verdict_on(const SiteRun& run) {
     return verdict;
 }
 
-double share_of_bar(const SiteVerdict& verdict, const SiteBar& bar, const std::string& kind) {
-    return verdict.*bar.value / (kind == "breakthrough" ? bar.at_breakthrough : bar.bar);
-}
-
-double worst_share(const SiteVerdict& verdict, const std::string& kind) {
-    double worst = 0.0;
-    for (const SiteBar& bar : site_bars) worst = std::max(worst, share_of_bar(verdict, bar, kind));
-    return worst;
-}
-
 }  // namespace osteomill::study

@@ -1,9 +1,5 @@
-// Verdict on a run at a site: what a hand would not forgive, in four numbers, each against its bar.
+// Verdict on a run at a site: what a hand would not forgive, in numbers.
 #pragma once
-
-#include <array>
-#include <string>
-#include <string_view>
 
 #include "studies/stability/sites/site_run.h"
 
@@ -20,7 +16,7 @@ struct SiteVerdict {
     /// Largest difference of the force's mean over mean_s to the model's, while bone takes energy from the
     /// burr; % of the model's largest mean there, or of least_peak_n.
     double error_percent = 0.0;
-    /// The same while bone gives the burr energy. It has no bar: `implicit` keeps a part of that from the
+    /// The same while bone gives the burr energy. `implicit` keeps a part of that from the
     /// hand.
     double error_while_driven_percent = 0.0;
     double largest_jump_n = 0.0;  ///< between two ticks
@@ -36,22 +32,5 @@ inline constexpr double nearly_nothing_n = 0.1;
 inline constexpr double least_peak_n = 0.2;
 
 SiteVerdict verdict_on(const SiteRun& run);
-
-struct SiteBar {
-    std::string_view what;
-    double SiteVerdict::*value;
-    double bar;
-    double at_breakthrough;
-};
-inline constexpr std::array<SiteBar, 4> site_bars{
-    {{"energy over a rigid burr's, mJ", &SiteVerdict::energy_over_rigid_mj, 5.0, 5.0},
-     {"force while nothing is cut, ms", &SiteVerdict::stuck_ms, 50.0, 50.0},
-     {"20 ms error, % of the peak", &SiteVerdict::error_percent, 8.0, 15.0},
-     {"jump between ticks, N", &SiteVerdict::largest_jump_n, 0.3, 0.3}}};
-
-/// A verdict's number as a share of its bar: up to 1 it is met.
-double share_of_bar(const SiteVerdict& verdict, const SiteBar& bar, const std::string& kind);
-/// The largest of them.
-double worst_share(const SiteVerdict& verdict, const std::string& kind);
 
 }  // namespace osteomill::study

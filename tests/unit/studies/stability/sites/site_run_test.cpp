@@ -7,7 +7,6 @@
 
 #include "studies/stability/sites/named_sites.h"
 #include "studies/stability/sites/site_bone.h"
-#include "studies/stability/sites/site_study.h"
 #include "studies/stability/sites/site_verdict.h"
 
 namespace osteomill::study::site_run_test {
@@ -38,7 +37,9 @@ TEST(SiteRun, CutsAndFeelsWhatTheModelSays) {
     for (const SiteTick& tick : run.ticks) model_n = std::max(model_n, glm::length(tick.model_n));
     EXPECT_GT(model_n, 0.3);
     const SiteVerdict verdict = verdict_on(run);
-    EXPECT_LT(worst_share(verdict, site.kind), 1.0) << verdict.error_percent << " %";
+    EXPECT_LT(verdict.error_percent, 8.0);
+    EXPECT_LT(verdict.stuck_ms, 50.0);
+    EXPECT_LT(verdict.largest_jump_n, 0.3);
     EXPECT_EQ(run.faults, 0U);
     EXPECT_LT(run.solve.max_residual_n, 1e-3);
 }
@@ -50,31 +51,6 @@ TEST(SiteRun, GivesTheHandNoMoreEnergyThanARigidBurrWould) {
         EXPECT_LT(verdict_on(run).energy_over_rigid_mj, 5.0) << name;
         EXPECT_LT(run.solve.max_residual_n, 1e-3) << name;
     }
-}
-
-TEST(SiteCases, AreFoundByPartOfTheirName) {
-    SiteStudyOptions options{.quick = true, .walks = 3};
-    const auto all = site_cases(options);
-    options.only = "walk 2 of seed 1";
-    const auto one = site_cases(options);
-    ASSERT_EQ(one.size(), 1U);
-    EXPECT_EQ(one.front().site.kind, "random walk");
-    EXPECT_GT(all.size(), 30U);
-    EXPECT_EQ(std::count_if(all.begin(), all.end(),
-                            [&](const SiteCase& c) { return name_of(c) == name_of(one.front()); }),
-              1);
-    options.only = "nowhere";
-    EXPECT_TRUE(site_cases(options).empty());
-}
-
-TEST(SiteSummary, NamesTheWorstWithItsCommand) {
-    const SiteResult good{.kind = "edge", .name = "good", .verdict = {.stuck_ms = 5.0}};
-    const SiteResult bad{.kind = "edge", .name = "bad", .verdict = {.stuck_ms = 500.0}};
-    const auto summary = site_summary({good, bad}, {.walks = 2, .seed = 9});
-    EXPECT_EQ(summary.at("kinds").at("edge").at("met"), 1);
-    EXPECT_EQ(summary.at("worst").at(0).at("name"), "bad");
-    EXPECT_EQ(summary.at("worst").at(0).at("command"),
-              "osteomill_study stability --sites --walks 2 --seed 9 --methods implicit --only 'bad'");
 }
 
 }  // namespace
