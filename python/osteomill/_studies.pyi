@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from osteomill import Burr
+from osteomill import Burr, Case
 
 _Path = str | os.PathLike[str]
 
@@ -199,3 +199,35 @@ class Client:
 
 def why_no_namespaces() -> str: ...
 def round_trips_us(over: str, *, has_key: bool, seconds: float) -> tuple[list[float], list[float]]: ...
+
+# Picture and link.
+class PictureTrial:
+    def __init__(
+        self,
+        case: Case,
+        *,
+        view: str = ...,
+        shading: str = ...,
+        size_px: tuple[int, int] = ...,
+        smoothed_normals: bool = ...,
+    ) -> None: ...
+    def draw(
+        self, *, renderer: str = ..., step_voxels: float = ..., skips: bool = ..., divisor: int = ..., times: int = ...
+    ) -> dict[str, float]: ...
+    @property
+    def has_smoothed_normals(self) -> bool: ...
+    @property
+    def gl_renderer(self) -> str: ...
+
+def run_link(
+    case: Case,
+    burr: Burr,
+    axis: _Vector,
+    tick_s: float,
+    positions_mm: Sequence[_Vector] | NDArray[np.float64],
+    *,
+    content: str = ...,
+    frame_rate_hz: float = ...,
+    bytes_per_s: float | None = ...,
+    latency_s: float = ...,
+) -> dict[str, Any]: ...

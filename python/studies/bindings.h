@@ -14,5 +14,7 @@ void bind_stability(pybind11::module_& module);
 void bind_polishing(pybind11::module_& module);
 void bind_real_time(pybind11::module_& module);
 void bind_bridge(pybind11::module_& module);
+void bind_links(pybind11::module_& module);
+void bind_pictures(pybind11::module_& module);
 
 }  // namespace osteomill::python

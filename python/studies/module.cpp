@@ -19,4 +19,6 @@ PYBIND11_MODULE(_studies, module) {
     osteomill::python::bind_polishing(module);
     osteomill::python::bind_real_time(module);
     osteomill::python::bind_bridge(module);
+    osteomill::python::bind_links(module);
+    osteomill::python::bind_pictures(module);
 }

@@ -1,19 +1,16 @@
-"""Kernels of milling, and the charts of speed against accuracy that are made of them. No time is asserted."""
+"""Kernels of milling, and the motions that they are tried on. No time is asserted."""
 
 import json
 import math
 import pathlib
-import tempfile
 import tomllib
-import types
 import unittest
 
 import numpy as np
 
 from osteomill import Burr, _studies
-from osteomill.studies import tradeoff, tradeoff_coupling, tradeoff_force
+from osteomill.studies import tradeoff_force
 from osteomill.studies.force_series import ForceSeries, relative_error
-from osteomill.studies.study_run import StudyRun
 from osteomill.studies.studied_motions import error_and_ripple, studied_motions
 
 TREE = pathlib.Path(__file__).parents[2]
@@ -83,39 +80,6 @@ class TradeoffTest(unittest.TestCase):
             first = burrs[told["start_burr"]]
             self.assertEqual((first["diameter_mm"], first["rpm"]), (burr_mm, rpm), scene)
             self.assertEqual(any(first.get("edge_coefficients_n_per_mm", (0.0,))), has_edges, scene)
-
-    def test_front_holds_what_nothing_beats(self):
-        self.assertEqual(tradeoff_force.on_front([1.0, 2.0, 3.0, 3.0], [5.0, 6.0, 1.0, 2.0]), [True, False, True, False])
-
-    def test_quick_page_has_numbers_and_the_default_near_the_front(self):
-        with tempfile.TemporaryDirectory() as folder:
-            out = pathlib.Path(folder)
-            with open(out / "said", "w+") as said:
-                tradeoff.run(types.SimpleNamespace(quick=True), StudyRun(out, ["tradeoff"], "", said=said, aside=said))
-            found = json.loads((out / "tradeoff.json").read_text())
-            page = (out / "tradeoff.svg").read_text()
-        for row in found["force"]:
-            for key in ("error_percent", "ripple_percent", "step_us", "published_us", "times_faster"):
-                self.assertTrue(math.isfinite(row[key]) and row[key] > 0.0, (key, row))
-        fresh = [row for row in found["force"] if row["varied"] == "voxels"]
-        default = next(row for row in fresh if row["is_default"])
-        # Near: nothing of its cost or less is more than twice as true. Times of choices beside it are of the same order
-        # on a busy machine too; the published step takes many times as long.
-        self.assertTrue(any(row["on_front"] for row in fresh))
-        truest = min(row["error_percent"] for row in fresh)
-        self.assertLessEqual(default["error_percent"], 2.0 * truest)
-        self.assertGreater(default["times_faster"], 1.0)
-        self.assertEqual([row["scene"] for row in found["needs"]], list(tradeoff_force.SCENES))
-        self.assertTrue(all(row["is_held"] for row in found["needs"]))
-        couplings = {row["method"]: row for row in found["coupling"]}
-        self.assertEqual(set(couplings), set(tradeoff_coupling.QUICK_METHODS))
-        for row in couplings.values():
-            self.assertTrue(row["tick_us"] > 0.0 and row["rms_error_percent"] > 0.0, row)
-        self.assertEqual(couplings["implicit"]["stable_percent"], 100.0)
-        self.assertLess(couplings["hold"]["stable_percent"], 100.0)
-        self.assertLess(couplings["implicit"]["rms_error_percent"], couplings["hold"]["rms_error_percent"])
-        for words in ("time of a step (median), us", "error of the mean force, %", "the default, voxels of 0.1 mm"):
-            self.assertIn(words, page)
 
 
 if __name__ == "__main__":

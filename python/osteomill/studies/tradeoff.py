@@ -1,15 +1,18 @@
 """Speed against accuracy, for every choice that costs time: one page, with the published method, the default, the
 front of the best, and what each built-in scene needs.
 
-Each part is in a file of its own, which says what it measures: tradeoff_force.py, tradeoff_coupling.py. Times hold for the machine that
-measured them; compare them within a chart.
+Each part is in a file of its own, which says what it measures: tradeoff_force.py, tradeoff_coupling.py, tradeoff_picture.py,
+tradeoff_link.py. Times hold for the machine that measured them; compare them within a chart.
 """
 
 import argparse
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from osteomill.studies import tradeoff_coupling, tradeoff_force
+from osteomill.studies import tradeoff_coupling, tradeoff_force, tradeoff_link, tradeoff_picture
 from osteomill.studies.study_run import StudyRun
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 NAME = "tradeoff"
 HELP = "speed against accuracy, on one page, for every choice that costs time"
@@ -21,30 +24,56 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quick", action="store_true", help="fewer choices, shorter runs: a minute")
 
 
+# Of the bones of picture and link; the others of --quick would take longer to make than to measure.
+QUICK_SCENES = ("tooth",)
+MEASURED_BY = {"force": tradeoff_force.measure, "coupling": tradeoff_coupling.measure, "picture": tradeoff_picture.measure,
+               "link": tradeoff_link.measure}
+
+
+def cases(quick: bool) -> list[dict[str, Any]]:
+    """Picture and link scene by scene, so that a bone is made once."""
+    scenes = list(QUICK_SCENES if quick else tradeoff_force.SCENES)
+    made = tradeoff_force.cases(quick) + tradeoff_coupling.cases(quick)
+    shown = tradeoff_picture.cases(scenes, quick) + tradeoff_link.cases(scenes, quick)
+    order = [tradeoff_picture.TRIED_SCENE, *(scene for scene in scenes if scene != tradeoff_picture.TRIED_SCENE)]
+    return made + sorted(shown, key=lambda case: order.index(case["scene"]))
+
+
 def measure(case: dict[str, Any]) -> dict[str, Any]:
-    return tradeoff_force.measure(case) if case["part"] == "force" else tradeoff_coupling.measure(case)
+    return MEASURED_BY[case["part"]](case)
 
 
 def _name_of(case: dict[str, Any]) -> str:
-    return ", ".join(str(case[key]) for key in ("part", "family", "method", "label") if key in case)
+    return ", ".join(str(case[key]) for key in ("part", "scene", "family", "method", "content", "label", "frame_rate_hz") if key in case)
+
+
+def tables_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> "dict[str, pd.DataFrame]":
+    """By name, each of tradeoff_NAME.csv."""
+    found: dict[str, tuple[list[Any], list[Any]]] = {part: ([], []) for part in MEASURED_BY}
+    for case, outcome in zip(choices, outcomes):
+        found[case["part"]][0].append(case)
+        found[case["part"]][1].append(outcome)
+    force = tradeoff_force.table_of(*found["force"])
+    picture = tradeoff_picture.table_of(*found["picture"])
+    link = tradeoff_link.table_of(*found["link"])
+    return {"force": force, "needs": tradeoff_force.needs_of(force), "coupling": tradeoff_coupling.table_of(*found["coupling"]),
+            "picture": picture, "picture_needs": tradeoff_picture.needs_of(picture),
+            "link": link, "link_needs": tradeoff_link.needs_of(link)}
 
 
 def run(options: argparse.Namespace, study: StudyRun) -> None:
-    forces, couplings = tradeoff_force.cases(options.quick), tradeoff_coupling.cases(options.quick)
-    outcomes = study.sweep(measure, forces + couplings, _name_of)
-    force = tradeoff_force.table_of(forces, outcomes[: len(forces)])
-    coupling = tradeoff_coupling.table_of(couplings, outcomes[len(forces) :])
-    needs = tradeoff_force.needs_of(force)
-    study.table("tradeoff_force", force)
-    study.table("tradeoff_needs", needs)
-    study.table("tradeoff_coupling", coupling)
-    study.json("tradeoff", {
-        "force": force.to_dict("records"), "needs": needs.to_dict("records"), "coupling": coupling.to_dict("records")})
+    choices = cases(options.quick)
+    tables = tables_of(choices, study.sweep(measure, choices, _name_of))
+    for name, table in tables.items():
+        study.table(f"tradeoff_{name}", table)
+    study.json("tradeoff", {name: table.to_dict("records") for name, table in tables.items()})
+    from osteomill.studies.tradeoff_overview import overview_of
     from osteomill.studies.tradeoff_page import page_of
 
-    study.chart("tradeoff", page_of(force, needs, coupling))
-    study.say(_default_in_words(force))
-    study.say(f"tradeoff.svg, the tables (CSV) and tradeoff.json are in {study.out}")
+    study.chart("tradeoff", page_of(tables))
+    study.chart("tradeoff_overview", overview_of(tables))
+    study.say(_default_in_words(tables["force"]))
+    study.say(f"tradeoff.svg, tradeoff_overview.svg, the tables (CSV) and tradeoff.json are in {study.out}")
 
 
 def _default_in_words(force: Any) -> str:

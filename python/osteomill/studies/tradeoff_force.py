@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 
 from osteomill import _studies
+from osteomill.studies.fronts import on_front
 from osteomill.studies.studied_motions import LATTICE_SHIFTS, error_and_ripple, run_motion, studied_motions
 
 PUBLISHED: dict[str, Any] = {"summation": "bins", "coverage": "binary", "search": "full_scan"}
@@ -128,13 +129,6 @@ def table_of(choices: list[dict[str, Any]], outcomes: list[dict[str, float]]) ->
     among = table["varied"] == "voxels"
     table.loc[among, "on_front"] = on_front(table.loc[among, "step_us"], table.loc[among, "error_percent"])
     return table
-
-
-def on_front(cost: "pd.Series[float]", error: "pd.Series[float]") -> list[bool]:
-    """Of each, whether no other is at most as dear and as wrong, and one of both less."""
-    points = list(zip(cost, error))
-    return [not any(c <= cost_of and e <= error_of and (c, e) != (cost_of, error_of) for c, e in points)
-            for cost_of, error_of in points]
 
 
 def needs_of(table: pd.DataFrame) -> pd.DataFrame:

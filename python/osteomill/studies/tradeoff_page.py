@@ -7,6 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from osteomill.studies import charts
+from osteomill.studies.tradeoff_link_chart import draw_links
+from osteomill.studies.tradeoff_marks import DEFAULT_RING, SCENE_STAR, label_points, loglog
+from osteomill.studies.tradeoff_picture_chart import draw_pictures
 from osteomill.studies.tradeoff_force import FAMILIES, NEEDED_ERROR_PERCENT, NEEDED_RIPPLE_PERCENT
 
 # Colour and mark of each family.
@@ -20,18 +23,12 @@ LOOKS: dict[str, dict[str, Any]] = {
     "map": {"color": charts.GREY, "marker": "P", "linestyle": "none"},
     "instants": {"color": charts.BLACK, "marker": "D", "linestyle": "none"},
 }
-DEFAULT_RING: dict[str, Any] = {"marker": "o", "markersize": 13, "markerfacecolor": "none", "markeredgecolor": charts.BLACK,
-                "markeredgewidth": 1.8, "linestyle": "none"}
-
-SCENE_STAR: dict[str, Any] = {"marker": "*", "markersize": 13, "color": charts.YELLOW, "markeredgecolor": charts.BLACK, "linestyle": "none",
-              "zorder": 5}
-WHITE_GROUND = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
-
-
-def page_of(force: pd.DataFrame, needs: pd.DataFrame, coupling: pd.DataFrame) -> Figure:
-    page = charts.figure(15.0, 22.0)
-    page.suptitle("What a choice costs and what it is worth")
-    grid = page.add_gridspec(4, 2, height_ratios=(10, 2.6, 9, 9))
+def page_of(tables: dict[str, pd.DataFrame]) -> Figure:
+    """Of the study's tables by their names."""
+    force, needs, coupling = tables["force"], tables["needs"], tables["coupling"]
+    page = charts.figure(15.0, 36.0)
+    page.suptitle("What a choice costs and what it is worth: the best is at the lower left, but for the shares")
+    grid = page.add_gridspec(6, 2, height_ratios=(10, 2.6, 9, 9, 9, 9))
     voxels_error, voxels_ripple = page.add_subplot(grid[0, 0]), page.add_subplot(grid[0, 1])
     _draw_voxels(voxels_error, force, needs, "error_percent", "error of the mean force, %", NEEDED_ERROR_PERCENT)
     _draw_voxels(voxels_ripple, force, needs, "ripple_percent", "largest ripple of means over 10 ms, %", NEEDED_RIPPLE_PERCENT)
@@ -43,31 +40,9 @@ def page_of(force: pd.DataFrame, needs: pd.DataFrame, coupling: pd.DataFrame) ->
     coupling_error, coupling_share = page.add_subplot(grid[3, 0]), page.add_subplot(grid[3, 1])
     _draw_couplings(coupling_error, coupling, "rms_error_percent", "error of the force in time, %")
     _draw_couplings(coupling_share, coupling, "stable_percent", "share of the range that is stable, %")
+    draw_pictures(page.add_subplot(grid[4, 0]), page.add_subplot(grid[4, 1]), tables["picture"], tables["picture_needs"])
+    draw_links(page.add_subplot(grid[5, 0]), page.add_subplot(grid[5, 1]), tables["link"], tables["link_needs"])
     return page
-
-
-def _loglog(axes: Axes, x_label: str, y_label: str) -> None:
-    axes.set(xscale="log", yscale="log", xlabel=x_label, ylabel=y_label)
-    axes.margins(x=0.12)
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter("{x:g}")
-
-
-def _label(axes: Axes, x: Any, y: Any, texts: list[str]) -> None:
-    """Names points on their right; names that would meet are pushed apart. The axes have their ranges by now."""
-    gap_pt = 12.0
-    points_per_pixel = 72.0 / axes.figure.dpi
-    axes.autoscale_view()
-    heights_pt = [points_per_pixel * axes.transData.transform(point)[1] for point in zip(x, y)]
-    placed_pt: list[float] = []
-    order = sorted(range(len(texts)), key=heights_pt.__getitem__)
-    for i in order:
-        placed_pt.append(max(heights_pt[i], placed_pt[-1] + gap_pt) if placed_pt else heights_pt[i])
-    # Back towards their points by half of what the topmost was pushed.
-    back_pt = 0.5 * (placed_pt[-1] - heights_pt[order[-1]]) if placed_pt else 0.0
-    for i, place_pt in zip(order, placed_pt):
-        axes.annotate(texts[i], (list(x)[i], list(y)[i]), xytext=(11, place_pt - back_pt - heights_pt[i] - 3),
-                      textcoords="offset points", fontsize=9, bbox=WHITE_GROUND)
 
 
 def _draw_voxels(axes: Axes, force: pd.DataFrame, needs: pd.DataFrame, column: str, y_label: str, needed: float) -> None:
@@ -85,8 +60,8 @@ def _draw_voxels(axes: Axes, force: pd.DataFrame, needs: pd.DataFrame, column: s
     axes.axhline(needed, color=charts.GREY, linestyle=":", label="what a hand needs")
     axes.plot(needs["step_us"], needs[column], label="coarsest voxels that the first burr of a built-in scene needs, at 1 kHz",
               **SCENE_STAR)
-    _loglog(axes, "time of a step (median), us", y_label)
-    _label(axes, needs["step_us"], needs[column], [f"{row['scene']}, {row['voxel_mm']:g} mm" for _, row in needs.iterrows()])
+    loglog(axes, "time of a step (median), us", y_label)
+    label_points(axes, needs["step_us"], needs[column], [f"{row['scene']}, {row['voxel_mm']:g} mm" for _, row in needs.iterrows()])
     axes.set_title("Force of a 5 mm burr, 100 Hz: along a line the voxels shrink from left to right,\n"
                    + ", ".join(f"{mm:g}" for mm in sorted(set(tried["voxel_mm"]), reverse=True)) + " mm", fontsize=10)
 
@@ -102,7 +77,7 @@ def _draw_rates(axes: Axes, force: pd.DataFrame) -> None:
         for _, row in rows.iterrows():
             axes.annotate(row["label"], (row["core_percent"], row["ripple_percent"]), xytext=(7, 4),
                           textcoords="offset points", fontsize=9)
-    _loglog(axes, "share of a core, %", "largest ripple of means over 10 ms, %")
+    loglog(axes, "share of a core, %", "largest ripple of means over 10 ms, %")
     axes.set_title("Force: steps of 25 Hz to 10 kHz, 5 mm burr, voxels of 0.1 mm\n(ripple: of whole steps where they are longer)",
                    fontsize=10)
 
@@ -116,7 +91,7 @@ def _draw_burrs(axes: Axes, force: pd.DataFrame) -> None:
                           xytext=(4, -14) if varied == "edges" else (6, 4),
                           textcoords="offset points", fontsize=9)
     axes.legend(loc="center right")
-    _loglog(axes, "time of a step (median), us", "error of the mean force, %")
+    loglog(axes, "time of a step (median), us", "error of the mean force, %")
     axes.set_title("Force: burrs of 1.5 to 5 mm, also with edges that rub: voxels of 0.1 mm, 100 Hz", fontsize=10)
 
 
@@ -138,7 +113,7 @@ def _draw_couplings(axes: Axes, coupling: pd.DataFrame, column: str, y_label: st
         axes.set_ylim(0.0, 110.0)
     for quick in (True, False):  # those that only remember, and those that solve
         rows = tried[(tried["tick_us"] < 1.0) == quick]
-        _label(axes, rows["tick_us"], rows[column],
+        label_points(axes, rows["tick_us"], rows[column],
                [row["method"] + (" (published)" if row["is_published"] else "") for _, row in rows.iterrows()])
     axes.legend(loc="upper center")
     axes.set_title(f"Couplings: {coupling['range'].iloc[0]}", fontsize=10)

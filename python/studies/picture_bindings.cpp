@@ -1,0 +1,91 @@
+// Pictures, offscreen: what a frame takes in any way of drawing, and how far it is from the reference image.
+#include <fmt/format.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "python/module/arrays.h"
+#include "python/module/loaded_case.h"
+#include "python/studies/bindings.h"
+#include "studies/render/picture_trial.h"
+
+namespace osteomill::python {
+
+namespace {
+
+using study::DrawnWay;
+using study::PictureTrial;
+
+constexpr double close_up_radius_mm = 7.0;
+
+template <typename Value>
+Value one_of(const std::string& name, const char* what,
+             const std::vector<std::pair<const char*, Value>>& all) {
+    std::string known;
+    for (const auto& [one, value] : all) {
+        if (name == one) return value;
+        known += (known.empty() ? "" : ", ") + std::string(one);
+    }
+    throw std::invalid_argument(fmt::format("{}: '{}' is not one of {}", what, name, known));
+}
+
+std::unique_ptr<PictureTrial> trial(const LoadedCase& loaded, const std::string& view,
+                                    const std::string& shading, const std::pair<int, int>& size_px,
+                                    bool smoothed_normals) {
+    if (size_px.first < 16 || size_px.second < 16 || size_px.first > 4096 || size_px.second > 4096)
+        throw std::invalid_argument("size_px: takes 16 to 4096 pixels either way");
+    const ShadingSettings look{.shading = one_of<Shading>(shading, "shading",
+                                                          {{"gradient", Shading::gradient},
+                                                           {"surface-voxels", Shading::surface_voxels}})};
+    const bool is_close = one_of<bool>(view, "view", {{"overview", false}, {"close-up", true}});
+    std::vector<TissueColour> tissues;
+    for (const Tissue& tissue : loaded.settings().tissues)
+        tissues.push_back({tissue.label, tissue.colour_rgb});
+    const py::gil_scoped_release released;
+    const Bone& bone = loaded.scene().bone;
+    Camera camera = study::overview_of(bone);
+    if (is_close) camera = study::close_up_of(bone, camera, close_up_radius_mm);
+    return std::make_unique<PictureTrial>(bone, tissues, look, camera,
+                                          glm::ivec2(size_px.first, size_px.second), smoothed_normals);
+}
+
+py::dict draw(const PictureTrial& trial, const std::string& renderer, float step_voxels, bool skips,
+              int divisor, int times) {
+    if (!(step_voxels > 0.0F) || divisor < 1 || divisor > 16 || times < 0)
+        throw std::invalid_argument("step_voxels is above 0, divisor is 1 to 16, times is 0 or more");
+    const RendererChoice choice = one_of<RendererChoice>(
+        renderer, "renderer", {{"raycast", RendererChoice::raycast}, {"slices", RendererChoice::slices}});
+    DrawnWay drawn;
+    {
+        const py::gil_scoped_release released;
+        drawn = trial.draw({choice, step_voxels, skips, divisor}, times);
+    }
+    py::dict told;
+    told["frame_ms"] = drawn.frame.wall_ms;
+    told["frame_cpu_ms"] = drawn.frame.cpu_ms;
+    told["psnr_db"] = drawn.psnr_db;
+    told["ssim"] = drawn.ssim;
+    return told;
+}
+
+}  // namespace
+
+void bind_pictures(py::module_& module) {
+    py::class_<PictureTrial>(module, "PictureTrial",
+                             "A view of a case's bone in one look, beside its reference image.")
+        .def(py::init(&trial), py::arg("case"), py::kw_only(), py::arg("view") = "overview",
+             py::arg("shading") = "gradient", py::arg("size_px") = std::pair(640, 480),
+             py::arg("smoothed_normals") = true,
+             "view: overview, close-up; shading: gradient, surface-voxels.")
+        .def("draw", &draw, py::kw_only(), py::arg("renderer") = "raycast", py::arg("step_voxels") = 0.5F,
+             py::arg("skips") = true, py::arg("divisor") = 1, py::arg("times") = 5,
+             "The median of so many frames; with 0 the first is what counts. renderer: raycast, slices.")
+        .def_property_readonly("has_smoothed_normals", &PictureTrial::has_smoothed_normals)
+        .def_property_readonly("gl_renderer", &PictureTrial::gl_renderer);
+}
+
+}  // namespace osteomill::python

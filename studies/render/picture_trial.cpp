@@ -1,0 +1,83 @@
+#include "studies/render/picture_trial.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "render_client/volume/passes/slice_renderer.h"
+#include "render_client/volume/textures/voxel_box.h"
+#include "studies/render/picture_difference.h"
+#include "studies/render/reference_image.h"
+
+namespace osteomill::study {
+
+namespace {
+
+std::unique_ptr<BoneRenderer> renderer_of(const DrawingWay& way) {
+    if (way.renderer == RendererChoice::slices)
+        return std::make_unique<SliceRenderer>(SliceSettings{.spacing_voxels = way.step_voxels});
+    return std::make_unique<RaycastRenderer>(
+        RaycastSettings{.skipping = way.skips ? EmptySpaceSkipping::distance_map : EmptySpaceSkipping::none,
+                        .step_voxels = way.step_voxels});
+}
+
+/// Smoothed fractions are had only where all stays within half of the budget.
+std::unique_ptr<BoneTextures> textures_of(const Bone& bone, std::span<const TissueColour> tissues,
+                                          const ShadingSettings& look, bool smoothed_normals) {
+    auto textures = std::make_unique<BoneTextures>(bone, tissues, look);
+    if (smoothed_normals || !textures->smoothed()) return textures;
+    const TextureLimits limits{.budget_bytes = 2 * textures->plan().bytes - 1,
+                               .layout = textures->plan().layout};
+    textures.reset();
+    return std::make_unique<BoneTextures>(bone, tissues, look, limits);
+}
+
+}  // namespace
+
+Camera overview_of(const Bone& bone) {
+    const VoxelBox box = stored_box(bone.content());
+    const glm::dvec3 middle_mm = 0.5 * (centre_of_voxel_mm(bone.grid(), box.first) +
+                                        centre_of_voxel_mm(bone.grid(), box.first + box.size - 1));
+    return camera_on(middle_mm, 0.5 * bone.grid().spacing_mm * glm::length(glm::dvec3(box.size)));
+}
+
+Camera close_up_of(const Bone& bone, const Camera& view, double shown_radius_mm) {
+    const double step_mm = 0.5 * bone.grid().spacing_mm;
+    for (double distance = 0.0; distance < view.far_mm; distance += step_mm) {
+        const glm::dvec3 place = view.eye_mm() + distance * view.forward();
+        const glm::ivec3 voxel(glm::round(to_voxel_coordinates(bone.grid(), place)));
+        if (bone.fraction_at(voxel) < 128) continue;
+        Camera camera = camera_on(place, shown_radius_mm);
+        camera.azimuth_rad = view.azimuth_rad;
+        camera.elevation_rad = view.elevation_rad;
+        return camera;
+    }
+    throw std::runtime_error("the view's middle shows no bone");
+}
+
+PictureTrial::PictureTrial(const Bone& bone, std::span<const TissueColour> tissues,
+                           const ShadingSettings& look, const Camera& camera, const glm::ivec2& size_px,
+                           bool smoothed_normals)
+    : gl_renderer_(gl::renderer_name()),
+      camera_(camera),
+      reference_(reference_image(ReferenceVolume(bone, tissues, look), camera, size_px,
+                                 {.threads = std::max(1u, std::thread::hardware_concurrency())})),
+      textures_(textures_of(bone, tissues, look, smoothed_normals)) {}
+
+PictureTrial::~PictureTrial() {
+    context_.make_current();
+    textures_.reset();
+}
+
+DrawnWay PictureTrial::draw(const DrawingWay& way, int times) const {
+    context_.make_current();
+    const glm::ivec2& size_px = reference_.size_px;
+    const auto renderer = renderer_of(way);
+    const TimedPicture drawn =
+        timed_drawing(*renderer, *textures_, camera_, glm::max(size_px / way.divisor, 1), times);
+    const Picture shown = way.divisor == 1 ? drawn.picture : scaled(drawn.picture, size_px);
+    return {.frame = drawn.cost, .psnr_db = psnr_db(shown, reference_), .ssim = ssim(shown, reference_)};
+}
+
+}  // namespace osteomill::study

@@ -1,0 +1,64 @@
+// A view of a bone in one look, drawn in any way of drawing: what a frame takes, and how far its picture is
+// from the reference image of the same look.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "common/bone/bone.h"
+#include "render_client/volume/bone_colours.h"
+#include "render_client/volume/camera.h"
+#include "render_client/volume/gl/offscreen_context.h"
+#include "render_client/volume/passes/raycast_renderer.h"
+#include "render_client/volume/passes/renderer_choice.h"
+#include "studies/render/timed_drawing.h"
+
+namespace osteomill::study {
+
+/// Seen whole, from the front and above.
+Camera overview_of(const Bone& bone);
+/// What is in the middle of another view, so many mm round. Throws std::runtime_error where it shows no bone.
+Camera close_up_of(const Bone& bone, const Camera& view, double shown_radius_mm);
+
+/// A way to draw.
+struct DrawingWay {
+    RendererChoice renderer = RendererChoice::raycast;
+    float step_voxels = RaycastSettings{}.step_voxels;  ///< of rays, or between slices
+    bool skips = true;                                  ///< of rays: empty space
+    int divisor = 1;  ///< width and height are divided by it and the picture is scaled up again
+};
+
+/// What it takes and what it gives.
+struct DrawnWay {
+    Cost frame{};
+    double psnr_db = 0.0;  ///< infinite for the reference itself
+    double ssim = 0.0;
+};
+
+class PictureTrial {
+  public:
+    /// Uploads the bone and makes the reference, in a context of its own that it makes current whenever it
+    /// draws. Without `smoothed_normals` a normal takes 64 samples in place of 8, as where memory is short.
+    /// Throws gl::NoOpenGl, and std::runtime_error for a bone without bricks.
+    PictureTrial(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look,
+                 const Camera& camera, const glm::ivec2& size_px, bool smoothed_normals);
+    ~PictureTrial();
+    PictureTrial(const PictureTrial&) = delete;
+    PictureTrial& operator=(const PictureTrial&) = delete;
+
+    /// The median of so many frames; with 0 the first is what counts, for what takes seconds.
+    DrawnWay draw(const DrawingWay& way, int times) const;
+    /// Whether normals are taken from smoothed fractions: not where they do not fit, nor of surface voxels.
+    bool has_smoothed_normals() const { return textures_->smoothed() != nullptr; }
+    const std::string& gl_renderer() const { return gl_renderer_; }
+
+  private:
+    gl::OffscreenContext context_;
+    std::string gl_renderer_;
+    Camera camera_;
+    Picture reference_;
+    std::unique_ptr<BoneTextures> textures_;
+};
+
+}  // namespace osteomill::study
