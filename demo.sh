@@ -38,7 +38,7 @@ nice -n 5 "$bin/render_client" --connect "127.0.0.1:$port" "${view[@]}" --screen
 wait "$server"
 trap - EXIT
 
-gnuplot -e "forces='$out/forces.csv'; plot_file='$out/forces.png'" scripts/plot_forces.gp
+scripts/plot_forces.py "$out/forces.csv" "$out/forces.png"
 printf '{"server": %s,\n"client": %s}\n' "$(cat "$out/server.json")" "$(cat "$out/client.json")" >"$out/summary.json"
 rm "$out/server.json" "$out/client.json"
 
