@@ -126,7 +126,8 @@ def run_map(options: argparse.Namespace, study: StudyRun) -> None:
         study.table(name, table)
     study.json("map", stability_map.summary_of(whole, selection))
     _draw(study, tables, options.edge_forces)
-    study.say(stability_map.words_of(whole))
+    for line in stability_map.lines_of(whole):
+        study.say(line)
     study.say(f"map.json, tables (CSV) and charts (SVG) are in {study.out}")
 
 

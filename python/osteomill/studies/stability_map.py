@@ -157,7 +157,7 @@ def stable_up_to(here: pd.DataFrame, grip: str) -> float:
     return float(held.max()) if len(held) else 0.0
 
 
-def words_of(whole: pd.DataFrame) -> str:
+def lines_of(whole: pd.DataFrame) -> list[str]:
     """A line a method, then a line a bar."""
     def percent(score: Any, number: str) -> str:
         return "-" if score is None or np.isnan(score[number]) else f"{100.0 * score[number]:.1f}"
@@ -178,4 +178,4 @@ def words_of(whole: pd.DataFrame) -> str:
     for bar in bars_of(whole):
         lines.append(f"{'met   ' if bar['is_met'] else 'MISSED'} {bar['what']}: {bar['worst']:.3g}, at most {bar['bar']:.3g}"
                      + (f" ({bar['where']})" if bar["where"] else ""))
-    return "\n".join(lines)
+    return lines

@@ -44,7 +44,8 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
     summary = {method: summary_of([(motion_of(case).name, outcome) for case, outcome in zip(cases, outcomes)
                                    if case["method"] == method]) for method in methods}
     study.json("rails", summary)
-    study.say(json.dumps(summary, indent=2, ensure_ascii=False))
+    for line in json.dumps(summary, indent=2, ensure_ascii=False).splitlines():
+        study.say(line)
 
 
 def summary_of(results: list[tuple[str, dict[str, Any]]]) -> dict[str, Any]:
