@@ -8,7 +8,6 @@ bone_import) what='makes a bone or a case for Osteomill of a scan' ;;
 bone_export) what='writes the surface of an Osteomill bone' ;;
 packet_replay) what='reads a recording of an Osteomill session' ;;
 osteomill_slicer) what='shows a session of the Osteomill simulator in 3D Slicer' ;;
-osteomill_study_kernels) what='studies of the Osteomill simulator that osteomill_study hands on' ;;
 osteomill_study) what='measures and compares what the Osteomill simulator does' ;;
 esac
 exec help2man --no-info --no-discard-stderr --name "$what" "$1"

@@ -16,5 +16,6 @@ void bind_real_time(pybind11::module_& module);
 void bind_bridge(pybind11::module_& module);
 void bind_links(pybind11::module_& module);
 void bind_pictures(pybind11::module_& module);
+void bind_rendering(pybind11::module_& module);
 
 }  // namespace osteomill::python

@@ -21,4 +21,5 @@ PYBIND11_MODULE(_studies, module) {
     osteomill::python::bind_bridge(module);
     osteomill::python::bind_links(module);
     osteomill::python::bind_pictures(module);
+    osteomill::python::bind_rendering(module);
 }

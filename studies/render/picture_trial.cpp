@@ -58,8 +58,9 @@ Camera close_up_of(const Bone& bone, const Camera& view, double shown_radius_mm)
 
 PictureTrial::PictureTrial(const Bone& bone, std::span<const TissueColour> tissues,
                            const ShadingSettings& look, const Camera& camera, const glm::ivec2& size_px,
-                           bool smoothed_normals)
-    : gl_renderer_(gl::renderer_name()),
+                           bool smoothed_normals, std::optional<int> gpu)
+    : context_(gpu),
+      gl_renderer_(gl::renderer_name()),
       camera_(camera),
       reference_(reference_image(ReferenceVolume(bone, tissues, look), camera, size_px,
                                  {.threads = std::max(1u, std::thread::hardware_concurrency())})),

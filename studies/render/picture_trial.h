@@ -40,9 +40,10 @@ class PictureTrial {
   public:
     /// Uploads the bone and makes the reference, in a context of its own that it makes current whenever it
     /// draws. Without `smoothed_normals` a normal takes 64 samples in place of 8, as where memory is short.
-    /// Throws gl::NoOpenGl, and std::runtime_error for a bone without bricks.
+    /// `gpu`: as of OffscreenContext. Throws gl::NoOpenGl, and std::runtime_error for a bone without bricks.
     PictureTrial(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look,
-                 const Camera& camera, const glm::ivec2& size_px, bool smoothed_normals);
+                 const Camera& camera, const glm::ivec2& size_px, bool smoothed_normals,
+                 std::optional<int> gpu = std::nullopt);
     ~PictureTrial();
     PictureTrial(const PictureTrial&) = delete;
     PictureTrial& operator=(const PictureTrial&) = delete;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <nlohmann/json.hpp>
 
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/bone_renderer.h"
@@ -14,7 +13,6 @@ struct Cost {
     double wall_ms = 0.0;
     double cpu_ms = 0.0;
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cost, wall_ms, cpu_ms)
 
 struct TimedPicture {
     Picture picture;

@@ -43,12 +43,11 @@ TrialBone tooth() {
 
 }  // namespace
 
-const TrialBone& TrialBones::operator[](const std::string& name) {
-    auto found = made_.find(name);
-    if (found == made_.end())
-        found =
-            made_.emplace(name, name == skull_trial ? skull(scans_.value_or(""), folder_) : tooth()).first;
-    return found->second;
+TrialBone trial_bone(const std::string& name, const std::filesystem::path& scans,
+                     const std::filesystem::path& folder) {
+    if (name == tooth_trial) return tooth();
+    if (name == skull_trial) return skull(scans, folder);
+    throw std::invalid_argument("no trial bone is called '" + name + "'");
 }
 
 }  // namespace osteomill::study

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,21 +23,10 @@ inline constexpr const char* tooth_trial = "tooth phantom";  ///< of the default
 inline constexpr const char* skull_trial =
     "skull CT";  ///< 40 mm of the skull of the trial scans, 400^3 voxels
 
-/// The trial bones, each made when it is first asked for. One thread at a time.
-class TrialBones {
-  public:
-    /// Scans are imported from the folder `scans`, by way of a file in `folder` which is removed again.
-    TrialBones(std::optional<std::filesystem::path> scans, std::filesystem::path folder)
-        : scans_(std::move(scans)), folder_(std::move(folder)) {}
-
-    /// The tooth's close-up shows 7 mm round, the skull's 9. Throws std::runtime_error where a scan is not
-    /// there.
-    const TrialBone& operator[](const std::string& name);
-
-  private:
-    std::optional<std::filesystem::path> scans_;
-    std::filesystem::path folder_;
-    std::map<std::string, TrialBone> made_{};
-};
+/// The tooth's close-up shows 7 mm round, the skull's 9. Scans are imported from the folder `scans`, by way
+/// of a file in `folder` which is removed again. Throws std::runtime_error where a scan is not there,
+/// std::invalid_argument for another name.
+TrialBone trial_bone(const std::string& name, const std::filesystem::path& scans,
+                     const std::filesystem::path& folder);
 
 }  // namespace osteomill::study

@@ -36,7 +36,7 @@ const std::vector<Room>& rooms() {
          {"common/", "python/module/arrays.h", "render_client/dataset/", "render_client/volume/"}},
         // Kernels of the package's studies.
         {"python/studies/",
-         {"common/", "python/module/arrays.h", "bridge/", "simulation/", "devices/", "imaging/", "analysis/",
+         {"common/", "python/module/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/",
           "haptic_server/", "render_client/", "studies/"}},
         {"python/",
          {"common/", "simulation/", "devices/simulated/", "imaging/", "analysis/", "haptic_server/"}},

@@ -318,18 +318,6 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     expect_refused("stability --merge a --quick", 2, "--merge");
 }
 
-TEST_F(StudyProgram, SaysAtTheStartThatItCannotDrawCharts) {
-    for (const char* study : {"render", "render --full-rate"}) {
-        const Outcome outcome = run(std::string(study) + " --out " + out_, "PATH=/nowhere ");
-        EXPECT_EQ(outcome.exit_code, 1) << study;
-        EXPECT_EQ(outcome.err,
-                  "osteomill_study: gnuplot, which draws the charts, is not installed (package "
-                  "gnuplot-nox): nothing was begun\n")
-            << study;
-        EXPECT_FALSE(std::filesystem::exists(out_));
-    }
-}
-
 TEST_F(StudyProgram, HasHelpAndAVersion) {
     const Outcome help = run("force --help");
     EXPECT_EQ(help.exit_code, 0);

@@ -8,7 +8,7 @@ import signal
 import sys
 import warnings
 from collections.abc import Sequence
-from typing import Any, NoReturn
+from typing import Any
 
 from osteomill import _studies
 from osteomill.part_files import JoinedParts, part_named
@@ -19,8 +19,6 @@ from osteomill.studies.study_run import PartIsDone, StudyRun
 from osteomill.studies.text import line_of, one_line, printable
 
 PROGRAM = "osteomill_study"
-KERNELS = "osteomill_study_kernels"  # the studies that are in C++ still
-IN_KERNELS = "C++"
 REPEAT = "repeat"
 
 # Name, module of osteomill.studies, what it is.
@@ -29,7 +27,7 @@ STUDIES = (
     ("tradeoff", "tradeoff", "speed against accuracy, on one page, for every choice that costs time"),
     ("stability", "stability", "the stability map: which coupling holds where, and how true it is there"),
     ("polishing", "polishing", "the published polishing experiment: its figures"),
-    ("render", IN_KERNELS, "the pictures: frame time against accuracy, how smooth a cut looks"),
+    ("render", "render", "the pictures: frame time against accuracy, how smooth a cut looks"),
     ("realtime", "realtime", "how late the haptic loop wakes and how long it takes, in turns with cyclictest; then under stress-ng"),
     ("bridge", "bridge", "the way to an arm behind the bridge and back, beside a bare echo of the same size"),
     ("calibrate", "calibrate", "the six coefficients of the milling law from forces on a dynamometer; or which runs to make"),
@@ -89,8 +87,6 @@ def _run(words: list[str]) -> int:
     module = next(module for name, module, _ in STUDIES if name == words[0])
     if module == REPEAT:
         return _repeat(words)
-    if module == IN_KERNELS:
-        _hand_to_kernels(words)
     return _run_study(words, importlib.import_module(f"osteomill.studies.{module}"))
 
 
@@ -107,13 +103,6 @@ def _list_of_studies() -> str:
     return "studies:\n" + "\n".join(f"  {name:<12}{what}" for name, _, what in STUDIES)
 
 
-def _hand_to_kernels(words: list[str]) -> NoReturn:
-    beside = pathlib.Path(sys.argv[0]).resolve().with_name(KERNELS)
-    if not beside.exists():
-        raise RuntimeError(f"{beside}: is not there, the program that has the study '{words[0]}'")
-    os.execv(beside, [PROGRAM, *words])
-
-
 def _repeat(words: list[str]) -> int:
     """The folder may be from elsewhere: what its manifest names must be a study, which writes into --out alone."""
     parser = Parser(prog=f"{PROGRAM} {REPEAT}", description=_what_is(REPEAT))
@@ -125,8 +114,6 @@ def _repeat(words: list[str]) -> int:
     kept = repeat.kept_manifest(folder)
     file, name = folder / manifest.NAME, kept["command"][0]
     module = next((module for study, module, _ in STUDIES if study == name), None)
-    if module == IN_KERNELS:
-        _hand_to_kernels(words)
     study = importlib.import_module(f"osteomill.studies.{module}") if module not in (None, REPEAT) else None
     if study is None or not getattr(study, "IS_REPEATED", True):
         raise RuntimeError(f"{file}: it names no study that can be repeated: '{one_line(' '.join(kept['command']))}'")

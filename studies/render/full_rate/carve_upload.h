@@ -7,11 +7,6 @@
 #include "render_client/volume/textures/texture_plan.h"
 #include "studies/render/full_rate/finished_frames.h"
 
-namespace osteomill {
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TexturePlan, layout, coarsening, bytes, smoothed)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TextureSize, name, bytes)
-}  // namespace osteomill
-
 namespace osteomill::study {
 
 struct CarveUpload {
@@ -21,7 +16,6 @@ struct CarveUpload {
     FrameMilliseconds by_ball{};   ///< a ball of 5 mm at once, at the burr's first place
     std::size_t bricks_of_ball = 0;
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CarveUpload, plan, textures, by_frame, by_ball, bricks_of_ball)
 
 /// Of a phantom, by render_client's default look and limits, `times` carves of either kind, each until OpenGL
 /// has finished. Needs a current context. Throws std::runtime_error where the burr meets no bone.

@@ -2,8 +2,7 @@
 
 #include <chrono>
 #include <ctime>
-#include <nlohmann/json.hpp>
-#include <numeric>
+#include <optional>
 
 namespace osteomill::study {
 
@@ -18,15 +17,6 @@ double cpu_now_ms() {
 }
 
 }  // namespace
-
-double frames_per_s(const FrameMilliseconds& frames) {
-    return 1e3 * static_cast<double>(frames.wall.size()) /
-           std::accumulate(frames.wall.begin(), frames.wall.end(), 0.0);
-}
-
-nlohmann::ordered_json json_of(const FrameMilliseconds& frames) {
-    return {{"wall_ms", frames.wall}, {"gpu_ms", frames.gpu}, {"cpu_ms", frames.cpu}};
-}
 
 void FrameStopwatch::time(const std::function<void()>& work) {
     const double cpu_before_ms = cpu_now_ms();

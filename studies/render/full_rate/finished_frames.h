@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "render_client/volume/gl/draw_timer.h"
@@ -17,12 +16,6 @@ struct FrameMilliseconds {
         gpu{};  ///< the driver's own work (GL_TIME_ELAPSED); of a software rasteriser wall time
     std::vector<double> cpu{};  ///< of all threads of the process
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrameMilliseconds, wall, gpu, cpu)
-
-/// Frames a second, over all of them.
-double frames_per_s(const FrameMilliseconds& frames);
-
-nlohmann::ordered_json json_of(const FrameMilliseconds& frames);
 
 class FrameStopwatch {
   public:

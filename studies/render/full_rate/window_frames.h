@@ -16,7 +16,6 @@ struct WindowFrames {
     FrameMilliseconds orbit_both_whole{};    ///< for two eyes, all pixels each, as with a buffer for each
     FrameMilliseconds carve{};               ///< and takes over what was cut
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WindowFrames, orbit, orbit_side_by_side, orbit_both_whole, carve)
 
 /// Of a phantom: `frames` of each motion. Writes `picture`, a PNG of the last frame before the first cut.
 /// Needs a current OpenGL context. Throws std::runtime_error where the bone cannot be drawn.

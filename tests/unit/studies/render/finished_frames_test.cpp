@@ -6,10 +6,6 @@
 namespace osteomill::study {
 namespace {
 
-TEST(FramesPerSecond, AreOfAllFramesTogether) {
-    EXPECT_DOUBLE_EQ(frames_per_s({.wall = {1.0, 3.0}}), 500.0);
-}
-
 using FrameStopwatchTest = OffscreenTest;
 
 TEST_F(FrameStopwatchTest, TimesEachFrameByThreeClocks) {

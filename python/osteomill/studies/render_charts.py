@@ -1,0 +1,69 @@
+"""Charts of the study `render`."""
+
+from typing import Any
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from osteomill.studies import charts
+
+#: Families of the table: how they are called, and how they look.
+FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
+    "rays shaded by gradient": ("rays, lit by the gradient", {"color": charts.BLUE, "marker": "o"}),
+    "rays to surface voxels": ("rays to surface voxels", {"color": charts.SKY, "marker": "o", "markerfacecolor": "white"}),
+    "rays without skipping": ("rays that skip no empty bricks", {"color": charts.GREY, "marker": "x"}),
+    "rays at lower resolution": ("rays at lower resolution", {"color": charts.GREEN, "marker": "^"}),
+    "slices shaded by gradient": ("slices, lit by the gradient", {"color": charts.RED, "marker": "s"}),
+    "slices of surface voxels (published)": ("slices of surface voxels (published)", {"color": charts.AMBER, "marker": "s", "markerfacecolor": "white"}),
+    "rays through see-through bone": ("rays through see-through bone", {"color": charts.BLACK, "marker": "v"}),
+}
+GOAL_DB = 40.0
+
+
+def accuracy(table: pd.DataFrame, renderer: str) -> Figure:
+    """Frame time against accuracy, a panel for each bone and view."""
+    panels = list(dict.fromkeys(table["panel"]))
+    columns = min(2, len(panels))
+    lines = -(-len(panels) // columns)
+    figure = charts.figure(9.0 * columns + (2.0 if columns == 1 else 0.0), 6.0 * lines + 2.2)
+    figure.suptitle(f"What a picture costs and what it is worth; steps and spacings in voxels, along each line from above\n{renderer}")
+    grid = figure.add_gridspec(lines + 1, columns, height_ratios=(*(6.0 for _ in range(lines)), 1.4))
+    for place, panel in enumerate(panels):
+        axes = figure.add_subplot(grid[place // columns, place % columns])
+        here = table[table["panel"] == panel]
+        for family, (title, looks) in FAMILIES.items():
+            rows = here[here["family"] == family]
+            if len(rows):
+                axes.plot(rows["frame_ms"], rows["psnr_db"], label=f"{title}: {_settings(rows)}", **looks)
+        default = here[here["is_default"]]
+        axes.plot(default["frame_ms"], default["psnr_db"], marker="o", markersize=13, markerfacecolor="none", markeredgewidth=1.8,
+                  color=charts.BLACK, linestyle="none", label="the default")
+        axes.axhline(GOAL_DB, color=charts.BLACK, linestyle="--", linewidth=1.2, label=f"goal of full quality, {GOAL_DB:g} dB")
+        axes.set(title=panel, xscale="log", xlabel="time of a frame (median), ms", ylabel="PSNR against the reference image, dB")
+        axes.xaxis.set_major_formatter("{x:g}")
+    legend = figure.add_subplot(grid[lines, :])
+    legend.set_axis_off()
+    legend.legend(*figure.axes[0].get_legend_handles_labels(), loc="center", ncol=2)
+    return figure
+
+
+def _settings(rows: pd.DataFrame) -> str:
+    """"step 0.5, 1, 2": what changes along a line."""
+    first, *rest = rows["label"]
+    return ", ".join([first, *(label.removeprefix("step ").removeprefix("spacing ") for label in rest)])
+
+
+def full_rate(table: pd.DataFrame, renderer: str) -> Figure:
+    figure = charts.figure()
+    axes = figure.subplots()
+    names = [f"{row['bone']}: {row['motion']}" for _, row in table.iterrows()]
+    bars = axes.bar(range(len(table)), table["frames_per_s"], 0.7, color=charts.BLUE, alpha=0.8, label="window: bone, tool and panels")
+    axes.bar_label(bars, fmt="%.4g", fontsize=10)
+    axes.axhline(240.0, color=charts.BLACK, linestyle="--", linewidth=1.2, label="goal on a data-centre GPU")
+    axes.set_xticks(range(len(table)), names, rotation=30, ha="right")
+    axes.set(yscale="log", ylabel="frames a second", title=f"Frames a second at full quality, each finished before the next\n{renderer}")
+    axes.set_ylim(bottom=0.1)
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.grid(False, axis="x")
+    axes.legend(loc="upper left")
+    return figure
