@@ -8,6 +8,7 @@ namespace osteomill::python {
 void bind_calibration(pybind11::module_& module);
 void bind_texts(pybind11::module_& module);
 void bind_files(pybind11::module_& module);
+void bind_scenes(pybind11::module_& module);
 void bind_sessions(pybind11::module_& module);
 void bind_forces(pybind11::module_& module);
 void bind_stability(pybind11::module_& module);

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_studies, module) {
     osteomill::python::bind_calibration(module);
     osteomill::python::bind_texts(module);
     osteomill::python::bind_files(module);
+    osteomill::python::bind_scenes(module);
     osteomill::python::bind_sessions(module);
     osteomill::python::bind_forces(module);
     osteomill::python::bind_stability(module);

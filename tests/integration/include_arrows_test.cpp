@@ -36,8 +36,8 @@ const std::vector<Room>& rooms() {
          {"common/", "python/module/arrays.h", "render_client/dataset/", "render_client/volume/"}},
         // Kernels of the package's studies.
         {"python/studies/",
-         {"common/", "python/module/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/",
-          "haptic_server/", "render_client/", "studies/"}},
+         {"common/", "python/module/arrays.h", "python/module/loaded_case.h", "bridge/", "simulation/",
+          "devices/", "imaging/", "analysis/", "haptic_server/", "render_client/", "studies/"}},
         {"python/",
          {"common/", "simulation/", "devices/simulated/", "imaging/", "analysis/", "haptic_server/"}},
         {"studies/",

@@ -25,6 +25,7 @@ REPEAT = "repeat"
 STUDIES = (
     ("force", "force", "the milling force: voxel model against analytical reference"),
     ("tradeoff", "tradeoff", "speed against accuracy, on one page, for every choice that costs time"),
+    ("choose", "choose", "the cheapest settings that are true enough for a case, measured on this machine"),
     ("stability", "stability", "the stability map: which coupling holds where, and how true it is there"),
     ("polishing", "polishing", "the published polishing experiment: its figures"),
     ("render", "render", "the pictures: frame time against accuracy, how smooth a cut looks"),

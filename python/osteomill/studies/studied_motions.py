@@ -44,8 +44,12 @@ def studied_motions(
 
 @functools.cache
 def _motions(travel_mm: float, diameter_mm: float, edges: tuple[float, ...], rpm: float) -> list[StudiedMotion]:
-    burr = Burr(diameter_mm=diameter_mm, rpm=rpm, clockwise=False, edge_coefficients_n_per_mm=edges)
-    size = diameter_mm / FULL_SIZE_MM
+    return motions_of(Burr(diameter_mm=diameter_mm, rpm=rpm, clockwise=False, edge_coefficients_n_per_mm=edges), travel_mm)
+
+
+def motions_of(burr: Burr, travel_mm: float) -> list[StudiedMotion]:
+    """With this burr, as a ball."""
+    size = burr.diameter_mm / FULL_SIZE_MM
     duration_s = travel_mm / FEED_MM_PER_S
     bend_mm = 3.0 * size
 
@@ -99,9 +103,11 @@ def run_motion(
     lattice_shift_mm: Sequence[float] | Array,
     run_in_s: float = 0.0,
     most_steps: int | None = None,
+    run_with: Burr | None = None,
 ) -> list[ForceSeries]:
     """Of each model, in turns step by step. `run_in_s`: how long the burr moves before it is measured, for a model
-    that must forget how it was put into the bone; `most_steps`: of what is measured."""
+    that must forget how it was put into the bone; `most_steps`: of what is measured; `run_with`: the burr as the
+    models take it, where that is not the motion's own."""
     step_s = 1.0 / milling_rate_hz
     steps = max(1, round(motion.duration_s / step_s))
     if most_steps:
@@ -110,7 +116,7 @@ def run_motion(
     positions = np.array([motion.position_mm(i * step_s) for i in range(-run_in, steps + 1)]) + lattice_shift_mm
     margin = 0.5 * motion.burr.diameter_mm + 5.0 * voxel_mm
     block = _studies.Block(positions.min(axis=0) - margin, positions.max(axis=0) + margin, voxel_mm, motion.layer)
-    runs = _studies.run_path(models, block, motion.burr, motion.axis, step_s, positions)
+    runs = _studies.run_path(models, block, run_with or motion.burr, motion.axis, step_s, positions)
     return [ForceSeries(its_step_s, force_n[run_in:], removed_mm3[run_in:], step_us[run_in:])
             for its_step_s, force_n, removed_mm3, step_us in runs]
 
@@ -123,13 +129,14 @@ def error_and_ripple(
     milling_rate_hz: float = 100.0,
     shifts: Sequence[Sequence[float]] = LATTICE_SHIFTS,
     run_in_s: float = 0.0,
+    run_with: Burr | None = None,
 ) -> tuple[float, float]:
     """Error of the mean force, mean over motions and over where the lattice lies; and the largest ripple."""
     errors, ripples = [], []
     for motion in motions:
         for shift in shifts:
             (series,) = run_motion(motion, [model], voxel_mm=voxel_mm, milling_rate_hz=milling_rate_hz,
-                                   lattice_shift_mm=np.multiply(shift, voxel_mm), run_in_s=run_in_s)
+                                   lattice_shift_mm=np.multiply(shift, voxel_mm), run_in_s=run_in_s, run_with=run_with)
             errors.append(relative_error(series.mean_force_n(), motion.reference_n))
             if motion.name != "curved":  # its path turns the force; that is no ripple
                 ripples.append(series.ripple())
