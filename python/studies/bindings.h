@@ -5,6 +5,7 @@
 
 namespace osteomill::python {
 
+void bind_arms(pybind11::module_& module);
 void bind_calibration(pybind11::module_& module);
 void bind_texts(pybind11::module_& module);
 void bind_files(pybind11::module_& module);

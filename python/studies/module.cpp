@@ -10,6 +10,7 @@ PYBIND11_MODULE(_studies, module) {
     module.attr("VERSION") = OSTEOMILL_VERSION;
     module.attr("COMMIT") = std::string(osteomill::built_from_commit());
     module.attr("COMPILER") = __VERSION__;
+    osteomill::python::bind_arms(module);
     osteomill::python::bind_calibration(module);
     osteomill::python::bind_texts(module);
     osteomill::python::bind_files(module);

@@ -33,32 +33,57 @@ Value one_of(const std::string& name, const char* what,
     throw std::invalid_argument(fmt::format("{}: '{}' is not one of {}", what, name, known));
 }
 
-std::unique_ptr<PictureTrial> trial(const LoadedCase& loaded, const std::string& view,
-                                    const std::string& shading, const std::pair<int, int>& size_px,
-                                    bool smoothed_normals) {
+ShadingSettings look_named(const std::string& shading) {
+    return {.shading = one_of<Shading>(
+                shading, "shading",
+                {{"gradient", Shading::gradient}, {"surface-voxels", Shading::surface_voxels}})};
+}
+
+RendererChoice renderer_named(const std::string& renderer) {
+    return one_of<RendererChoice>(renderer, "renderer",
+                                  {{"raycast", RendererChoice::raycast}, {"slices", RendererChoice::slices}});
+}
+
+glm::ivec2 size_of(const std::pair<int, int>& size_px) {
     if (size_px.first < 16 || size_px.second < 16 || size_px.first > 4096 || size_px.second > 4096)
         throw std::invalid_argument("size_px: takes 16 to 4096 pixels either way");
-    const ShadingSettings look{.shading = one_of<Shading>(shading, "shading",
-                                                          {{"gradient", Shading::gradient},
-                                                           {"surface-voxels", Shading::surface_voxels}})};
-    const bool is_close = one_of<bool>(view, "view", {{"overview", false}, {"close-up", true}});
+    return {size_px.first, size_px.second};
+}
+
+std::vector<TissueColour> tissues_of(const LoadedCase& loaded) {
     std::vector<TissueColour> tissues;
     for (const Tissue& tissue : loaded.settings().tissues)
         tissues.push_back({tissue.label, tissue.colour_rgb});
+    return tissues;
+}
+
+std::unique_ptr<PictureTrial> trial(const LoadedCase& loaded, const std::string& view,
+                                    const std::string& shading, const std::pair<int, int>& size_px,
+                                    bool smoothed_normals) {
+    const glm::ivec2 size = size_of(size_px);
+    const ShadingSettings look = look_named(shading);
+    const bool is_close = one_of<bool>(view, "view", {{"overview", false}, {"close-up", true}});
     const py::gil_scoped_release released;
     const Bone& bone = loaded.scene().bone;
     Camera camera = study::overview_of(bone);
     if (is_close) camera = study::close_up_of(bone, camera, close_up_radius_mm);
-    return std::make_unique<PictureTrial>(bone, tissues, look, camera,
-                                          glm::ivec2(size_px.first, size_px.second), smoothed_normals);
+    return std::make_unique<PictureTrial>(bone, tissues_of(loaded), look, camera, size, smoothed_normals);
+}
+
+double frame_ms(const Bone& bone, const std::vector<TissueColour>& tissues, const std::string& shading,
+                const std::string& renderer, const std::pair<int, int>& size_px, int times) {
+    const study::DrawingWay way{.renderer = renderer_named(renderer)};
+    const ShadingSettings look = look_named(shading);
+    const glm::ivec2 size = size_of(size_px);
+    const py::gil_scoped_release released;
+    return study::frame_cost(bone, tissues, look, size, way, times).wall_ms;
 }
 
 py::dict draw(const PictureTrial& trial, const std::string& renderer, float step_voxels, bool skips,
               int divisor, int times) {
     if (!(step_voxels > 0.0F) || divisor < 1 || divisor > 16 || times < 0)
         throw std::invalid_argument("step_voxels is above 0, divisor is 1 to 16, times is 0 or more");
-    const RendererChoice choice = one_of<RendererChoice>(
-        renderer, "renderer", {{"raycast", RendererChoice::raycast}, {"slices", RendererChoice::slices}});
+    const RendererChoice choice = renderer_named(renderer);
     DrawnWay drawn;
     {
         const py::gil_scoped_release released;
@@ -86,6 +111,23 @@ void bind_pictures(py::module_& module) {
              "The median of so many frames; with 0 the first is what counts. renderer: raycast, slices.")
         .def_property_readonly("has_smoothed_normals", &PictureTrial::has_smoothed_normals)
         .def_property_readonly("gl_renderer", &PictureTrial::gl_renderer);
+    constexpr const char* about =
+        "The time of an overview alone: the median of so many frames, with 0 the first.";
+    module.def(
+        "frame_ms",
+        [](const LoadedCase& loaded, const std::string& shading, const std::string& renderer,
+           const std::pair<int, int>& size_px, int times) {
+            return frame_ms(loaded.scene().bone, tissues_of(loaded), shading, renderer, size_px, times);
+        },
+        py::arg("case"), py::kw_only(), py::arg("shading") = "gradient", py::arg("renderer") = "raycast",
+        py::arg("size_px") = std::pair(640, 480), py::arg("times") = 5, about);
+    module.def(
+        "frame_ms",
+        [](const Bone& block, const std::string& shading, const std::string& renderer,
+           const std::pair<int, int>& size_px,
+           int times) { return frame_ms(block, {}, shading, renderer, size_px, times); },
+        py::arg("block"), py::kw_only(), py::arg("shading") = "gradient", py::arg("renderer") = "raycast",
+        py::arg("size_px") = std::pair(640, 480), py::arg("times") = 5, about);
 }
 
 }  // namespace osteomill::python

@@ -81,4 +81,11 @@ DrawnWay PictureTrial::draw(const DrawingWay& way, int times) const {
     return {.frame = drawn.cost, .psnr_db = psnr_db(shown, reference_), .ssim = ssim(shown, reference_)};
 }
 
+Cost frame_cost(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look,
+                const glm::ivec2& size_px, const DrawingWay& way, int times) {
+    const gl::OffscreenContext context;
+    const BoneTextures textures(bone, tissues, look);
+    return timed_drawing(*renderer_of(way), textures, overview_of(bone), size_px, times).cost;
+}
+
 }  // namespace osteomill::study

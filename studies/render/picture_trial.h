@@ -62,4 +62,9 @@ class PictureTrial {
     std::unique_ptr<BoneTextures> textures_;
 };
 
+/// What a frame of an overview takes, without a picture to compare it with: the median of so many, with 0 the
+/// first. In a context of its own. Throws as the constructor of PictureTrial.
+Cost frame_cost(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look,
+                const glm::ivec2& size_px, const DrawingWay& way, int times);
+
 }  // namespace osteomill::study

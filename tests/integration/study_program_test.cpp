@@ -306,7 +306,7 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     expect_refused(std::string("force --cases ") + case_file + " --out " + (folder_ / "file/out").string(), 1,
                    "file/out: cannot be made a folder");
     expect_refused("", 2,
-                   "a study to run: force, tradeoff, choose, stability, polishing, render, realtime, bridge, "
+                   "a study to run: force, tradeoff, choose, stability, arms, polishing, render, realtime, bridge, "
                    "calibrate, sessions or repeat");
     expect_refused("farce", 2, "farce");
     expect_refused("realtime --quick --duration-s 60", 2, "--duration-s");

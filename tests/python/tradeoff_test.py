@@ -127,6 +127,7 @@ class TradeoffTest(unittest.TestCase):
         for words in ("time of a step (median), us", "error of the mean force, %", "the default, voxels of 0.1 mm",
                       "PSNR against the reference image, dB", "sent, kB/s"):
             self.assertIn(words, page)
+        self.assertTrue(all(row["frame_ms"] > 0.0 for row in found["scaling"]))
         for words in ("published", "front of the best", "what a built-in scene needs", "the tool alone"):
             self.assertIn(words, overview)
         self.assertNotIn("mathdefault", page + overview)

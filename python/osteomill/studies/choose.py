@@ -71,9 +71,10 @@ def lines_of(case: Case, options: argparse.Namespace, milling: dict[str, Any], p
     way = milling["way"]
     held = "holds" if milling["is_held"] else "NONE holds; the truest tried misses"
     lines = [
-        f"Chosen for {printable(options.case)}: {held} {options.force_error:g} % of the mean force and {options.peak_error:g} % of its peaks",
-        f"({milling['error_percent']:.2g} and {milling['peak_percent']:.2g} %), at {milling['core_percent']:.2g} % of a core; {milling['tried']} ways "
-        "were tried, cheapest first.",
+        f"Chosen for {printable(options.case)}: {held} {options.force_error:g} % of the mean force and {options.peak_error:g} % "
+        "of its peaks",
+        f"({milling['error_percent']:.2g} and {milling['peak_percent']:.2g} %), at {milling['core_percent']:.2g} % of a core; "
+        f"{milling['tried']} ways were tried, cheapest first.",
         "",
         f"  haptic_server --force-model {way['force_model']} --coupling {way['coupling']} --milling-rate-hz {way['milling_rate_hz']:g}",
         f"  bone_import ... --spacing-mm {way['voxel_mm']:g}    (this bone has {case.bone.spacing_mm:g})",

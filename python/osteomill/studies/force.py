@@ -1,7 +1,7 @@
 """The milling force: the voxel model against the analytical reference.
 
 Without options the whole study: random motions, curves over depth, feed and spindle speed, convergence with the size
-of voxels, the older contact models, what a step costs and what a bone weighs. Or random motions alone, or those of a
+of voxels, the older contact models, what a step costs and what a bone weighs, edges and speeds. Or random motions alone, or those of a
 file.
 """
 
@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from osteomill import _studies
-from osteomill.studies import force_curves, force_random
+from osteomill.studies import force_curves, force_edges, force_random
 from osteomill.studies.force_series import ForceSeries, relative_error
 from osteomill.studies.options import UsageError, number_within, whole_within
 from osteomill.studies.study_run import StudyRun
@@ -27,6 +27,7 @@ MEASURES: dict[str, Callable[[dict[str, Any]], Any]] = {
     "convergence": force_curves.measure_convergence,
     "scaling": force_curves.measure_scaling,
     "memory": force_curves.measure_memory,
+    "edges": force_edges.measure,
 }
 
 
@@ -148,7 +149,7 @@ def _run_all(options: argparse.Namespace, study: StudyRun) -> None:
         part: cases(options.quick) for part, cases in (
             ("curve", force_curves.curve_cases), ("contact", force_curves.contact_cases),
             ("convergence", force_curves.convergence_cases), ("scaling", force_curves.scaling_cases),
-            ("memory", force_curves.memory_cases))}
+            ("memory", force_curves.memory_cases), ("edges", force_edges.cases))}
     cases = [case for of_kind in kinds.values() for case in of_kind]
     found = iter(study.sweep(measure, cases, name_of))
     outcomes = {part: [next(found) for _ in of_kind] for part, of_kind in kinds.items()}
@@ -168,12 +169,15 @@ def _run_all(options: argparse.Namespace, study: StudyRun) -> None:
     for varied, table in scaling.items():
         study.table(f"cost_by_{varied}", table)
     study.table("memory", memory)
+    edges = force_edges.table_of(kinds["edges"], outcomes["edges"])
+    study.table("edges", edges)
     study.json("force", report)
     study.chart("curves", force_charts.curves(curves))
     study.chart("contact", force_charts.contact(contact))
     study.chart("convergence", force_charts.convergence(convergence))
     study.chart("scaling", force_charts.scaling(scaling))
     study.chart("memory", force_charts.memory(memory))
+    study.chart("edges", force_edges.chart_of(edges))
     study.say(f"force.json, tables (CSV) and charts (SVG) are in {study.out}")
 
 

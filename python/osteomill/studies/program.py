@@ -27,6 +27,7 @@ STUDIES = (
     ("tradeoff", "tradeoff", "speed against accuracy, on one page, for every choice that costs time"),
     ("choose", "choose", "the cheapest settings that are true enough for a case, measured on this machine"),
     ("stability", "stability", "the stability map: which coupling holds where, and how true it is there"),
+    ("arms", "arms", "what an arm makes of the force: encoder steps, springs, grips"),
     ("polishing", "polishing", "the published polishing experiment: its figures"),
     ("render", "render", "the pictures: frame time against accuracy, how smooth a cut looks"),
     ("realtime", "realtime", "how late the haptic loop wakes and how long it takes, in turns with cyclictest; then under stress-ng"),

@@ -2,13 +2,14 @@
 front of the best, and what each built-in scene needs.
 
 Each part is in a file of its own, which says what it measures: tradeoff_force.py, tradeoff_coupling.py, tradeoff_picture.py,
-tradeoff_link.py. Times hold for the machine that measured them; compare them within a chart.
+tradeoff_link.py; beside them what a frame costs as bone and window grow: tradeoff_scaling.py. Times hold for the machine
+that measured them; compare them within a chart.
 """
 
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from osteomill.studies import tradeoff_coupling, tradeoff_force, tradeoff_link, tradeoff_picture
+from osteomill.studies import tradeoff_coupling, tradeoff_force, tradeoff_link, tradeoff_picture, tradeoff_scaling
 from osteomill.studies.study_run import StudyRun
 
 if TYPE_CHECKING:
@@ -27,14 +28,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 # Of the bones of picture and link; the others of --quick would take longer to make than to measure.
 QUICK_SCENES = ("tooth",)
 MEASURED_BY = {"force": tradeoff_force.measure, "coupling": tradeoff_coupling.measure, "picture": tradeoff_picture.measure,
-               "link": tradeoff_link.measure}
+               "link": tradeoff_link.measure, "scaling": tradeoff_scaling.measure}
 
 
 def cases(quick: bool) -> list[dict[str, Any]]:
     """Picture and link scene by scene, so that a bone is made once."""
     scenes = list(QUICK_SCENES if quick else tradeoff_force.SCENES)
     made = tradeoff_force.cases(quick) + tradeoff_coupling.cases(quick)
-    shown = tradeoff_picture.cases(scenes, quick) + tradeoff_link.cases(scenes, quick)
+    shown = tradeoff_picture.cases(scenes, quick) + tradeoff_link.cases(scenes, quick) + tradeoff_scaling.cases(quick)
     order = [tradeoff_picture.TRIED_SCENE, *(scene for scene in scenes if scene != tradeoff_picture.TRIED_SCENE)]
     return made + sorted(shown, key=lambda case: order.index(case["scene"]))
 
@@ -58,7 +59,7 @@ def tables_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> 
     link = tradeoff_link.table_of(*found["link"])
     return {"force": force, "needs": tradeoff_force.needs_of(force), "coupling": tradeoff_coupling.table_of(*found["coupling"]),
             "picture": picture, "picture_needs": tradeoff_picture.needs_of(picture),
-            "link": link, "link_needs": tradeoff_link.needs_of(link)}
+            "link": link, "link_needs": tradeoff_link.needs_of(link), "scaling": tradeoff_scaling.table_of(*found["scaling"])}
 
 
 def run(options: argparse.Namespace, study: StudyRun) -> None:
@@ -72,8 +73,9 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
 
     study.chart("tradeoff", page_of(tables))
     study.chart("tradeoff_overview", overview_of(tables))
+    study.chart("tradeoff_scaling", tradeoff_scaling.chart_of(tables["scaling"]))
     study.say(_default_in_words(tables["force"]))
-    study.say(f"tradeoff.svg, tradeoff_overview.svg, the tables (CSV) and tradeoff.json are in {study.out}")
+    study.say(f"tradeoff.svg, tradeoff_overview.svg, tradeoff_scaling.svg, the tables (CSV) and tradeoff.json are in {study.out}")
 
 
 def _default_in_words(force: Any) -> str:

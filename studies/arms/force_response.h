@@ -1,0 +1,20 @@
+// How much of a force that swings a coupling passes to the hand: a hand on rails goes through a slot 1 mm
+// deep with a 5 mm burr at 10 000 rpm, 4 mm/s that swing by 1 mm/s, beside a burr that is rigidly the hand.
+#pragma once
+
+#include <complex>
+#include <string>
+
+namespace osteomill::study {
+
+struct ForceResponse {
+    std::complex<double>
+        response{};                ///< of the force on the hand to that on the rigid burr, at the frequency
+    double rigid_n_s_per_m = 0.0;  ///< of the rigid burr's force to the hand's velocity
+};
+
+/// Milling at 1 kHz. Throws std::invalid_argument for an unknown coupling, a stiffness that is not above 0,
+/// and a frequency beyond 0.1 to 100 Hz.
+ForceResponse respond(const std::string& coupling, double stiffness_n_per_mm, double hz);
+
+}  // namespace osteomill::study
