@@ -79,6 +79,13 @@ const std::vector<Material>& shipped_materials() {
     return shipped_file().materials;
 }
 
+TissueStrength usual_strength(const TissueStrength& strength) {
+    for (const Material& material : shipped_materials())
+        if (material.name == strength.material)
+            return {material.name, material.relative_stiffness, material.relative_edge};
+    return {strength.material, strength.relative_stiffness, strength.relative_stiffness};
+}
+
 const Material* material_of_segment(const std::string& name) {
     const std::set<std::string> words = words_of_name(name);
     const auto is_said = [&](const std::string& word) { return words.contains(word); };

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/scene.h"
+
 namespace osteomill {
 
 /// How the numbers of a material were got.
@@ -32,6 +34,10 @@ inline constexpr const char* soft_material = "soft";
 
 /// Those of scenes/materials.toml, built in.
 const std::vector<Material>& shipped_materials();
+
+/// What a tissue's strength is where its material alone is said; of a strength without material, where its
+/// relative_stiffness alone is. An unknown material says nothing.
+TissueStrength usual_strength(const TissueStrength& strength);
 
 /// What a segment is made of by its name ("vertebrae_L1", "Lower Teeth"); nullptr where that is no bone, or
 /// says nothing.

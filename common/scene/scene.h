@@ -57,7 +57,7 @@ struct Tissue {
     std::array<std::uint8_t, 3> colour_rgb{};
     bool is_protected = false;                 ///< touching it with a turning burr raises a warning
     std::optional<TissueStrength> strength{};  ///< absent: as its CT numbers say
-    double stiffness_factor = 1.0;             ///< times what its CT numbers say, where they do
+    double stiffness_factor = 1.0;             ///< times what its strength or its CT numbers say
     bool is_cuttable = true;                   ///< false: no burr takes it, it is a wall
     std::string segment{};                     ///< of the segmentation that it is; empty: none
     double opacity = 1.0;                      ///< of its picture, 0 (not drawn) to 1

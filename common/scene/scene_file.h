@@ -8,8 +8,9 @@
 //     [bone]           phantom = "tooth"   or   file = "jaw.nrrd", threshold_hu = 300.0
 //     [stiffness]      knots = [[150, 0.02], [1600, 1.0], ...]: HU, relative stiffness
 //     [[tissues]]      label = 1, name = "enamel", colour = "#f6f4ec", protected = false,
-//                      material = "enamel"   or   relative_stiffness = 3.0, relative_edge = 3.0
-//                      or   stiffness_factor = 1.2; cuttable = false
+//                      material = "enamel", and of what it says relative_stiffness = 3.0,
+//                      relative_edge = 3.0 in its place, or these without it; stiffness_factor = 1.2;
+//                      cuttable = false
 //     [[burrs]]        name, diameter_mm, edges, rpm, cutting_coefficients_n_per_mm2 = [K_t, K_r, K_a],
 //                      edge_coefficients_n_per_mm = [K_te, K_re, K_ae],
 //                      turns = "clockwise", shank = [[height_mm, radius_mm], ...]
@@ -50,8 +51,11 @@ Scene read_scene(const std::filesystem::path& path, const SceneChanges& changes 
 Scene parse_scene(std::string_view text, const std::string& name_for_messages,
                   const std::filesystem::path& folder = {}, const SceneChanges& changes = {});
 
-/// The scene as TOML for people: what differs from the defaults, a line of comment before each block, every
-/// number in the fewest digits that are it. parse_scene gives the same scene back.
-std::string write_scene(const Scene& scene);
+/// How much of a scene is written: what differs from the defaults, or every key that has a value.
+enum class SceneText { concise, complete };
+
+/// The scene as TOML for people: a line of comment before each block, every number in the fewest digits that
+/// are it. parse_scene gives the same scene back.
+std::string write_scene(const Scene& scene, SceneText extent = SceneText::concise);
 
 }  // namespace osteomill

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/scene/material.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/tissue_tables.h"
 
@@ -55,15 +56,22 @@ std::string toml_text(const glm::dvec3& v) {
 /// Keys of one table, each on a line.
 class Keys {
   public:
+    explicit Keys(SceneText extent) : is_complete_(extent == SceneText::complete) {}
+
     template <typename Value>
     Keys& add(const char* key, const Value& value) {
         text_ += fmt::format("{} = {}\n", key, toml_text(value));
         return *this;
     }
-    /// Nothing where the value is what the key's absence means.
+    /// Nothing where the value is what the key's absence means, unless all is written.
     template <typename Value>
     Keys& add(const char* key, const Value& value, const Value& usual) {
-        return value == usual ? *this : add(key, value);
+        return value == usual && !is_complete_ ? *this : add(key, value);
+    }
+    /// Nothing where there is none.
+    template <typename Value>
+    Keys& add_if_any(const char* key, const Value& value) {
+        return value.empty() ? *this : add(key, value);
     }
     Keys& add_text(const std::string& text) {
         text_ += text;
@@ -74,6 +82,7 @@ class Keys {
     const std::string& text() const { return text_; }
 
   private:
+    bool is_complete_;
     std::string text_;
 };
 
@@ -88,21 +97,21 @@ double rpm_of(double rev_per_s) {
     return product;
 }
 
-std::string bone_text(const std::variant<PhantomSource, FileSource>& bone) {
-    Keys keys;
+std::string bone_text(const std::variant<PhantomSource, FileSource>& bone, SceneText extent) {
+    Keys keys(extent);
     if (const auto* phantom = std::get_if<PhantomSource>(&bone)) {
         keys.add("phantom", phantom->name);
     } else {
         const auto& file = std::get<FileSource>(bone);
         keys.add("file", file.path);
         if (file.threshold_hu) keys.add("threshold_hu", *file.threshold_hu);
-        keys.add("segmentation", file.segmentation, {});
+        keys.add_if_any("segmentation", file.segmentation);
     }
     return keys.below("\n# The bone, and where its tissues are.\n[bone]\n");
 }
 
-std::string stiffness_text(const StiffnessRelation& relation) {
-    if (relation.knots == default_stiffness_relation().knots) return {};
+std::string stiffness_text(const StiffnessRelation& relation, SceneText extent) {
+    if (relation.knots == default_stiffness_relation().knots && extent == SceneText::concise) return {};
     std::string text =
         "\n# Relative stiffness by CT number: [HU, stiffness], 1 is cortical bone.\n[stiffness]\nknots = [\n";
     for (const StiffnessKnot& knot : relation.knots)
@@ -110,27 +119,32 @@ std::string stiffness_text(const StiffnessRelation& relation) {
     return text + "]\n";
 }
 
-std::string tissue_text(const Tissue& tissue) {
-    Keys keys;
+std::string tissue_text(const Tissue& tissue, SceneText extent) {
+    Keys keys(extent);
     keys.add_text(fmt::format("label = {}\n", tissue.label))
         .add("name", tissue.name)
         .add("colour", fmt::format("#{:02x}{:02x}{:02x}", tissue.colour_rgb[0], tissue.colour_rgb[1],
                                    tissue.colour_rgb[2]))
-        .add("segment", tissue.segment, {})
+        .add_if_any("segment", tissue.segment)
         .add("protected", tissue.is_protected, false)
         .add("warn_mm", tissue.warn_mm, usual_warn_mm(tissue.is_protected))
         .add("opacity", tissue.opacity, 1.0);
-    if (tissue.strength && !tissue.strength->material.empty())
-        keys.add("material", tissue.strength->material);
-    else if (tissue.strength)
-        keys.add("relative_stiffness", tissue.strength->relative_stiffness)
-            .add("relative_edge", tissue.strength->relative_edge, tissue.strength->relative_stiffness);
+    if (tissue.strength) {
+        const TissueStrength& strength = *tissue.strength;
+        const TissueStrength usual = usual_strength(strength);
+        keys.add_if_any("material", strength.material);
+        if (strength.material.empty())
+            keys.add("relative_stiffness", strength.relative_stiffness);
+        else
+            keys.add("relative_stiffness", strength.relative_stiffness, usual.relative_stiffness);
+        keys.add("relative_edge", strength.relative_edge, usual.relative_edge);
+    }
     keys.add("stiffness_factor", tissue.stiffness_factor, 1.0).add("cuttable", tissue.is_cuttable, true);
     return "\n[[tissues]]\n" + keys.text();
 }
 
-std::string burr_text(const Burr& burr) {
-    Keys keys;
+std::string burr_text(const Burr& burr, SceneText extent) {
+    Keys keys(extent);
     keys.add("name", burr.name).add("diameter_mm", burr.diameter_mm);
     if (!burr.is_ball()) {
         keys.add("shape", head_shape_names[static_cast<std::size_t>(burr.head.shape)])
@@ -139,12 +153,14 @@ std::string burr_text(const Burr& burr) {
         keys.add("neck_diameter_mm", burr.head.neck_diameter_mm);
     }
     const Burr usual;
-    if (burr.edges != usual.edges) keys.add_text(fmt::format("edges = {}\n", burr.edges));
+    if (burr.edges != usual.edges || extent == SceneText::complete)
+        keys.add_text(fmt::format("edges = {}\n", burr.edges));
     keys.add("rpm", rpm_of(burr.spindle_rev_per_s), default_spindle_rpm)
         .add("cutting_coefficients_n_per_mm2", burr.cutting_coefficients_n_per_mm2,
              usual.cutting_coefficients_n_per_mm2)
         .add("edge_coefficients_n_per_mm", burr.edge_coefficients_n_per_mm, usual.edge_coefficients_n_per_mm);
-    if (burr.sense != usual.sense) keys.add("turns", spindle_sense_names[1]);
+    keys.add("turns", std::string(spindle_sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]),
+             std::string(spindle_sense_names[0]));
     keys.add("run_out_mm", burr.run_out_mm, usual.run_out_mm);
     std::string shank;
     for (const ShankPoint& point : burr.shank)
@@ -153,10 +169,10 @@ std::string burr_text(const Burr& burr) {
     return "\n[[burrs]]\n" + keys.text();
 }
 
-std::string device_text(const DeviceMapping& device) {
+std::string device_text(const DeviceMapping& device, SceneText extent) {
     const DeviceMapping usual;
-    Keys keys;
-    if (device.rotation != usual.rotation) {
+    Keys keys(extent);
+    if (device.rotation != usual.rotation || extent == SceneText::complete) {
         const glm::dmat3 rows = glm::transpose(device.rotation);
         keys.add_text(fmt::format("rotation = [{}, {}, {}]\n", toml_text(rows[0]), toml_text(rows[1]),
                                   toml_text(rows[2])));
@@ -165,19 +181,19 @@ std::string device_text(const DeviceMapping& device) {
     return keys.below("\n# How the device lies on the patient.\n[device]\n");
 }
 
-std::string pose_text(const ToolPose& pose) {
+std::string pose_text(const ToolPose& pose, SceneText extent) {
     const ToolPose usual;
-    Keys keys;
+    Keys keys(extent);
     keys.add("position_mm", pose.position_mm, usual.position_mm)
         .add("spindle_axis", pose.spindle_axis, usual.spindle_axis);
     return keys.below(
         "\n# Where the tool starts: the burr's centre, and the direction from tip to shank.\n[start_pose]\n");
 }
 
-std::string trajectory_text(const TrajectorySpec& trajectory) {
+std::string trajectory_text(const TrajectorySpec& trajectory, SceneText extent) {
     const TrajectorySpec usual;
-    if (trajectory == usual) return {};
-    Keys keys;
+    if (trajectory == usual && extent == SceneText::concise) return {};
+    Keys keys(extent);
     if (const auto* motion = std::get_if<BuiltInTrajectory>(&trajectory.source))
         keys.add("motion", trajectory_names[static_cast<std::size_t>(*motion)]);
     else
@@ -190,8 +206,8 @@ std::string trajectory_text(const TrajectorySpec& trajectory) {
     return keys.below("\n# What a simulated hand does.\n[trajectory]\n");
 }
 
-std::string plan_text(const Plan& plan) {
-    Keys keys;
+std::string plan_text(const Plan& plan, SceneText extent) {
+    Keys keys(extent);
     if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) keys.add("tissue", tissue->tissue);
     if (const auto* sphere = std::get_if<SphereRegion>(&plan.region))
         keys.add_text(fmt::format("sphere = {{ centre_mm = {}, radius_mm = {} }}\n",
@@ -206,29 +222,30 @@ std::string plan_text(const Plan& plan) {
 
 }  // namespace
 
-std::string write_scene(const Scene& scene) {
-    std::string text = Keys()
+std::string write_scene(const Scene& scene, SceneText extent) {
+    std::string text = Keys(extent)
                            .add("name", scene.name)
-                           .add("description", scene.description, {})
+                           .add_if_any("description", scene.description)
                            .add("start_burr", scene.burrs.at(scene.start_burr).name, scene.burrs.at(0).name)
                            .add("wall_friction", scene.wall_friction, Scene().wall_friction)
                            .add("force_scale", scene.force_scale, Scene().force_scale)
                            .text();
-    text += bone_text(scene.bone) + stiffness_text(scene.stiffness);
+    text += bone_text(scene.bone, extent) + stiffness_text(scene.stiffness, extent);
     if (!scene.tissues.empty()) text += "\n# Tissues, by their label in the bone.\n";
-    for (const Tissue& tissue : scene.tissues) text += tissue_text(tissue);
-    if (scene.burrs != default_burr_set(Burr().spindle_rev_per_s)) {
+    for (const Tissue& tissue : scene.tissues) text += tissue_text(tissue, extent);
+    if (scene.burrs != default_burr_set(Burr().spindle_rev_per_s) || extent == SceneText::complete) {
         text += "\n# Burrs to choose from.\n";
-        for (const Burr& burr : scene.burrs) text += burr_text(burr);
+        for (const Burr& burr : scene.burrs) text += burr_text(burr, extent);
     }
     if (scene.motor)
-        text += Keys()
+        text += Keys(extent)
                     .add("stall_torque_n_mm", scene.motor->stall_torque_n_mm)
                     .add("steady_torque_n_mm", scene.motor->steady_torque_n_mm, 0.0)
                     .below("\n# How the spindle slows under load, as it is heard.\n[motor]\n");
-    text += device_text(scene.device) + pose_text(scene.start_pose) + trajectory_text(scene.trajectory);
-    if (scene.plan) text += plan_text(*scene.plan);
-    Keys pass;
+    text += device_text(scene.device, extent) + pose_text(scene.start_pose, extent) +
+            trajectory_text(scene.trajectory, extent);
+    if (scene.plan) text += plan_text(*scene.plan, extent);
+    Keys pass(extent);
     for (const auto& [metric, mark] : scene.pass) pass.add(metric.c_str(), mark);
     text += pass.below("\n# What a session has to reach.\n[pass]\n");
     return text;

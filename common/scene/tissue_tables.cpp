@@ -31,15 +31,27 @@ std::optional<TissueStrength> read_strength(TomlReader& reader) {
     const std::optional<double> stiffness =
         reader.number("relative_stiffness", {stiffness_per_code, largest_relative_stiffness});
     const std::optional<double> edge = reader.number("relative_edge", {0.0, 100.0});
-    if (preset && (stiffness || edge))
-        reader.fail("material", "'material' says it all; take out 'relative_stiffness' and 'relative_edge'");
-    if (edge && !stiffness) reader.fail("relative_edge", "'relative_edge' goes with 'relative_stiffness'");
     if (preset) {
         const Material& material = shipped_materials()[*preset];
-        return TissueStrength{material.name, material.relative_stiffness, material.relative_edge};
+        return TissueStrength{material.name, stiffness.value_or(material.relative_stiffness),
+                              edge.value_or(material.relative_edge)};
     }
+    if (edge && !stiffness)
+        reader.fail("relative_edge", "'relative_edge' goes with 'relative_stiffness' or 'material'");
     if (stiffness) return TissueStrength{{}, *stiffness, edge.value_or(*stiffness)};
     return std::nullopt;
+}
+
+/// Of a tissue whose strength is said, the product must be one that a bone can hold.
+double read_stiffness_factor(TomlReader& reader, const std::optional<TissueStrength>& strength) {
+    const double factor = reader.number("stiffness_factor", {0.01, 100.0}).value_or(1.0);
+    if (strength && !(factor * strength->relative_stiffness >= stiffness_per_code &&
+                      factor * strength->relative_stiffness <= largest_relative_stiffness))
+        reader.fail(
+            "stiffness_factor",
+            fmt::format("'stiffness_factor' times the tissue's relative stiffness {} must be {} to {}",
+                        strength->relative_stiffness, stiffness_per_code, largest_relative_stiffness));
+    return factor;
 }
 
 }  // namespace
@@ -56,12 +68,7 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segme
         tissue.colour_rgb = read_colour(reader);
         tissue.is_protected = reader.truth("protected").value_or(false);
         tissue.strength = read_strength(reader);
-        const std::optional<double> factor = reader.number("stiffness_factor", {0.01, 100.0});
-        if (factor && tissue.strength)
-            reader.fail("stiffness_factor",
-                        "'stiffness_factor' multiplies what the CT numbers say; take out 'material' or "
-                        "'relative_stiffness'");
-        tissue.stiffness_factor = factor.value_or(1.0);
+        tissue.stiffness_factor = read_stiffness_factor(reader, tissue.strength);
         tissue.is_cuttable = reader.truth("cuttable").value_or(true);
         tissue.segment = reader.text("segment").value_or("");
         tissue.opacity = reader.number("opacity", {0.0, 1.0}).value_or(1.0);

@@ -133,13 +133,16 @@ TEST(SceneFile, ATissueTakesItsStrengthFromAMaterialOrItsOwnNumbers) {
     EXPECT_EQ(own.tissues[0].strength, (TissueStrength{"", 2.0, 0.5}));
     EXPECT_EQ(parse_scene(tissue + "relative_stiffness = 2\n", "my.toml").tissues[0].strength->relative_edge,
               2.0);
-    for (const Scene& scene : {preset, own}) EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
+    const Scene changed = parse_scene(tissue + "material = \"enamel\"\nrelative_stiffness = 2\n", "my.toml");
+    EXPECT_EQ(changed.tissues[0].strength,
+              (TissueStrength{"enamel", 2.0, preset.tissues[0].strength->relative_edge}));
+    for (const Scene& scene : {preset, own, changed})
+        for (const SceneText extent : {SceneText::concise, SceneText::complete})
+            EXPECT_EQ(parse_scene(write_scene(scene, extent), "again.toml"), scene);
 
     EXPECT_THAT(error_of(tissue + "material = \"glass\"\n"),
                 AllOf(HasSubstr("my.toml:8: 'material' is \"glass\"; choose one of: cortical bone"),
                       HasSubstr("enamel")));
-    EXPECT_THAT(error_of(tissue + "material = \"enamel\"\nrelative_edge = 1\n"),
-                HasSubstr("'material' says it all"));
     EXPECT_THAT(error_of(tissue + "relative_edge = 1\n"), HasSubstr("goes with 'relative_stiffness'"));
     EXPECT_THAT(error_of(tissue + "relative_stiffness = 9\n"), HasSubstr("'relative_stiffness' is 9"));
 }
@@ -151,8 +154,10 @@ TEST(SceneFile, ATissueMayHaveAFactorAndMayNotBeCut) {
     EXPECT_FALSE(scene.tissues[0].is_cuttable);
     EXPECT_EQ(stiffness_of(scene).factors, (std::vector<TissueFactor>{{4, 1.5}}));
     EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
+    const Scene harder = parse_scene(tissue + "relative_stiffness = 2\nstiffness_factor = 1.5\n", "my.toml");
+    EXPECT_EQ(stiffness_of(harder).tissues, (std::vector<TissueStiffness>{{4, 3.0}}));
     EXPECT_THAT(error_of(tissue + "material = \"enamel\"\nstiffness_factor = 2\n"),
-                HasSubstr("'stiffness_factor' multiplies what the CT numbers say"));
+                HasSubstr("'stiffness_factor' times the tissue's relative stiffness 3 must be 0.02 to 5.1"));
     EXPECT_THAT(error_of(tissue + "stiffness_factor = 0\n"), HasSubstr("'stiffness_factor' is 0"));
     EXPECT_THAT(error_of(tissue + "cuttable = 1\n"), HasSubstr("cuttable"));
 }
@@ -196,6 +201,19 @@ TEST(SceneFile, AnySpindleSpeedSurvivesWriting) {
         Scene scene = parse_scene(smallest, "my.toml");
         scene.burrs[0].spindle_rev_per_s = rpm / 60.0;
         ASSERT_EQ(parse_scene(write_scene(scene), "again.toml"), scene) << rpm;
+    }
+}
+
+TEST(SceneFile, IsWrittenWithEveryKeyThatHasAValue) {
+    for (const auto& entry : std::filesystem::directory_iterator(OSTEOMILL_SCENES)) {
+        if (entry.path().extension() != ".toml" || entry.path().filename() == "materials.toml") continue;
+        const Scene scene = read_scene(entry.path());
+        const std::string text = write_scene(scene, SceneText::complete);
+        EXPECT_EQ(parse_scene(text, "again.toml"), scene) << entry.path();
+        for (const char* key :
+             {"wall_friction = ", "force_scale = ", "knots = ", "cutting_coefficients_n_per_mm2 = ",
+              "rotation = ", "spindle_axis = ", "speed_mm_per_s = "})
+            EXPECT_THAT(text, HasSubstr(key)) << entry.path();
     }
 }
 
