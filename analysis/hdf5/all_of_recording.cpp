@@ -209,8 +209,7 @@ void AllOfRecording::write_structures(const Playhead& playhead) {
 }
 
 void AllOfRecording::begin_tables() {
-    for (const TickQuantity& quantity : tick_quantities(false))
-        numbers_.add(fmt::format("ticks/{}", quantity.name), quantity.decimals == 0 ? i4 : f8, quantity.unit);
+    add_tick_columns(TickPart::always);
     numbers_.add("states/time_s", f8, "s");
     for (const StateNumber& number : state_numbers)
         numbers_.add(fmt::format("states/{}", number.name), number.stored, number.units);
@@ -227,6 +226,13 @@ void AllOfRecording::begin_tables() {
     whole_numbers_.add("bone/changes/ijk", i4, "", 3);
     bytes_.add("bone/changes/fraction", u1);
     bytes_.add("bone/changes/is_restored", u1);
+}
+
+void AllOfRecording::add_tick_columns(TickPart part) {
+    for (const TickQuantity& quantity : tick_quantities())
+        if (quantity.part == part)
+            numbers_.add(fmt::format("ticks/{}", quantity.name), quantity.decimals == 0 ? i4 : f8,
+                         quantity.unit);
 }
 
 void AllOfRecording::add(const Playhead& playhead) {
@@ -260,11 +266,18 @@ void AllOfRecording::add_ticks(const std::vector<TickSample>& ticks) {
     if (ticks.empty()) return;
     if (!has_torque_ && ticks.front().shank_torque_n_mm) {
         has_torque_ = true;
-        for (const TickQuantity& quantity : tick_quantities().last(torque_quantities))
-            numbers_.add(fmt::format("ticks/{}", quantity.name), f8, quantity.unit);
+        add_tick_columns(TickPart::torque);
+    }
+    if (!has_input_ && ticks.front().input) {
+        has_input_ = true;
+        add_tick_columns(TickPart::input);
     }
     std::vector<double> column(ticks.size());
-    for (const TickQuantity& quantity : tick_quantities(has_torque_)) {
+    for (const TickQuantity& quantity : tick_quantities()) {
+        const bool is_column = quantity.part == TickPart::always ||
+                               (quantity.part == TickPart::torque && has_torque_) ||
+                               (quantity.part == TickPart::input && has_input_);
+        if (!is_column) continue;
         std::ranges::transform(ticks, column.begin(), quantity.of);
         numbers_.at(fmt::format("ticks/{}", quantity.name)).add(std::span<const double>(column));
     }

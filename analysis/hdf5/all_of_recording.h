@@ -26,6 +26,7 @@ class AllOfRecording {
     void write_tissues(const std::vector<Tissue>& tissues);
     void write_burrs(const std::vector<Burr>& burrs);
     void write_structures(const Playhead& playhead);
+    void add_tick_columns(TickPart part);
     void add_ticks(const std::vector<TickSample>& ticks);
     void add_changes(const Playhead& playhead);
 
@@ -39,6 +40,7 @@ class AllOfRecording {
     std::vector<std::string> action_texts_;
     std::int64_t states_ = 0;
     bool has_torque_ = false;
+    bool has_input_ = false;
 };
 
 }  // namespace osteomill

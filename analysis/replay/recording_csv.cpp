@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/scene/trajectory_columns.h"
+#include "common/scene/written_pose.h"
 #include "common/text/csv_cell.h"
 
 namespace osteomill {
@@ -30,11 +31,11 @@ constexpr const char* state_columns =
     "hand_z_mm,force_x_n,force_y_n,force_z_n,burr,spindle,removed_mm3,nearest_structure,"
     "nearest_structure_mm\n";
 
-/// Time, place and direction with the decimals of a tick.
+/// As the loop used it: rails lead a hand along the same poses, bit for bit.
 void append_waypoint(fmt::memory_buffer& text, double time_s, const glm::dvec3& hand_mm,
                      const glm::dvec3& axis, bool pedal, std::size_t burr) {
-    fmt::format_to(std::back_inserter(text), "{:.4f},{},{},{},{}\n", time_s, xyz(hand_mm, 4), xyz(axis, 6),
-                   pedal ? 1 : 0, burr);
+    fmt::format_to(std::back_inserter(text), "{:.4f},{},{},{},{}\n", time_s, xyz(hand_mm, hand_decimals_mm),
+                   xyz(axis, axis_decimals), pedal ? 1 : 0, burr);
 }
 
 void append_state(fmt::memory_buffer& text, const Playhead& playhead) {

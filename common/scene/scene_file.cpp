@@ -139,6 +139,16 @@ Motor read_motor(TomlReader reader) {
     return motor;
 }
 
+/// A matrix of seven digits is a rotation to seven digits alone, and a pose that goes there and back is
+/// another. Two steps of Newton's method make it one to the last bit; what is one stays.
+glm::dmat3 orthonormal(const glm::dmat3& rotation, double defect) {
+    if (defect < 1e-14) return rotation;
+    glm::dmat3 better = rotation;
+    for (int step = 0; step < 2; ++step)
+        better = 0.5 * better * (glm::dmat3(3.0) - glm::transpose(better) * better);
+    return better;
+}
+
 DeviceMapping read_device(TomlReader reader) {
     DeviceMapping mapping;
     if (const auto rows = reader.rows("rotation", 3)) {
@@ -155,6 +165,7 @@ DeviceMapping read_device(TomlReader reader) {
         if (defect > 1e-6)
             reader.fail("rotation",
                         "'rotation' must be orthonormal with determinant +1 (rows of a rotation matrix)");
+        mapping.rotation = orthonormal(mapping.rotation, defect);
     }
     mapping.scale = reader.number("scale", {0.01, 100.0}).value_or(mapping.scale);
     mapping.offset_mm = reader.place("offset_mm").value_or(mapping.offset_mm);

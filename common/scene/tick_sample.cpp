@@ -4,6 +4,9 @@
 #include <iterator>
 #include <type_traits>
 
+#include "common/scene/decimal_code.h"
+#include "common/scene/written_pose.h"
+
 namespace osteomill {
 
 namespace {
@@ -39,28 +42,123 @@ void set_torque(TickSample& tick, double value) {
     (*tick.shank_torque_n_mm)[axis] = value;
 }
 
+/// What a number has beyond so many decimals.
+template <int decimals>
+double beyond(double value) {
+    return value - from_code(to_code(value, decimals), decimals);
+}
+
+template <glm::length_t axis>
+double hand_rest(const TickSample& tick) {
+    return beyond<4>(tick.hand_mm[axis]);
+}
+
+template <glm::length_t axis>
+void add_hand_rest(TickSample& tick, double rest) {
+    if (rest != 0.0) tick.hand_mm[axis] = with_decimals<hand_decimals_mm>(tick.hand_mm[axis] + rest);
+}
+
+template <glm::length_t axis>
+double axis_rest(const TickSample& tick) {
+    return beyond<6>(tick.spindle_axis[axis]);
+}
+
+template <glm::length_t axis>
+void add_axis_rest(TickSample& tick, double rest) {
+    if (rest != 0.0) tick.spindle_axis[axis] = with_decimals<axis_decimals>(tick.spindle_axis[axis] + rest);
+}
+
+double pedal(const TickSample& tick) {
+    return tick.input ? static_cast<double>(tick.input->pedal) : 0.0;
+}
+
+void set_pedal(TickSample& tick, double value) {
+    if (!tick.input) tick.input.emplace();
+    tick.input->pedal = static_cast<TickInput::Pedal>(value);
+}
+
+/// Counted from 1; 0: none is asked for.
+double asked_burr(const TickSample& tick) {
+    return tick.input && tick.input->burr ? static_cast<double>(*tick.input->burr + 1) : 0.0;
+}
+
+void set_asked_burr(TickSample& tick, double value) {
+    if (!tick.input) tick.input.emplace();
+    if (value > 0.0) tick.input->burr = static_cast<std::size_t>(value) - 1;
+}
+
+double lets_go(const TickSample& tick) {
+    return tick.input && tick.input->lets_go ? 1.0 : 0.0;
+}
+
+void set_lets_go(TickSample& tick, double value) {
+    if (!tick.input) tick.input.emplace();
+    tick.input->lets_go = value > 0.0;
+}
+
+double steps(const TickSample& tick) {
+    return tick.input ? static_cast<double>(tick.input->steps) : 0.0;
+}
+
+void set_steps(TickSample& tick, double value) {
+    if (!tick.input) tick.input.emplace();
+    tick.input->steps = static_cast<std::uint64_t>(value);
+}
+
 template <auto member>
 constexpr TickQuantity one(const char* name, const char* unit, int decimals, bool in_log = true) {
-    return {name, unit, decimals, in_log, number<member>, set_number<member>};
+    return {name, unit, decimals, decimals, in_log, TickPart::always, number<member>, set_number<member>};
 }
 
 template <auto member, glm::length_t axis>
 constexpr TickQuantity along(const char* name, const char* unit, int decimals, bool in_log = true) {
-    return {name, unit, decimals, in_log, component<member, axis>, set_component<member, axis>};
+    return {name,
+            unit,
+            decimals,
+            decimals,
+            in_log,
+            TickPart::always,
+            component<member, axis>,
+            set_component<member, axis>};
+}
+
+/// Its recorded decimals are those of before; the rest comes behind.
+template <glm::length_t axis>
+constexpr TickQuantity hand_along(const char* name) {
+    TickQuantity quantity = along<&TickSample::hand_mm, axis>(name, "mm", 4);
+    quantity.log_decimals = hand_decimals_mm;
+    return quantity;
 }
 
 template <glm::length_t axis>
 constexpr TickQuantity torque_along(const char* name) {
-    return {name, "N mm", 4, true, torque<axis>, set_torque<axis>};
+    return {name, "N mm", 4, 4, true, TickPart::torque, torque<axis>, set_torque<axis>};
+}
+
+template <glm::length_t axis>
+constexpr TickQuantity hand_rest_along(const char* name) {
+    return {name,  "mm",           hand_decimals_mm, hand_decimals_mm,
+            false, TickPart::rest, hand_rest<axis>,  add_hand_rest<axis>};
+}
+
+template <glm::length_t axis>
+constexpr TickQuantity axis_rest_along(const char* name) {
+    return {
+        name, "1", axis_decimals, axis_decimals, false, TickPart::rest, axis_rest<axis>, add_axis_rest<axis>};
+}
+
+template <auto of, auto set>
+constexpr TickQuantity input(const char* name) {
+    return {name, "1", 0, 0, false, TickPart::input, of, set};
 }
 
 using T = TickSample;
 
-// Recordings have them in this order.
+// Recordings have them in this order; whoever knows fewer leaves the last ones out.
 constexpr std::array quantities{one<&T::time_s>("t_s", "s", 4),
-                                along<&T::hand_mm, 0>("hand_x_mm", "mm", 4),
-                                along<&T::hand_mm, 1>("hand_y_mm", "mm", 4),
-                                along<&T::hand_mm, 2>("hand_z_mm", "mm", 4),
+                                hand_along<0>("hand_x_mm"),
+                                hand_along<1>("hand_y_mm"),
+                                hand_along<2>("hand_z_mm"),
                                 along<&T::burr_mm, 0>("burr_x_mm", "mm", 4),
                                 along<&T::burr_mm, 1>("burr_y_mm", "mm", 4),
                                 along<&T::burr_mm, 2>("burr_z_mm", "mm", 4),
@@ -77,7 +175,17 @@ constexpr std::array quantities{one<&T::time_s>("t_s", "s", 4),
                                 one<&T::burr>("burr", "1", 0, false),
                                 torque_along<0>("shank_torque_x_n_mm"),
                                 torque_along<1>("shank_torque_y_n_mm"),
-                                torque_along<2>("shank_torque_z_n_mm")};
+                                torque_along<2>("shank_torque_z_n_mm"),
+                                hand_rest_along<0>("hand_x_rest_mm"),
+                                hand_rest_along<1>("hand_y_rest_mm"),
+                                hand_rest_along<2>("hand_z_rest_mm"),
+                                axis_rest_along<0>("axis_x_rest"),
+                                axis_rest_along<1>("axis_y_rest"),
+                                axis_rest_along<2>("axis_z_rest"),
+                                input<pedal, set_pedal>("pedal"),
+                                input<asked_burr, set_asked_burr>("asked_burr"),
+                                input<lets_go, set_lets_go>("lets_go"),
+                                input<steps, set_steps>("milling_steps")};
 
 }  // namespace
 
@@ -85,23 +193,20 @@ std::span<const TickQuantity> tick_quantities() {
     return quantities;
 }
 
-std::span<const TickQuantity> tick_quantities(bool has_torque) {
-    return std::span(quantities).first(quantities.size() - (has_torque ? 0 : torque_quantities));
-}
-
 std::string TickSample::header_line(bool has_torque) {
     std::string line;
-    for (const TickQuantity& quantity : tick_quantities(has_torque))
-        if (quantity.in_log) line += fmt::format("{}{}", line.empty() ? "" : ",", quantity.name);
+    for (const TickQuantity& quantity : quantities)
+        if (quantity.in_log && (quantity.part == TickPart::always || has_torque))
+            line += fmt::format("{}{}", line.empty() ? "" : ",", quantity.name);
     return line + '\n';
 }
 
 void TickSample::append_to(fmt::memory_buffer& text) const {
     const char* separator = "";
-    for (const TickQuantity& quantity : tick_quantities(shank_torque_n_mm.has_value())) {
-        if (!quantity.in_log) continue;
+    for (const TickQuantity& quantity : quantities) {
+        if (!quantity.in_log || !quantity.is_of(*this)) continue;
         fmt::format_to(std::back_inserter(text), "{}{:.{}f}", separator, quantity.of(*this),
-                       quantity.decimals);
+                       quantity.log_decimals);
         separator = ",";
     }
     text.push_back('\n');

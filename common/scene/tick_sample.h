@@ -13,7 +13,25 @@
 
 namespace osteomill {
 
-/// Positions and directions in patient LPS.
+/// What a tick took beside the hand's pose.
+struct TickInput {
+    /// In the order of their numbers in recordings.
+    enum class Pedal : std::uint8_t {
+        up,
+        down,
+        waiting,  ///< down, and does not count yet
+        lapsed,   ///< nothing is known of it lately
+        no_hand,  ///< nor of the hand: the device is lost
+    };
+    Pedal pedal = Pedal::up;
+    std::optional<std::size_t> burr{};  ///< of the session's, that is asked for
+    bool lets_go = false;               ///< the session ends: force and spindle go
+    std::uint64_t steps = 0;            ///< of the milling loop, that it was the first to see (seen_steps.h)
+
+    bool operator==(const TickInput&) const = default;
+};
+
+/// Positions and directions in patient LPS. Those of the hand have the decimals of written_pose.h.
 struct TickSample {
     double time_s = 0.0;  ///< session time
     glm::dvec3 hand_mm{0.0};
@@ -29,6 +47,9 @@ struct TickSample {
     std::size_t burr = 0;                    ///< index into the session's burrs
     std::optional<glm::dvec3>
         shank_torque_n_mm{};  ///< of bone on the shank about the burr's centre; absent: no burr has one
+    /// With it the tick can be computed again. Absent: of an older recording, whose poses are rounded to 0.1
+    /// um.
+    std::optional<TickInput> input{};
 
     /// The first line of a log, for ticks with or without a torque of the shank.
     static std::string header_line(bool has_torque = false);
@@ -40,19 +61,41 @@ struct TickSample {
     bool operator==(const TickSample&) const = default;
 };
 
+/// When a tick has a quantity.
+enum class TickPart : std::uint8_t {
+    always,
+    torque,  ///< where a burr has a shank
+    input,   ///< where TickInput is known; readers of before do not know of it
+    rest,    ///< likewise: what a quantity of the hand's pose lacks of it, which setting it adds
+};
+
 /// One number of a tick. A log's columns are those that are `in_log`, in this order.
 struct TickQuantity {
     const char* name;  ///< with its unit; the log's column
     const char* unit;  ///< "1": none
-    int decimals;      ///< that logs and recordings keep
+    int decimals;      ///< that recordings keep
+    int log_decimals;  ///< that logs keep
     bool in_log;
+    TickPart part;
     double (*of)(const TickSample& tick);
     void (*set)(TickSample& tick, double value);
+
+    /// Whether ticks like this one have it.
+    bool is_of(const TickSample& tick) const {
+        switch (part) {
+            case TickPart::always:
+                break;
+            case TickPart::torque:
+                return tick.shank_torque_n_mm.has_value();
+            case TickPart::input:
+            case TickPart::rest:
+                return tick.input.has_value();
+        }
+        return true;
+    }
 };
 
-/// All of them; the last three are the torque's, for ticks that have one.
+/// All of them, in the order of recordings.
 std::span<const TickQuantity> tick_quantities();
-inline constexpr std::size_t torque_quantities = 3;
-std::span<const TickQuantity> tick_quantities(bool has_torque);
 
 }  // namespace osteomill

@@ -3,11 +3,11 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include "common/scene/seen_steps.h"
 #include "common/wire/parse_message.h"
 
 namespace osteomill {
@@ -18,10 +18,8 @@ namespace {
 constexpr int tick_compression_level = 3;
 /// Of most_ticks_of_message where each number takes the longest varint, with room for more quantities.
 constexpr std::size_t largest_unpacked_bytes = 64 * 1024;
-/// Codes up to here, and what lies between two of them, are exact in a double.
-constexpr double largest_code = 1e15;
-
-constexpr std::array powers_of_ten{1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+/// Of protocol 2.2, which every recording with ticks has.
+constexpr std::size_t quantities_of_before = 21;
 
 WireError ticks_refused(const std::string& what) {
     return {"packed ticks refused: " + what};
@@ -33,10 +31,15 @@ std::int64_t sum(std::int64_t a, std::int64_t b) {
 }
 
 bool is_code_of(const TickQuantity& quantity, std::int64_t code, std::size_t burr_count) {
-    if (std::abs(static_cast<double>(code)) > largest_code + 1.0) return false;
+    if (std::abs(static_cast<double>(code)) > largest_decimal_code + 1.0) return false;
     if (quantity.decimals > 0) return true;
-    const TickSample largest{
-        .spindle_on = true, .fault = std::numeric_limits<std::uint8_t>::max(), .burr = burr_count - 1};
+    const TickSample largest{.spindle_on = true,
+                             .fault = std::numeric_limits<std::uint8_t>::max(),
+                             .burr = burr_count - 1,
+                             .input = TickInput{.pedal = TickInput::Pedal::no_hand,
+                                                .burr = burr_count - 1,
+                                                .lets_go = true,
+                                                .steps = steps_not_told}};
     return code >= 0 && static_cast<double>(code) <= quantity.of(largest);
 }
 
@@ -58,23 +61,6 @@ std::optional<WireError> take(const v2::TickQuantities::Quantity& message, const
 
 }  // namespace
 
-std::int64_t to_code(double value, int decimals) {
-    const double magnitude = std::abs(value);
-    const double scale = powers_of_ten[static_cast<std::size_t>(decimals)];
-    double whole = std::floor(magnitude * scale);
-    // The sign is that of the exact value, although the product was rounded.
-    const double beyond_half = std::fma(magnitude, scale, -(whole + 0.5));
-    if (beyond_half > 0.0 || (beyond_half == 0.0 && std::fmod(whole, 2.0) == 1.0)) whole += 1.0;
-    if (!(whole < largest_code)) whole = largest_code;
-    const auto code = static_cast<std::int64_t>(whole);
-    return std::signbit(value) ? ~code : code;
-}
-
-double from_code(std::int64_t code, int decimals) {
-    const double scale = powers_of_ten[static_cast<std::size_t>(decimals)];
-    return code < 0 ? -(static_cast<double>(~code) / scale) : static_cast<double>(code) / scale;
-}
-
 TickPacker::TickPacker() : compressor_(tick_compression_level) {}
 
 v2::Ticks TickPacker::pack(std::uint64_t missed, std::span<const TickSample> ticks) {
@@ -82,10 +68,9 @@ v2::Ticks TickPacker::pack(std::uint64_t missed, std::span<const TickSample> tic
     message.set_missed(missed);
     if (ticks.empty()) return message;
     v2::TickQuantities quantities;
-    const auto said = tick_quantities(ticks.front().shank_torque_n_mm.has_value());
     for (const TickQuantity& quantity : tick_quantities()) {
         auto& steps = *quantities.add_quantity()->mutable_step();
-        if (static_cast<std::size_t>(quantities.quantity_size()) > said.size()) continue;
+        if (!quantity.is_of(ticks.front())) continue;
         std::int64_t before = 0;
         for (const TickSample& tick : ticks) {
             const std::int64_t code = to_code(quantity.of(tick), quantity.decimals);
@@ -115,15 +100,15 @@ std::variant<TickBlock, WireError> unpack(const v2::Ticks& message, std::size_t 
     if (!parse_message(std::span(content).first(size), quantities))
         return ticks_refused("their quantities are no message");
     const auto known = tick_quantities();
-    // A newer minor version may know more.
-    if (static_cast<std::size_t>(quantities.quantity_size()) < known.size())
-        return ticks_refused("they have " + std::to_string(quantities.quantity_size()) + " quantities, not " +
-                             std::to_string(known.size()));
+    // A newer minor version may know more, an older one less.
+    const auto said = static_cast<std::size_t>(quantities.quantity_size());
+    if (said < quantities_of_before)
+        return ticks_refused("they have " + std::to_string(said) + " quantities, not " +
+                             std::to_string(quantities_of_before));
     block.ticks.resize(message.count());
-    for (std::size_t i = 0; i < known.size(); ++i) {
+    for (std::size_t i = 0; i < std::min(said, known.size()); ++i) {
         const v2::TickQuantities::Quantity& quantity = quantities.quantity(static_cast<int>(i));
-        const bool may_be_absent = i + torque_quantities >= known.size();
-        if (may_be_absent && quantity.step().empty()) continue;
+        if (known[i].part != TickPart::always && quantity.step().empty()) continue;
         if (auto error = take(quantity, known[i], burr_count, block.ticks)) return *std::move(error);
     }
     const auto descends = [](const TickSample& a, const TickSample& b) { return a.time_s > b.time_s; };

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/scene/decimal_code.h"
 #include "common/scene/tick_sample.h"
 #include "common/wire/wire_error.h"
 #include "common/wire/zstd_compressor.h"
@@ -28,11 +29,6 @@ struct TickBlock {
     std::vector<TickSample> ticks{};
     std::size_t bytes = 0;  ///< that they take in the frame
 };
-
-/// The whole number of a value's last decimal, as packed: rounded as fmt::format rounds it, half to even.
-/// Values beyond 1e15, and NaN, become 1e15.
-std::int64_t to_code(double value, int decimals);
-double from_code(std::int64_t code, int decimals);
 
 class TickPacker {
   public:

@@ -3,7 +3,7 @@
 namespace osteomill {
 
 PrescribedDevice::PrescribedDevice(const ToolPose& start, const DeviceMapping& mapping)
-    : mapping_(mapping), hand_(start) {}
+    : mapping_(mapping), hand_(as_written(start)) {}
 
 DeviceState PrescribedDevice::read(double now_s) noexcept {
     const glm::dvec3 position_mm = position_in_device_mm(mapping_, hand_.position_mm);

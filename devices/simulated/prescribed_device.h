@@ -7,6 +7,7 @@
 
 #include "common/scene/device_mapping.h"
 #include "common/scene/scene.h"
+#include "common/scene/written_pose.h"
 #include "simulation/device/haptic_device.h"
 
 namespace osteomill {
@@ -17,8 +18,9 @@ class PrescribedDevice final : public HapticDevice {
     PrescribedDevice(const ToolPose& start, const DeviceMapping& mapping);
 
     /// Where the hand is from the next reading on. Patient space; `axis` is a unit vector. Between two
-    /// readings, from the thread that advances the session.
-    void move_to(const ToolPose& hand) noexcept { hand_ = hand; }
+    /// readings, from the thread that advances the session. Rounded as the loop rounds it, and with it the
+    /// velocity.
+    void move_to(const ToolPose& hand) noexcept { hand_ = as_written(hand); }
     void press(bool pedal) noexcept { pedal_ = pedal; }
     /// Number in the scene's set, from 0.
     void take_burr(std::size_t burr) noexcept { burr_ = burr; }

@@ -51,9 +51,10 @@ DeviceState SimulatedDevice::read(double now_s) noexcept {
 }
 
 DeviceState SimulatedDevice::read_on_rails(double now_s) noexcept {
-    trajectory_time_s_ = now_s + rounding_s;
-    if (trajectory_time_s_ >= trajectory_.duration_s()) is_finished_.store(true, std::memory_order_relaxed);
-    const TrajectorySample sample = trajectory_.at(trajectory_time_s_);
+    trajectory_time_s_ = now_s;
+    if (trajectory_time_s_ + rounding_s >= trajectory_.duration_s())
+        is_finished_.store(true, std::memory_order_relaxed);
+    const TrajectorySample sample = trajectory_.at(trajectory_time_s_, rounding_s);
     rails_->move_to(sample.target);
     rails_->press(now_s > 0.0 && sample.pedal);
     if (sample.burr) rails_->take_burr(*sample.burr);

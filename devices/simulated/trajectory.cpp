@@ -39,13 +39,14 @@ Trajectory::Trajectory(std::vector<Waypoint> waypoints) : waypoints_(std::move(w
     }
 }
 
-TrajectorySample Trajectory::at(double time_s) const noexcept {
-    const auto after = std::upper_bound(waypoints_.begin(), waypoints_.end(), time_s,
+TrajectorySample Trajectory::at(double time_s, double rounding_s) const noexcept {
+    const auto after = std::upper_bound(waypoints_.begin(), waypoints_.end(), time_s + rounding_s,
                                         [](double t, const Waypoint& w) { return t < w.time_s; });
     if (after == waypoints_.begin()) return {after->pose, false, after->burr};
     const Waypoint& from = *(after - 1);
     if (after == waypoints_.end()) return {from.pose, from.pedal && waypoints_.size() == 1, from.burr};
 
+    if (std::abs(time_s - from.time_s) <= rounding_s) return {from.pose, from.pedal, from.burr};
     const double share = (time_s - from.time_s) / (after->time_s - from.time_s);
     const glm::dvec3 axis = glm::mix(from.pose.spindle_axis, after->pose.spindle_axis, share);
     const double length = glm::length(axis);

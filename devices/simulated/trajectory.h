@@ -29,8 +29,8 @@ class Trajectory {
     explicit Trajectory(std::vector<Waypoint> waypoints);
 
     /// Before the first waypoint and after the last the tool rests there; after the last with the pedal up.
-    /// Real-time safe.
-    TrajectorySample at(double time_s) const noexcept;
+    /// A waypoint that is due within `rounding_s` is reached, exactly. Real-time safe.
+    TrajectorySample at(double time_s, double rounding_s = 0.0) const noexcept;
 
     /// When the last waypoint is reached; infinite for a trajectory of a single one, which just holds.
     double duration_s() const noexcept;

@@ -9,6 +9,10 @@ enum class InstructionSet {
     avx2    ///< 256-bit vectors of x86-64
 };
 
+inline const char* name_of(InstructionSet set) noexcept {
+    return set == InstructionSet::avx2 ? "avx2" : "plain";
+}
+
 /// The fastest set that this processor has.
 inline InstructionSet best_instruction_set() noexcept {
 #if defined(__x86_64__)

@@ -8,13 +8,15 @@
 #include <optional>
 
 #include "common/scene/scene.h"
+#include "common/scene/seen_steps.h"
 #include "simulation/engagement/engagement.h"
 
 namespace osteomill {
 
 /// Where the burr is to go during a step. It moves there on a straight line from where the last step left it.
 struct BurrCommand {
-    ToolPose pose;  ///< at the end of the step, patient LPS; the axis is a unit vector
+    std::uint64_t tick = 0;  ///< that gave it, counted from 0
+    ToolPose pose;           ///< at the end of the step, patient LPS; the axis is a unit vector
     bool spindle_on = false;
     std::size_t burr = 0;          ///< index into the scene's set
     double speed_share = 1.0;      ///< of the spindle's speed to the burr's own, positive
@@ -49,6 +51,8 @@ struct MillingResult {
     double room_for_change_mm = 0.0;
     std::optional<std::size_t> wanted_burr{};  ///< the command's
     Engagement engagement;                     ///< the bone around the burr after the step
+    std::array<StepRun, newest_step_runs>
+        newest_runs{};  ///< of steps, with this one's last; those of none first
 };
 
 }  // namespace osteomill

@@ -4,10 +4,12 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "common/bone/finite.h"
 #include "common/scene/device_mapping.h"
+#include "common/scene/written_pose.h"
 #include "simulation/loop/clearance.h"
 
 namespace osteomill {
@@ -24,8 +26,8 @@ HapticLoop::HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& op
 
 HandState HapticLoop::hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept {
     const DeviceMapping& mapping = options_.mapping;
-    hand_pose_ = {position_in_patient_mm(mapping, device.position_mm),
-                  direction_in_patient(mapping, device.spindle_axis)};
+    hand_pose_ = as_written({position_in_patient_mm(mapping, device.position_mm),
+                             direction_in_patient(mapping, device.spindle_axis)});
     return {.now_s = now_s,
             .tick_s = elapsed_s,
             .pose = hand_pose_,
@@ -71,10 +73,14 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     const bool is_placed = place(device);
     parts_.results.refresh();
     const MillingResult& latest = parts_.results.front();
+    settle(latest.total_removed_mm3);
+    steps_ = note_steps(latest);
 
-    energy_.add(device.position_mm, force_in_device_n_, elapsed_s,
+    const glm::dvec3 reading_mm =
+        with_decimals<hand_decimals_mm>(position_in_patient_mm(options_.mapping, device.position_mm));
+    // In the device's millimetres, from the pose as it is written: a recorded hand gets the same.
+    energy_.add(reading_mm / options_.mapping.scale, felt_n_, elapsed_s,
                 Watchdog::jump_allowance_mm + Watchdog::fastest_hand_mm_per_s * elapsed_s);
-    const glm::dvec3 reading_mm = position_in_patient_mm(options_.mapping, device.position_mm);
     safety_.observe({.now_s = now_s,
                      .device = device,
                      .model_step = latest.step,
@@ -112,51 +118,103 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     if (safety_.has_just_let_go()) parts_.coupling.reset();
     if (!safety_.holds_tool()) burr_pose_ = hand_pose_;
 
-    const glm::dvec3 written_n = force_in_device_n(options_.mapping, force_n);
-    parts_.device.write(written_n);
+    parts_.device.write(force_in_device_n(options_.mapping, force_n));
     if (lets_go && !at_the_end_.is_felt()) has_let_go_.store(true, std::memory_order_relaxed);
     // A force that nobody feels gives the hand no energy.
-    if (gives_force_) force_in_device_n_ = written_n;
+    if (gives_force_) felt_n_ = force_n;
     peak_force_n_ = std::max(peak_force_n_, glm::length(force_n));
     if (latest.touches_protected) protected_until_s_ = now_s + protected_shown_s;
 
     const bool spindle_on = spindle_turned_ = safety_.spindle_turns() && !lets_go;
     const bool in_contact = latest.total_removed_mm3 > removed_before_mm3_ || force_n != glm::dvec3(0.0);
-    const ToolState tool{
-        .time_s = now_s,
-        .burr_position_mm = burr_pose_.position_mm,
-        .spindle_axis = burr_pose_.spindle_axis,
-        .hand_position_mm = hand_pose_.position_mm,
-        .force_n = force_n,
-        .burr = burr_.burr(),
-        .spindle_on = spindle_on,
-        .removed_mm3 = options_.removed_before_mm3 + latest.total_removed_mm3,
-        .touches_protected = now_s < protected_until_s_,
-        .fault = describe(safety_.fault()),
-        .notice = notice(),
-        .depth_mm = depth_mm(in_contact),
-        .solve = parts_.coupling.solve_counts(),
-        .shank_torque_n_mm = options_.has_shank ? std::optional(shank_torque_n_mm) : std::nullopt,
-        .peak_force_n = peak_force_n_,
-        .spindle_rpm = hand.speed_share != 1.0
-                           ? std::optional(60.0 * hand.speed_share * speed_.own_rev_per_s(burr_.burr()))
-                           : std::nullopt};
-    publish({.pose = burr_pose_,
+    tool_ = {.time_s = now_s,
+             .burr_position_mm = burr_pose_.position_mm,
+             .spindle_axis = burr_pose_.spindle_axis,
+             .hand_position_mm = hand_pose_.position_mm,
+             .force_n = force_n,
+             .burr = burr_.burr(),
+             .spindle_on = spindle_on,
+             .removed_mm3 = options_.removed_before_mm3 + latest.total_removed_mm3,
+             .touches_protected = now_s < protected_until_s_,
+             .fault = describe(safety_.fault()),
+             .notice = notice(),
+             .depth_mm = depth_mm(in_contact),
+             .solve = parts_.coupling.solve_counts(),
+             .shank_torque_n_mm = options_.has_shank ? std::optional(shank_torque_n_mm) : std::nullopt,
+             .peak_force_n = peak_force_n_,
+             .spindle_rpm = hand.speed_share != 1.0
+                                ? std::optional(60.0 * hand.speed_share * speed_.own_rev_per_s(burr_.burr()))
+                                : std::nullopt};
+    publish({.tick = ticks_++,
+             .pose = burr_pose_,
              .spindle_on = spindle_on,
              .burr = burr_.burr(),
              .speed_share = hand.speed_share,
              .elapsed_s = elapsed_s,
-             .wanted_burr = burr_.wanted()},
-            tool);
-    log(tool);
+             .wanted_burr = burr_.wanted()});
+    fault_ = safety_.fault();
+    input_ = input_of(device, lets_go);
+    is_settled_ = false;
 }
 
-void HapticLoop::publish(const BurrCommand& command, const ToolState& tool) noexcept {
+void HapticLoop::settle(double total_removed_mm3) noexcept {
+    if (std::exchange(is_settled_, true)) return;
+    const double removed_mm3 = options_.removed_before_mm3 + total_removed_mm3;
+    // On the real clock the state has gone out with what the tick knew.
+    if (std::exchange(tool_.removed_mm3, removed_mm3) != removed_mm3) show();
+    log();
+}
+
+std::uint64_t HapticLoop::note_steps(const MillingResult& latest) noexcept {
+    std::uint64_t left = latest.step - std::exchange(seen_step_, latest.step);
+    std::array<StepRun, newest_step_runs> seen{};
+    std::size_t first = seen.size();
+    while (left > 0 && first > 0) {
+        StepRun run = latest.newest_runs[first - 1];
+        if (run.count == 0) break;
+        // Of a run that was under way, the first step was seen before.
+        if (run.count > left) run = {.command = run.command, .count = left};
+        left -= run.count;
+        seen[--first] = run;
+    }
+    if (left > 0) return steps_not_told;
+    return code_of_steps(std::span(seen).subspan(first), ticks_);
+}
+
+TickInput HapticLoop::input_of(const DeviceState& device, bool lets_go) const noexcept {
+    using Pedal = TickInput::Pedal;
+    TickInput input{.lets_go = lets_go, .steps = steps_};
+    if (device.burr && *device.burr < options_.burr_count) input.burr = device.burr;
+    if (!safety_.has_hand()) {
+        input.pedal = Pedal::no_hand;
+        return input;
+    }
+    switch (safety_.pedal_seen()) {
+        case PedalSeen::up:
+            break;
+        case PedalSeen::down:
+            input.pedal = Pedal::down;
+            break;
+        case PedalSeen::waiting:
+            input.pedal = Pedal::waiting;
+            break;
+        case PedalSeen::lapsed:
+            input.pedal = Pedal::lapsed;
+            break;
+    }
+    return input;
+}
+
+void HapticLoop::publish(const BurrCommand& command) noexcept {
     parts_.commands.back() = command;
     parts_.commands.publish();
-    parts_.tool.back() = tool;
+    show();
+}
+
+void HapticLoop::show() noexcept {
+    parts_.tool.back() = tool_;
     parts_.tool.publish();
-    parts_.status.back() = tool;
+    parts_.status.back() = tool_;
     parts_.status.publish();
 }
 
@@ -175,8 +233,9 @@ double HapticLoop::depth_mm(bool in_contact) noexcept {
     return glm::dot(first_contact_.position_mm - burr_pose_.position_mm, first_contact_.spindle_axis);
 }
 
-void HapticLoop::log(const ToolState& tool) noexcept {
+void HapticLoop::log() noexcept {
     if (parts_.log == nullptr) return;
+    const ToolState& tool = tool_;
     parts_.log->push({.time_s = tool.time_s,
                       .hand_mm = tool.hand_position_mm,
                       .burr_mm = tool.burr_position_mm,
@@ -184,10 +243,11 @@ void HapticLoop::log(const ToolState& tool) noexcept {
                       .depth_mm = tool.depth_mm.value_or(0.0),
                       .removed_mm3 = tool.removed_mm3,
                       .spindle_on = tool.spindle_on,
-                      .fault = static_cast<std::uint8_t>(safety_.fault()),
+                      .fault = static_cast<std::uint8_t>(fault_),
                       .spindle_axis = tool.spindle_axis,
                       .burr = tool.burr,
-                      .shank_torque_n_mm = tool.shank_torque_n_mm});
+                      .shank_torque_n_mm = tool.shank_torque_n_mm,
+                      .input = input_});
 }
 
 }  // namespace osteomill

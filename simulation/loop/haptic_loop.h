@@ -68,8 +68,13 @@ class HapticLoop {
 
     HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& options);
 
-    /// The tick of session time `now_s`, after `missed_periods` missed deadlines. Real-time safe.
+    /// The tick of session time `now_s`, after `missed_periods` missed deadlines. Real-time safe, as
+    /// settle().
     void tick(double now_s, std::uint64_t missed_periods) noexcept;
+    /// The last tick's millisecond is over, by which so much was removed since the start: that is what the
+    /// tick's row says. The next tick does so itself, with what it knows; for callers that keep the order of
+    /// the loops, and at the end.
+    void settle(double total_removed_mm3) noexcept;
 
     /// Ends the session: from the next tick on the force fades, whatever is requested, and the spindle stops.
     /// Any thread.
@@ -89,18 +94,21 @@ class HapticLoop {
     bool place(const DeviceState& device) noexcept;
     /// Whether the session holds still in this tick, or has since the last one.
     bool holds_still(const MillingResult& latest) noexcept;
-    void publish(const BurrCommand& command, const ToolState& tool) noexcept;
+    void publish(const BurrCommand& command) noexcept;
+    void show() noexcept;
     double speed_share(double elapsed_s) noexcept;
     const char* notice() const noexcept;
     double depth_mm(bool in_contact) noexcept;
-    void log(const ToolState& tool) noexcept;
+    TickInput input_of(const DeviceState& device, bool lets_go) const noexcept;
+    std::uint64_t note_steps(const MillingResult& latest) noexcept;
+    void log() noexcept;
 
     HapticLoopParts parts_;
     HapticLoopOptions options_;
     SafetyMonitor safety_;
     bool gives_force_;
     EnergyMeter energy_;
-    glm::dvec3 force_in_device_n_{0.0};  // last written and felt
+    glm::dvec3 felt_n_{0.0};  // patient axes; last written and felt
     FadingForce at_the_end_;
     std::atomic<bool> lets_go_{false};
     std::atomic<bool> has_let_go_{false};
@@ -118,6 +126,15 @@ class HapticLoop {
     double removed_before_mm3_ = 0.0;  // when the tool was placed last
 
     double peak_force_n_ = 0.0;
+
+    // The last tick, until it is settled.
+    bool is_settled_ = true;
+    ToolState tool_;
+    Fault fault_ = Fault::none;
+    TickInput input_{};
+    std::uint64_t steps_ = 0;      // that it was the first to see, as a number
+    std::uint64_t seen_step_ = 0;  // of the last result
+    std::uint64_t ticks_ = 0;
 };
 
 }  // namespace osteomill

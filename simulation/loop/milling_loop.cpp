@@ -2,6 +2,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "simulation/force_models/bone_in_ball.h"
 
@@ -64,6 +65,16 @@ void MillingLoop::restore(double elapsed_s) noexcept {
     parts_.gate->restored_changes.fetch_add(count, std::memory_order_release);
 }
 
+void MillingLoop::note_step(std::uint64_t command, std::uint64_t missed) noexcept {
+    StepRun& newest = newest_runs_.back();
+    if (newest.count > 0 && newest.command == command && missed == 0) {
+        ++newest.count;
+        return;
+    }
+    std::shift_left(newest_runs_.begin(), newest_runs_.end(), 1);
+    newest_runs_.back() = {.command = command, .missed = missed, .count = 1};
+}
+
 void MillingLoop::report_cut(const MillingResult& result, double speed_share) noexcept {
     cut_.add(result, elapsed_s_);
     if (!cut_.is_due()) return;
@@ -71,14 +82,17 @@ void MillingLoop::report_cut(const MillingResult& result, double speed_share) no
     parts_.cuts->publish();
 }
 
-void MillingLoop::step(double time_s, double elapsed_s) noexcept {
+void MillingLoop::step(double time_s, double elapsed_s, std::uint64_t missed) noexcept {
     if (parts_.commands.refresh()) {
         if (!has_command_) pose_ = parts_.commands.front().pose;
         has_command_ = true;
         start_ = pose_;
         underway_s_ = 0.0;
     }
-    if (!has_command_) return;
+    if (!has_command_) {
+        idle_periods_ += 1 + missed;
+        return;
+    }
     const bool was_underway = underway_s_ < command_period_s_ - time_tolerance_s;
     BurrCommand command = parts_.commands.front();
     command.pose = pose_ = pose_on_the_way(elapsed_s);
@@ -90,6 +104,7 @@ void MillingLoop::step(double time_s, double elapsed_s) noexcept {
                            elapsed_s >= command_period_s_ - time_tolerance_s;
     command.wants_engagement = publishes;
 
+    note_step(command.tick, missed + std::exchange(idle_periods_, 0));
     restore(elapsed_s);
     MillingResult& result = parts_.results.back();
     parts_.model.step(command, time_s, parts_.changes, result);
@@ -103,6 +118,7 @@ void MillingLoop::step(double time_s, double elapsed_s) noexcept {
 
     impulse_n_s_ += result.force_n * elapsed_s;
     removed_mm3_ += result.removed_mm3;
+    total_removed_mm3_ = result.total_removed_mm3;
     touches_protected_ |= result.touches_protected;
     if (!publishes && result.valid) return;
     if (elapsed_s_ > elapsed_s) {
@@ -112,6 +128,7 @@ void MillingLoop::step(double time_s, double elapsed_s) noexcept {
     }
     result.restored_changes = restored_changes_;
     result.wanted_burr = command.wanted_burr;
+    result.newest_runs = newest_runs_;
     result.room_for_change_mm = room_for_change_mm(command);
     published_mm_ = command.pose.position_mm;
     if (parts_.cuts != nullptr) report_cut(result, command.speed_share);

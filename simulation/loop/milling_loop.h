@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,8 +43,10 @@ class MillingLoop {
     MillingLoop(const MillingLoopParts& parts, double command_period_s);
 
     /// The step that ends at session time `time_s` and lasted `elapsed_s` since the last. Before the first
-    /// command there is nothing to do. Real-time safe.
-    void step(double time_s, double elapsed_s) noexcept;
+    /// command there is nothing to do. `missed`: so many periods were skipped before it. Real-time safe.
+    void step(double time_s, double elapsed_s, std::uint64_t missed = 0) noexcept;
+    /// By all steps so far, less what was given back.
+    double total_removed_mm3() const { return total_removed_mm3_; }
 
     /// A tool that moves so fast that more room is needed is not looked at: it would take too long.
     static constexpr double most_room_mm = 2.0;
@@ -59,6 +62,7 @@ class MillingLoop {
     /// MillingResult::room_for_change_mm. Looks beyond both burrs and their shanks by a voxel, and by twice
     /// what the tool went since the last result: when this one is read it will have moved on.
     double room_for_change_mm(const BurrCommand& command) const noexcept;
+    void note_step(std::uint64_t command, std::uint64_t missed) noexcept;
     void report_cut(const MillingResult& result, double speed_share) noexcept;
 
     MillingLoopParts parts_;
@@ -76,6 +80,9 @@ class MillingLoop {
     double elapsed_s_ = 0.0;
     glm::dvec3 impulse_n_s_{0.0};
     double removed_mm3_ = 0.0;
+    double total_removed_mm3_ = 0.0;  // since the start
+    std::array<StepRun, newest_step_runs> newest_runs_{};
+    std::uint64_t idle_periods_ = 0;  // before the first command
     bool touches_protected_ = false;
 };
 

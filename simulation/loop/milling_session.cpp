@@ -140,7 +140,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .start_pose = scene.start_pose}),
       burrs_(felt_burrs(scene)),
       milling_loop_({.model = *model_,
-                     .commands = exchange_.commands,
+                     .commands = options.repeats_real_clock ? repeated_commands_ : exchange_.commands,
                      .results = exchange_.results,
                      .changes = exchange_.changes,
                      .log = milling_log,
@@ -157,9 +157,9 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     }),
       milling_steps_(1.0 / options.milling_rate_hz,
                      // On the real clock it finds a fresh command, and is done before the next tick.
-                     options.clock == ClockKind::real ? 0.5 * tick_s : 0.0,
+                     options.clock == ClockKind::real || options.repeats_real_clock ? 0.5 * tick_s : 0.0,
                      [this, period_s = 1.0 / options.milling_rate_hz](double time_s, std::uint64_t missed) {
-                         milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed));
+                         milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed), missed);
                      }) {}
 
 void MillingSession::run(const std::atomic<bool>& stop, const OnProgress& on_progress) {
@@ -226,6 +226,7 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop, const OnProgr
     is_over.store(true, std::memory_order_relaxed);
     haptic.join();
     milling.join();
+    haptic_loop_.settle(milling_loop_.total_removed_mm3());
 }
 
 std::uint64_t MillingSession::advance(std::uint64_t ticks, const OnProgress& on_progress,
@@ -239,9 +240,37 @@ std::uint64_t MillingSession::advance(std::uint64_t ticks, const OnProgress& on_
             milling_steps_.tick_now(stopwatch);
             if (exchange_.changes.has_overflowed()) wait_for_room_in_queue(stop, on_progress);
         }
+        haptic_loop_.settle(milling_loop_.total_removed_mm3());
         if (ticks_++ % chore_ticks == 0) do_chores(on_progress);
     }
     return ticks_ - before;
+}
+
+void MillingSession::repeat_tick(std::span<const StepTrace> steps, std::uint64_t missed) {
+    for (const StepTrace& step : steps) repeat_step(step);
+    haptic_ticks_.tick_after(missed, RealClock());
+    exchange_.commands.refresh();
+    const BurrCommand& command = exchange_.commands.front();
+    given_commands_[command.tick % given_commands_.size()] = command;
+    if (ticks_++ % chore_ticks == 0) do_chores({});
+}
+
+void MillingSession::repeat_step(const StepTrace& step) {
+    const BurrCommand& command = given_commands_[step.command % given_commands_.size()];
+    if (command.tick != step.command || (repeated_command_ && step.command < *repeated_command_))
+        throw std::invalid_argument(
+            fmt::format("a milling step went to the command of tick {}, which is none", step.command));
+    if (repeated_command_ != step.command) {
+        repeated_commands_.back() = command;
+        repeated_commands_.publish();
+        repeated_command_ = step.command;
+    }
+    milling_steps_.tick_after(step.missed, RealClock());
+}
+
+void MillingSession::repeat_step_at_end() {
+    exchange_.commands.refresh();
+    repeat_step({.command = exchange_.commands.front().tick});
 }
 
 void MillingSession::do_chores(const OnProgress& on_progress) {

@@ -7,11 +7,13 @@
 // scene, bone and device: same in, bit-equal out.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,6 +53,8 @@ struct MillingSessionOptions {
     bool can_be_controlled = false;
     /// Somebody consumes the changes while the session runs. If not, the session empties the queue itself.
     bool changes_are_consumed = false;
+    /// Its loops take turns as those of a session of the real clock did: only with repeat_tick().
+    bool repeats_real_clock = false;
     /// Processors that the loops are bound to, of those that this process may use; absent: the system's
     /// choice.
     std::optional<int> haptic_cpu{};
@@ -106,6 +110,17 @@ class MillingSession {
     /// Makes so many ticks, fewer where the duration is over or `stop` is set; returns how many.
     std::uint64_t advance(std::uint64_t ticks, const OnProgress& on_progress = {},
                           const std::atomic<bool>* stop = nullptr);
+    // Or as recorded of a session on the real clock; with repeats_real_clock, after start().
+    /// The steps that the tick was the first to see, then the tick, after so many that were missed. Throws
+    /// std::invalid_argument for a step to a command that was never given.
+    void repeat_tick(std::span<const StepTrace> steps, std::uint64_t missed);
+    /// One more step to the newest command: the last may have come behind the last tick.
+    void repeat_step_at_end();
+    /// From the next tick on.
+    void let_go() noexcept { haptic_loop_.let_go(); }
+    /// When the next tick is due, s.
+    double next_tick_s() const noexcept { return haptic_ticks_.due_s(); }
+
     /// Stops the device, and gives away what is left to consume.
     void end(const OnProgress& on_progress = {});
 
@@ -134,6 +149,7 @@ class MillingSession {
         std::uint64_t page_faults = 0;
     };
     void run_in_threads(const std::atomic<bool>& stop, const OnProgress& on_progress);
+    void repeat_step(const StepTrace& step);
     void do_chores(const OnProgress& on_progress);
     void drop_changes_nobody_wants();
     void wait_for_room_in_queue(const std::atomic<bool>* stop, const OnProgress& on_progress);
@@ -149,6 +165,9 @@ class MillingSession {
     std::optional<HandpieceVibration> vibration_;
     HapticLoop haptic_loop_;
     std::vector<Burr> burrs_;
+    TripleBuffer<BurrCommand> repeated_commands_;      // that the milling loop reads, with repeats_real_clock
+    std::array<BurrCommand, 32> given_commands_{};     // by their tick's number
+    std::optional<std::uint64_t> repeated_command_{};  // the last
     MillingLoop milling_loop_;
     PeriodicLoop haptic_ticks_;
     PeriodicLoop milling_steps_;

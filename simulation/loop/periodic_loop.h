@@ -35,6 +35,8 @@ class PeriodicLoop {
     void wait_and_tick(Clock& clock) noexcept;
     /// Runs the next tick at once, as one that is in time. `stopwatch` only measures how long its work takes.
     void tick_now(const Clock& stopwatch) noexcept { tick(0, stopwatch); }
+    /// The same behind so many that are skipped: for a session of the real clock that is repeated.
+    void tick_after(std::uint64_t missed, const Clock& stopwatch) noexcept { tick(missed, stopwatch); }
 
     const PeriodicStatistics& statistics() const { return statistics_; }
 

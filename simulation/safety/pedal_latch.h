@@ -45,6 +45,8 @@ class PedalDate {
         return seen_ = is_due ? PedalSeen::down : PedalSeen::waiting;
     }
 
+    PedalSeen seen() const { return seen_; }
+
   private:
     PedalSeen seen_ = PedalSeen::lapsed;
     std::uint64_t speaker_ = 0;

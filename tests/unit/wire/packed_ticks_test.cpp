@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <zstd.h>
 
+#include "common/scene/seen_steps.h"
+#include "common/scene/written_pose.h"
 #include "common/wire/frame.h"
 
 namespace osteomill {
@@ -53,6 +55,19 @@ v2::Ticks packed_by_hand(const v2::TickQuantities& quantities, std::uint32_t cou
     return message;
 }
 
+/// As the haptic loop leaves a tick: its hand is written exactly.
+TickSample input_tick_of(std::mt19937& random, std::uint64_t number) {
+    TickSample tick = tick_of(random, 0.001 * static_cast<double>(number), false);
+    const ToolPose hand = as_written({tick.hand_mm, tick.spindle_axis});
+    tick.hand_mm = hand.position_mm;
+    tick.spindle_axis = hand.spindle_axis;
+    tick.input = TickInput{.pedal = static_cast<TickInput::Pedal>(random() % 5),
+                           .lets_go = random() % 2 == 0,
+                           .steps = random() % steps_not_told};
+    if (random() % 2 == 0) tick.input->burr = random() % 3;
+    return tick;
+}
+
 /// Of one tick at rest, as a reader of the protocol's page would make them.
 v2::TickQuantities at_rest() {
     v2::TickQuantities quantities;
@@ -65,6 +80,30 @@ std::string error_of(const v2::Ticks& message) {
     const auto unpacked = unpack(message, 3);
     const auto* error = std::get_if<WireError>(&unpacked);
     return error != nullptr ? error->line : "";
+}
+
+TEST(PackedTicks, HaveTheHandAndItsInputExactly) {
+    std::mt19937 random(3);
+    std::vector<TickSample> ticks;
+    for (std::uint64_t i = 0; i < most_ticks_of_message; ++i) ticks.push_back(input_tick_of(random, i));
+    // Half way between two numbers of the fourth decimal, where one rounding must not take another's side.
+    ticks[3].hand_mm = {0.00005, -0.00015, 12.34565};
+    ticks[4].hand_mm = {-0.0, 0.0, -0.000001};
+    TickPacker packer;
+    const auto unpacked = unpack(packer.pack(0, ticks), 3);
+    const auto* block = std::get_if<TickBlock>(&unpacked);
+    ASSERT_NE(block, nullptr) << std::get<WireError>(unpacked).line;
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+        EXPECT_EQ(block->ticks[i].hand_mm, ticks[i].hand_mm) << i;
+        EXPECT_EQ(block->ticks[i].spindle_axis, ticks[i].spindle_axis) << i;
+        EXPECT_EQ(block->ticks[i].input, ticks[i].input) << i;
+        EXPECT_EQ(line_of(block->ticks[i]), line_of(ticks[i])) << i;
+    }
+}
+
+TEST(PackedTicks, OfBeforeHaveNoInput) {
+    const auto unpacked = unpack(packed_by_hand(at_rest(), 1), 3);
+    EXPECT_FALSE(std::get<TickBlock>(unpacked).ticks.at(0).input);
 }
 
 TEST(PackedTicks, HaveTheNumbersOfALogToTheDigit) {

@@ -1,0 +1,36 @@
+// Poses of the hand as recordings write them. The loops compute from these, so that what is recorded is what
+// was used: a motion that is recorded and fed again gives the same bone and the same forces, bit for bit.
+//
+// A nanometre and a billionth of a radian are far below the step of any encoder. A direction that is rounded
+// so counts as one of unit length wherever one is read (unit_direction).
+#pragma once
+
+#include <cmath>
+#include <glm/vec3.hpp>
+
+#include "common/scene/scene.h"
+
+namespace osteomill {
+
+inline constexpr int hand_decimals_mm = 6;
+inline constexpr int axis_decimals = 9;
+
+/// The number with so many decimals that is nearest; what is one already stays as it is. Real-time safe.
+template <int decimals>
+double with_decimals(double value) noexcept {
+    constexpr double scale = decimals == hand_decimals_mm ? 1e6 : 1e9;
+    static_assert(decimals == hand_decimals_mm || decimals == axis_decimals);
+    return std::nearbyint(value * scale) / scale;
+}
+
+template <int decimals>
+glm::dvec3 with_decimals(const glm::dvec3& v) noexcept {
+    return {with_decimals<decimals>(v.x), with_decimals<decimals>(v.y), with_decimals<decimals>(v.z)};
+}
+
+inline ToolPose as_written(const ToolPose& pose) noexcept {
+    return {with_decimals<hand_decimals_mm>(pose.position_mm),
+            with_decimals<axis_decimals>(pose.spindle_axis)};
+}
+
+}  // namespace osteomill

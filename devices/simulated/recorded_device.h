@@ -1,0 +1,38 @@
+// A device that says again, tick by tick, what a recorded one said to the loop. No hardware, no thread;
+// deterministic.
+#pragma once
+
+#include <optional>
+
+#include "common/scene/device_mapping.h"
+#include "common/scene/tick_sample.h"
+#include "simulation/device/haptic_device.h"
+
+namespace osteomill {
+
+class RecordedDevice final : public HapticDevice {
+  public:
+    /// `limits`: the recorded arm's. `mapping`: the session's.
+    RecordedDevice(const DeviceLimits& limits, const DeviceMapping& mapping)
+        : limits_(limits), mapping_(mapping) {}
+
+    /// What is read from now on: the hand's pose and the input of a tick, which has one.
+    void say(const TickSample& tick) noexcept { tick_ = tick; }
+
+    std::string name() const override { return "recorded hand"; }
+    DeviceLimits limits() const override { return limits_; }
+    void start() override {}
+    /// The velocity is the mean since the reading before.
+    DeviceState read(double now_s) noexcept override;
+    void write(const glm::dvec3&) noexcept override {}
+    void stop() noexcept override {}
+
+  private:
+    DeviceLimits limits_;
+    DeviceMapping mapping_;
+    TickSample tick_{};
+    std::optional<glm::dvec3> before_mm_{};  // device space, at the reading before
+    double before_s_ = 0.0;
+};
+
+}  // namespace osteomill
