@@ -21,14 +21,17 @@ double began_unix_s(const std::filesystem::path& recording) {
 template <typename Layout>
 std::string write(const std::filesystem::path& recording, Layout layout, Playhead& playhead,
                   const ReportProgress& on_frame) {
+    // As the report's: whole is what the session's end is in.
+    bool has_end = false;
     std::string error = play_to_end(playhead, on_frame, [&](Playhead::Step step) {
         if (step == Playhead::Step::new_bone)
             throw std::runtime_error(recording.string() +
                                      ": several sessions were joined in it, and an HDF5 file holds one: "
                                      "cut them apart, with editcap for instance");
+        has_end |= step == Playhead::Step::goodbye;
         if (step == Playhead::Step::state) layout.add(playhead);
     });
-    layout.close(playhead, error.empty() && !playhead.is_truncated());
+    layout.close(playhead, error.empty() && !playhead.is_truncated() && has_end);
     return error;
 }
 

@@ -57,9 +57,10 @@ std::optional<WireError> ClientFeed::compare(const v2::CompareBone& request) {
     return std::nullopt;
 }
 
-void ClientFeed::finish(std::string reason) {
+void ClientFeed::finish(std::string reason, bool has_said_all) {
     if (goodbye_) return;
     goodbye_ = std::move(reason);
+    if (has_said_all && has_sent_all()) return;
     wants_state_ = true;
     wants_checksum_ = true;
 }

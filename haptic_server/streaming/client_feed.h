@@ -56,6 +56,10 @@ class ClientFeed {
     void note_tick(const TickSample& tick) { ticks_.push_back(tick); }
     /// So many ticks should follow those noted so far, and were lost.
     void note_missed_ticks(std::uint64_t missed) { missed_ticks_ += missed; }
+    /// Changes, events, ticks or their loss are yet to be sent.
+    bool has_waiting() const {
+        return !pending_.empty() || !events_.empty() || !ticks_.empty() || missed_ticks_ > 0;
+    }
     /// Those that are yet to be sent.
     std::size_t waiting_ticks() const { return ticks_.size(); }
 
@@ -74,8 +78,9 @@ class ClientFeed {
     /// than a repair needs, or with invalid ranges.
     std::optional<WireError> compare(const v2::CompareBone& request);
 
-    /// Requests the end: the remaining changes, a last state with a checksum, then goodbye.
-    void finish(std::string reason);
+    /// Requests the end: the remaining changes, a last state with a checksum, then goodbye; goodbye at once
+    /// where the last state said all that there is (`has_said_all`).
+    void finish(std::string reason, bool has_said_all = false);
 
     /// The next frame, as bytes for the stream; nothing while there is nothing to send. Changes that exceed a
     /// state frame of so many bytes follow in the next; each frame contains at least one brick.

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "common/files/session_file.h"
@@ -11,6 +12,8 @@
 namespace osteomill {
 
 namespace {
+
+constexpr std::chrono::microseconds least_between_states{100};
 
 /// A recording's packets know their length; the one before a frame on the wire is left out.
 std::string packet_of(const std::string& frame, Stamp stamp) {
@@ -52,22 +55,40 @@ SessionRecorder::SessionRecorder(const RecordTo& to, v2::Hello hello, const Bone
     if (writer_.torn()) spdlog::warn("{}", torn_line(to.file, *writer_.torn()));
 }
 
-void SessionRecorder::record(SessionState state, bool with_checksum, bool may_wait) {
-    const Wait wait = may_wait ? Wait::for_the_disk : Wait::never;
+void SessionRecorder::begin(SessionState& state, Wait wait) {
     time_s_ = state.tool.time_s;
+    if (state.tool.taken_unix_ns == 0)
+        state.tool.taken_unix_ns = stamp_of(time_s_).time_since_epoch().count();
     take_ticks(wait);
-    feed_.request_state(std::move(state), with_checksum);
+}
+
+bool SessionRecorder::says_more(const SessionState& state) const {
+    if (!last_ || !feed_.has_sent_all() || feed_.has_waiting() || has_untaken_ticks()) return true;
+    return state.tool.time_s != last_->tool.time_s || state.tool.removed_mm3 != last_->tool.removed_mm3 ||
+           !state.events.empty() || state.status != last_->status || state.distances != last_->distances;
+}
+
+void SessionRecorder::record(SessionState state, bool may_wait) {
+    const Wait wait = may_wait ? Wait::for_the_disk : Wait::never;
+    begin(state, wait);
+    if (!says_more(state)) return;
+    last_ = state;
+    // A checksum costs its eight bytes. With one, each state is news, and whichever is the last proves the
+    // bone.
+    feed_.request_state(std::move(state), true);
     hand_over(wait);
 }
 
 void SessionRecorder::finish(SessionState state, const std::string& reason) {
-    time_s_ = state.tool.time_s;
-    for (take_ticks(Wait::a_moment); has_untaken_ticks() && writer_.has_room(); take_ticks(Wait::a_moment)) {
+    begin(state, Wait::a_moment);
+    for (; has_untaken_ticks() && writer_.has_room(); take_ticks(Wait::a_moment)) {
         feed_.request_state(state, true);
+        state.events.clear();
         hand_over(Wait::a_moment);
     }
-    feed_.request_state(std::move(state), true);
-    feed_.finish(reason);
+    const bool has_said_all = !says_more(state);
+    if (!has_said_all) feed_.request_state(std::move(state), true);
+    feed_.finish(reason, has_said_all);
     hand_over(Wait::a_moment);
     if (feed_.is_finished()) writer_.commit();
     writer_.close();
@@ -104,14 +125,24 @@ void SessionRecorder::wait_for_room(Wait wait) {
     if (wait == Wait::a_moment) writer_.wait_for_room(RecordingWriter::longest_standstill);
 }
 
+Stamp SessionRecorder::stamp_of(double time_s) const {
+    return began_ +
+           std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s));
+}
+
 void SessionRecorder::hand_over(Wait wait) {
-    const Stamp stamp =
-        began_ + std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s_));
     for (;;) {
         wait_for_room(wait);
         if (!writer_.has_room()) return;
+        const std::uint64_t newest = feed_.newest_state();
         const std::optional<std::string> frame = feed_.next();
         if (!frame) return;
+        Stamp stamp = std::max(stamp_of(time_s_), stamp_);
+        // Rows of a table have times of their own: what does not fit one state is a moment later.
+        if (feed_.newest_state() != newest) {
+            if (newest > 0 && stamp <= stamp_) stamp = stamp_ + least_between_states;
+            stamp_ = stamp;
+        }
         writer_.push(stamp, packet_of(*frame, stamp));
     }
 }

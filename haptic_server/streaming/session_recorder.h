@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,8 +28,9 @@ class SessionRecorder {
 
     /// As for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
-    /// Hands over a state frame; without waiting, unless `may_wait`.
-    void record(SessionState state, bool with_checksum, bool may_wait);
+    /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Nothing where it says no
+    /// more than the one before, of the same time.
+    void record(SessionState state, bool may_wait);
     /// Hands over the end, waits until all is written and makes it the file that was requested. Gives up on a
     /// disk that does not answer (see RecordingWriter).
     void finish(SessionState state, const std::string& reason);
@@ -38,6 +40,9 @@ class SessionRecorder {
 
   private:
     enum class Wait { never, a_moment, for_the_disk };
+    void begin(SessionState& state, Wait wait);
+    bool says_more(const SessionState& state) const;
+    Stamp stamp_of(double time_s) const;
     void take_ticks(Wait wait);
     bool has_untaken_ticks() const;
     void wait_for_room(Wait wait);
@@ -53,6 +58,8 @@ class SessionRecorder {
     ClientFeed feed_;
     RecordingWriter writer_;
     double time_s_ = 0.0;
+    std::optional<SessionState> last_;  // that was handed over
+    Stamp stamp_{};                     // of the last state
 };
 
 }  // namespace osteomill

@@ -175,7 +175,7 @@ class StreamingServer::Impl {
         if (recorder_) {
             SessionState recorded = state_;
             recorded.view = clients_.view_of_operator();
-            recorder_->record(std::move(recorded), with_checksum, options_.paced_by_session);
+            recorder_->record(std::move(recorded), options_.paced_by_session);
         }
         clients_.show_ct([this] { return source_.ct(); });
         clients_.show(state_, with_checksum);

@@ -77,7 +77,7 @@ inline MadeRecording make_recording(const std::filesystem::path& file,
         tool.burr = 1;
         if (options.distances) state.distances = options.distances(i);
         if (options.events) state.events = options.events(i);
-        recorder->record(state, i % 20 == 0, true);
+        recorder->record(state, true);
         made.checksum_after_state.push_back(mirror.checksum());
     }
     state.events.clear();

@@ -73,7 +73,7 @@ class WrittenSession {
         last_ = {.tool = tool, .status = status};
         SessionState state = last_;
         state.events = std::exchange(events_, {});
-        recorder_->record(std::move(state), true, true);
+        recorder_->record(std::move(state), true);
     }
     /// With the last frame once more.
     void finish() {

@@ -34,7 +34,7 @@ TEST(RecordedBones, AreOfTheLastSessionOfAJoinedRecording) {
 TEST(RecordedBones, HoldWhatCameBeforeWhatCannotBeRead) {
     const testing::TemporaryFolder folder;
     const MadeRecording made = testing::make_recording(folder / "a.pcap");
-    testing::spoil(folder / "a.pcap", 20);
+    testing::spoil(folder / "a.pcap", 19);
     const RecordedBones bones = bones_of(folder / "a.pcap", [](double) {});
     EXPECT_THAT(bones.error, ::testing::HasSubstr("a.pcap, packet "));
     EXPECT_EQ(checksum(bones.at_end), made.checksum_after_state[180]);

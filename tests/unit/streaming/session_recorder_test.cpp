@@ -24,7 +24,7 @@ class SessionRecorderTest : public ::testing::Test {
             for (int run = 0; run < 10; ++run) testing::carve_somewhere(bone_, random_, to_mirror);
             recorder_->note(mirror_.take_changes());
             tool_.time_s += 0.05;
-            recorder_->record({.tool = tool_}, i % 20 == 0, false);
+            recorder_->record({.tool = tool_}, false);
         }
     }
     std::uintmax_t size() const { return std::filesystem::file_size(part_); }
@@ -64,6 +64,25 @@ TEST_F(SessionRecorderTest, GoesOnWithTheWholeBoneAfterTheDiskWasFull) {
     }
     EXPECT_TRUE(has_goodbye);
     EXPECT_EQ(playhead.bone_checksum(), checksum(bone_));
+}
+
+TEST_F(SessionRecorderTest, HasNoTwoStatesOfOneTimeAndACheckSumInEach) {
+    carve_and_record(3);
+    recorder_->record({.tool = tool_}, false);  // says nothing more
+    recorder_->record({.tool = tool_, .status = {.undo_steps = 1}}, false);
+    recorder_->finish({.tool = tool_, .status = {.undo_steps = 1}}, "the end");
+    Playhead playhead(file_);
+    std::vector<double> times_s;
+    while (playhead.step(std::numeric_limits<double>::infinity()) != Playhead::Step::end) {
+        if (times_s.size() == playhead.counts().states) continue;
+        times_s.push_back(playhead.time_s());
+        EXPECT_NEAR(static_cast<double>(playhead.tool()->taken_unix_ns) * 1e-9,
+                    86'400.0 + playhead.tool()->time_s, 1e-5);
+    }
+    ASSERT_EQ(times_s.size(), 4U);
+    EXPECT_EQ(playhead.counts().checksums_verified, 4U);
+    EXPECT_TRUE(std::ranges::is_sorted(times_s, std::less_equal<>())) << "strictly";
+    EXPECT_LT(times_s[3], times_s[2] + 0.001);
 }
 
 TEST_F(SessionRecorderTest, SaysThatTheEndIsMissingWhereTheDiskStaysFull) {
