@@ -26,6 +26,7 @@ void set_ras(igtl::Matrix4x4& matrix, const glm::dmat3& axes, const glm::dvec3& 
 }
 
 IgtlMessage packed(igtl::MessageBase& message, const std::string& name) {
+    message.SetTimeStamp(0, 0);
     message.SetDeviceName(name.substr(0, longest_name).c_str());
     message.Pack();
     const auto* const first = static_cast<const std::uint8_t*>(message.GetPackPointer());
@@ -33,6 +34,17 @@ IgtlMessage packed(igtl::MessageBase& message, const std::string& name) {
 }
 
 }  // namespace
+
+void stamp(IgtlMessage& message, std::chrono::system_clock::time_point sent) {
+    using std::chrono::nanoseconds;
+    constexpr std::size_t at = 34;  // of the header: seconds, then 2^-32 s, big endian
+    const auto since = std::chrono::duration_cast<nanoseconds>(sent.time_since_epoch()).count();
+    const auto whole_s = static_cast<std::uint64_t>(since) / 1'000'000'000U;
+    const auto part = (static_cast<std::uint64_t>(since) % 1'000'000'000U << 32U) / 1'000'000'000U;
+    const std::uint64_t bits = whole_s << 32U | part;
+    for (std::size_t i = 0; i < sizeof bits; ++i)
+        message.at(at + i) = static_cast<std::uint8_t>(bits >> (56U - 8U * i));
+}
 
 glm::dmat3 axes_about(const glm::dvec3& axis) {
     // Duff et al. 2017, "Building an orthonormal basis, revisited", J. Computer Graphics Techniques 6(1).

@@ -4,6 +4,7 @@
 // the header's own flag of the space. Names are at most 20 bytes; a longer one is cut.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -15,7 +16,11 @@
 
 namespace osteomill {
 
+/// Without a time, until it is sent.
 using IgtlMessage = std::vector<std::uint8_t>;
+
+/// Writes the time into its header, which no checksum covers.
+void stamp(IgtlMessage& message, std::chrono::system_clock::time_point sent);
 
 inline glm::dvec3 lps_to_ras(const glm::dvec3& v) {
     return {-v.x, -v.y, v.z};

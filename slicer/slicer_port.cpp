@@ -102,6 +102,7 @@ void SlicerPort::read(const std::shared_ptr<Receiver>& receiver) {
 
 void SlicerPort::send(IgtlMessage message) {
     if (!receiver_) return;
+    stamp(message, std::chrono::system_clock::now());
     receiver_->unsent.push_back(std::move(message));
     if (receiver_->unsent.size() == 1) write(receiver_);
 }

@@ -30,6 +30,24 @@ typename Message::Pointer unpacked(const IgtlMessage& bytes) {
     return message;
 }
 
+TEST(IgtlMessages, HaveNoTimeUntilTheyAreSentAndThenThatOne) {
+    const Grid grid{.size_voxels = {2, 2, 2}, .spacing_mm = 0.5};
+    const std::vector<std::uint8_t> values(8, 1);
+    for (IgtlMessage message : {transform_message("Burr", glm::dvec3(0.0), glm::dmat3(1.0)),
+                                image_message("Bone", grid, {{0, 0, 0}, {1, 1, 1}}, values),
+                                string_message("Session", "text"), status_message("BurrStatus", true, "")}) {
+        const auto bits = [&message] {
+            std::uint64_t sum = 0;
+            for (std::size_t i = 34; i < 42; ++i) sum = sum << 8U | message.at(i);
+            return sum;
+        };
+        EXPECT_EQ(bits(), 0U) << "none, and no bytes of memory";
+        stamp(message, std::chrono::system_clock::time_point(std::chrono::milliseconds(1'700'000'000'250)));
+        EXPECT_EQ(bits(), 1'700'000'000U * (std::uint64_t{1} << 32U) + (std::uint64_t{1} << 30U));
+        EXPECT_EQ(message[42], 0) << "the size of the body follows";
+    }
+}
+
 TEST(IgtlMessages, AnImageLiesInRasWithItsCentreAsPosition) {
     const Grid grid{.size_voxels = {10, 20, 31}, .spacing_mm = 0.5, .origin_mm = {-3.0, 7.0, 100.0}};
     const VoxelBox box{{2, 3, 4}, {5, 5, 6}};
