@@ -144,6 +144,7 @@ void AllOfRecording::begin(const Playhead& playhead, double began_s) {
     file_.set_attribute("/", "force_limit_n", session.force_limit_n);
     file_.add_group("settings");
     for (const auto& [name, value] : session.settings) file_.set_attribute("settings", name, value);
+    if (!session.scene_toml.empty()) file_.set_attribute("settings", "scene_toml", session.scene_toml);
     if (session.plan) describe_plan(file_, *session.plan);
 }
 

@@ -123,7 +123,10 @@ nlohmann::ordered_json to_json(const RecordingSummary& summary) {
             {"grid", {{"size_voxels", {size.x, size.y, size.z}}, {"spacing_mm", summary.grid.spacing_mm}}},
             {"burrs", burrs},
             {"ends_with_goodbye", summary.has_goodbye},
-            {"is_truncated", summary.is_truncated}};
+            {"is_truncated", summary.is_truncated},
+            {"case", summary.session.case_name},
+            {"settings", summary.session.settings},
+            {"scene_toml", summary.session.scene_toml}};
 }
 
 std::string to_text(const RecordingSummary& summary) {

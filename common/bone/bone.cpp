@@ -97,6 +97,36 @@ std::uint64_t checksum(const Bone& bone) {
     return sum;
 }
 
+std::uint64_t digest(const Bone& bone) {
+    const BoneContent& content = bone.content();
+    const Grid& grid = content.grid;
+    std::vector<std::uint64_t> parts{checksum(bone)};
+    const auto add = [&parts](const void* bytes, std::size_t size, std::uint64_t seed) {
+        parts.push_back(XXH3_64bits_withSeed(bytes, size, seed));
+    };
+    const std::array<double, 9> numbers{static_cast<double>(grid.size_voxels.x),
+                                        static_cast<double>(grid.size_voxels.y),
+                                        static_cast<double>(grid.size_voxels.z),
+                                        grid.spacing_mm,
+                                        grid.origin_mm.x,
+                                        grid.origin_mm.y,
+                                        grid.origin_mm.z,
+                                        content.homogeneous_stiffness,
+                                        content.stiffness_per_code};
+    add(numbers.data(), sizeof(numbers), 0);
+    // Which empty bricks are stored is nobody's business, as in checksum().
+    for (const auto* channel : {&content.stiffness, &content.tissue}) {
+        std::uint64_t sum = 0;
+        for (std::size_t slot = 0; slot < channel->size(); ++slot) {
+            const ByteBrick& brick = (*channel)[slot];
+            if (std::ranges::all_of(brick, [](std::uint8_t byte) { return byte == 0; })) continue;
+            sum += XXH3_64bits_withSeed(brick.data(), brick.size(), content.brick_of_slot[slot]);
+        }
+        parts.push_back(sum);
+    }
+    return XXH3_64bits(parts.data(), parts.size() * sizeof(parts.front()));
+}
+
 std::size_t memory_bytes(const Bone& bone) {
     const BoneContent& content = bone.content();
     return content.slot_of_brick.memory_bytes() + content.brick_of_slot.size() * sizeof(BrickIndex) +

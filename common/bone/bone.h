@@ -93,6 +93,9 @@ std::vector<double> bone_volume_by_tissue_mm3(const Bone& bone);
 std::uint64_t checksum(const Bone& bone);
 std::uint64_t checksum_of_brick(BrickIndex brick, BrickFractions fractions);
 
+/// Digest of all that a bone is, its stiffness and tissues, too: two of one digest are milled alike.
+std::uint64_t digest(const Bone& bone);
+
 /// Bytes that this bone holds: brick table, stiffness, tissue and fractions. They follow the bricks that hold
 /// bone; the grid round them costs nothing. Room that a builder reserved and did not need is not counted: at
 /// a page a brick, the system never backs it.

@@ -7,6 +7,6 @@
 namespace osteomill {
 
 inline constexpr std::uint32_t protocol_major = 2;
-inline constexpr std::uint32_t protocol_minor = 2;
+inline constexpr std::uint32_t protocol_minor = 3;
 
 }  // namespace osteomill

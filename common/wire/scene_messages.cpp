@@ -152,6 +152,7 @@ v2::Hello to_message(const SessionInfo& session) {
     hello.set_trainee(session.trainee);
     hello.set_case_(session.case_name);
     for (const auto& [name, value] : session.settings) (*hello.mutable_settings())[name] = value;
+    hello.set_scene_toml(session.scene_toml);
     for (const auto& [metric, mark] : session.pass) (*hello.mutable_pass())[metric] = mark;
     return hello;
 }
@@ -261,7 +262,8 @@ std::variant<SessionInfo, WireError> session_info_from(const v2::Hello& hello) {
                        .pass = pass_from(hello),
                        .trainee = printable(hello.trainee()),
                        .case_name = printable(hello.case_()),
-                       .settings = settings_from(hello)};
+                       .settings = settings_from(hello),
+                       .scene_toml = hello.scene_toml()};
 }
 
 std::variant<ToolState, WireError> tool_from(const v2::ToolState& message, std::size_t burr_count) {

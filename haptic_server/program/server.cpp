@@ -168,10 +168,16 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
          }});
     if (device.device == nullptr) return;  // stopped before an arm came
     say_what_is_felt(device.device->limits(), scene.scene, *output.out);
-    nlohmann::ordered_json settings = session_settings(options.session, options.scene, scene.scene,
-                                                       options.device.entry->name, options.grip, version);
+    scene = seated(std::move(scene), device);
+    nlohmann::ordered_json settings = session_settings(
+        options.session, options.scene, scene,
+        {.device = options.device.entry->name, .grip = options.grip, .arm = device.device->limits()},
+        version);
     if (options.controls) settings["controls"] = options.controls->filename().string();
-    if (shown) shown->settings = as_texts(settings);
+    if (shown) {
+        shown->settings = as_texts(settings);
+        shown->scene_toml = effective_scene_text(scene.scene);
+    }
     if (options.record)
         shown->streaming.record = RecordTo{.file = *options.record,
                                            .began = std::chrono::system_clock::now(),

@@ -11,8 +11,6 @@
 
 namespace osteomill {
 
-namespace {
-
 SessionScene seated(SessionScene scene, const DeviceParts& device) {
     Scene& on_patient = scene.scene;
     if (device.mapping)
@@ -21,6 +19,8 @@ SessionScene seated(SessionScene scene, const DeviceParts& device) {
         on_patient.device.offset_mm = on_patient.start_pose.position_mm - *device.home_mm;
     return scene;
 }
+
+namespace {
 
 MillingSessionOptions milling_options(const SessionOptions& options, const SessionScene& scene,
                                       const DeviceParts& device) {

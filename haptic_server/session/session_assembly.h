@@ -30,6 +30,10 @@ struct SessionOptions {
     std::optional<ShownOptions> shown{};          ///< absent: no clients, no recording
 };
 
+/// The scene with its device placed on the patient, where it leaves that to the device. Placed once, it
+/// stays.
+SessionScene seated(SessionScene scene, const DeviceParts& device);
+
 class SessionAssembly {
   public:
     using OnProgress = MillingSession::OnProgress;

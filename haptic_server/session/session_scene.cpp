@@ -1,11 +1,13 @@
 #include "haptic_server/session/session_scene.h"
 
 #include <spdlog/spdlog.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <utility>
 #include <variant>
 
+#include "common/files/input_file.h"
 #include "common/program/available_memory.h"
 #include "common/scene/phantom_names.h"
 #include "common/scene/scene_file.h"
@@ -67,6 +69,47 @@ std::vector<NamedFile> files_read(const SceneChoice& choice, const Scene& scene)
     return files;
 }
 
+std::uint64_t digest_of_file(const std::filesystem::path& file) {
+    const std::string text = read_text(file, trajectory_kind);
+    return XXH3_64bits(text.data(), text.size());
+}
+
+std::uint64_t digest_of(const std::vector<Structure>& structures) {
+    std::uint64_t digest = 0;
+    for (const Structure& structure : structures)
+        for (const StructureBrick& brick : structure.mask.bricks()) {
+            const std::uint64_t of_brick =
+                XXH3_64bits_withSeed(brick.voxels.words().data(), sizeof(brick.voxels.words()), brick.brick);
+            digest = 31 * digest + of_brick + structure.tissue;
+        }
+    return digest;
+}
+
+/// A bone takes from its scene where it is from, how stiff it is, and its tissues.
+bool makes_same_bone(const Scene& a, const Scene& b) {
+    const auto is_alike = [](const Tissue& one, const Tissue& other) {
+        return one.label == other.label && one.name == other.name && one.segment == other.segment &&
+               one.is_protected == other.is_protected && one.warn_mm == other.warn_mm;
+    };
+    return a.bone == b.bone && stiffness_of(a) == stiffness_of(b) &&
+           std::ranges::equal(a.tissues, b.tissues, is_alike);
+}
+
+void add_file_digests(const SceneChoice& choice, const Scene& scene, SceneDigests& digests) {
+    const bool is_file = choice.name && std::ranges::find(phantom_names, *choice.name) == phantom_names.end();
+    digests.scene_file.reset();
+    digests.trajectory.reset();
+    if (is_file) digests.scene_file = digest_of_file(*choice.name);
+    if (const auto* file = std::get_if<std::filesystem::path>(&scene.trajectory.source))
+        digests.trajectory = digest_of_file(*file);
+}
+
+SceneDigests digests_of(const SceneChoice& choice, const Scene& scene, const LoadedBone& loaded) {
+    SceneDigests digests{.bone = digest(loaded.bone), .structures = digest_of(loaded.structures)};
+    add_file_digests(choice, scene, digests);
+    return digests;
+}
+
 }  // namespace
 
 SceneChoice case_chosen(const std::string& name) {
@@ -75,18 +118,27 @@ SceneChoice case_chosen(const std::string& name) {
     return choice;
 }
 
-SessionScene load_session_scene(const SceneChoice& choice) {
+SessionScene load_session_scene(const SceneChoice& choice, const SessionScene* similar) {
     Scene scene = load_scene(choice);
     if (choice.case_folder)
         if (const std::string line = unsigned_files(scene, *choice.case_folder); !line.empty())
             spdlog::warn("{}", line);
     std::vector<NamedFile> files = files_read(choice, scene);
+    if (similar != nullptr && choice.name && makes_same_bone(scene, similar->scene)) {
+        SessionScene other = *similar;
+        other.scene = std::move(scene);
+        other.files_read = std::move(files);
+        add_file_digests(choice, other.scene, other.digests);
+        return other;
+    }
     LoadedBone loaded = load_bone(scene, available_memory_bytes());
     if (!loaded.doubt.empty())
         spdlog::warn("{}: {}", std::get<FileSource>(scene.bone).path.string(), loaded.doubt);
     if (choice.bone && !choice.name) place_on_bone(scene, loaded.bone);
-    return {std::move(scene), std::move(loaded.bone), std::move(loaded.source), std::move(loaded.structures),
-            std::move(files)};
+    SceneDigests digests = digests_of(choice, scene, loaded);
+    return {std::move(scene),         std::move(loaded.bone),
+            std::move(loaded.source), std::move(loaded.structures),
+            std::move(files),         digests};
 }
 
 }  // namespace osteomill

@@ -1,6 +1,7 @@
 // The scene of a session with its bone in it: what a session is made of, before there is a device.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,16 +27,26 @@ struct SceneChoice {
 /// does.
 SceneChoice case_chosen(const std::string& name);
 
+/// What a session's scene was made of, in short.
+struct SceneDigests {
+    std::uint64_t bone = 0;                     ///< as it was loaded, with all channels
+    std::optional<std::uint64_t> scene_file{};  ///< nothing: built in
+    std::optional<std::uint64_t> trajectory{};  ///< of its file, if it is from one
+    std::uint64_t structures = 0;               ///< where protected structures are
+};
+
 struct SessionScene {
     Scene scene;
     Bone bone;
     BoneSource source{};
     std::vector<Structure> structures{};  ///< of the scene's protected tissues, in their order
     std::vector<NamedFile> files_read{};  ///< that it is made of: no output may take their place
+    SceneDigests digests{};
 };
 
 /// Loads what is chosen; a bone that comes without a scene gets one, with the tool above it. What is doubtful
-/// is logged. Throws in one line as the readers of scenes, cases and images do.
-SessionScene load_session_scene(const SceneChoice& choice);
+/// is logged. Throws in one line as the readers of scenes, cases and images do. `similar`: of the same case
+/// with other settings, whose bone is shared where they make the same of it; null: there is none.
+SessionScene load_session_scene(const SceneChoice& choice, const SessionScene* similar = nullptr);
 
 }  // namespace osteomill

@@ -6,6 +6,7 @@
 #include "analysis/surface/surface_mesh.h"
 #include "common/files/atomic_file.h"
 #include "common/wire/ct_pieces.h"
+#include "common/wire/frame.h"
 #include "haptic_server/session/tool_place.h"
 #include "imaging/case/structures.h"
 #include "simulation/loop/burr_hull.h"
@@ -13,6 +14,8 @@
 namespace osteomill {
 
 namespace {
+
+constexpr std::size_t longest_scene_text = largest_frame_bytes / 2;
 
 /// Under a name that nobody gave: a link of that name is replaced.
 void save_surface(const std::filesystem::path& path, const Bone& bone) {
@@ -48,6 +51,8 @@ SessionInfo info_of(const ShownOptions& options, const SessionScene& scene, cons
     info.trainee = options.trainee;
     info.case_name = options.case_name;
     info.settings = options.settings;
+    // A hello has one frame; a scene of a thousand tissues does not fit.
+    if (options.scene_toml.size() <= longest_scene_text) info.scene_toml = options.scene_toml;
     return info;
 }
 

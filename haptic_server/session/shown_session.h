@@ -27,6 +27,7 @@ struct ShownOptions {
     std::string trainee{};
     std::string case_name{};
     std::map<std::string, std::string> settings{};
+    std::string scene_toml{};
 };
 
 class ShownSession {

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
+#include "python/module/released_lock.h"
 
 namespace osteomill::python {
 
@@ -63,7 +65,13 @@ inline glm::dvec3 unit(const glm::dvec3& axis, const char* argument) {
     const double length = glm::length(axis);
     if (!(length > 1e-9))
         throw std::invalid_argument(std::string(argument) + ": an axis of length 0 points nowhere");
-    return std::abs(length - 1.0) < 1e-12 ? axis : axis / length;
+    return is_of_unit_length(length) ? axis : axis / length;
+}
+
+/// Waits, without the interpreter's lock, for the thread that has it.
+inline std::unique_lock<std::mutex> waited(std::mutex& busy) {
+    const ReleasedLock released;
+    return std::unique_lock<std::mutex>(busy);
 }
 
 /// Holds a session for one thread. Throws std::runtime_error where another has it.

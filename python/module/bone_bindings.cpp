@@ -16,6 +16,7 @@
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
 #include "python/module/bone_view.h"
+#include "python/module/released_lock.h"
 
 namespace osteomill::python {
 
@@ -87,7 +88,7 @@ void for_each_row(const Bone& bone, const Box& box, const Copy& copy) {
 /// Looks at a bone that no other thread changes meanwhile, without the interpreter's lock.
 template <typename Look>
 void look(const BoneView& view, const Look& look_at) {
-    const py::gil_scoped_release released;
+    const ReleasedLock released;
     std::unique_lock<std::mutex> held;
     if (view.session() != nullptr) held = taken(view.session()->busy());
     look_at(view.bone());
@@ -145,7 +146,7 @@ py::array hu(const BoneView& view, const BoxArgument& argument) {
     const Box box = box_of(argument, grid);
     auto array = empty_array<std::int16_t>(box);
     std::int16_t* out = array.mutable_data();
-    const py::gil_scoped_release released;
+    const ReleasedLock released;
     std::fill_n(out, box.voxels(), air_hu);
     const glm::ivec3 from = glm::max(box.from, glm::ivec3(0));
     const glm::ivec3 to = glm::min(box.to, grid.size_voxels);
@@ -211,7 +212,12 @@ voxel and the one past the last; it may reach beyond the grid, where there is no
                 return fmt::format("{:016x}", sum);
             },
             "Of what is left, 16 hex digits: equal for equal bones, and the `bone_checksum` of haptic_server "
-            "--json.");
+            "--json.")
+        .def("__repr__", [](const BoneView& view) {
+            const Grid& grid = view.bone().grid();
+            return fmt::format("<Bone of {} x {} x {} voxels of {:g} mm>", grid.size_voxels.x,
+                               grid.size_voxels.y, grid.size_voxels.z, grid.spacing_mm);
+        });
 }
 
 }  // namespace osteomill::python

@@ -10,26 +10,105 @@
 #include <utility>
 #include <vector>
 
+#include "common/scene/scene_file.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
 #include "python/module/bone_view.h"
+#include "python/module/released_lock.h"
 
 namespace osteomill::python {
 
 namespace {
 
-std::shared_ptr<LoadedCase> load(const std::string& name, const std::vector<std::string>& set,
-                                 const std::optional<std::string>& burr, const std::optional<double>& rpm,
-                                 const std::optional<std::filesystem::path>& bone,
-                                 const std::optional<std::filesystem::path>& trajectory) {
-    const py::gil_scoped_release released;
-    SceneChoice choice = name.ends_with(".toml") ? SceneChoice{.name = name} : case_chosen(name);
+/// What is wrong with an argument, in the words of Python's.
+[[noreturn]] void fail(const std::string& line) {
+    constexpr std::string_view option = "--case: ";
+    throw std::invalid_argument(line.starts_with(option) ? "name: " + line.substr(option.size()) : line);
+}
+
+std::optional<std::string> burr_named(const py::object& burr) {
+    if (burr.is_none()) return std::nullopt;
+    if (!py::isinstance<py::str>(burr))
+        throw std::invalid_argument(
+            fmt::format("burr: takes the name of one of the case's, such as \"2 mm\", not {}",
+                        std::string(py::repr(burr))));
+    return burr.cast<std::string>();
+}
+
+/// Changes of `choice`; `similar` is shared as far as they leave it as it is.
+std::shared_ptr<LoadedCase> load_changed(const std::string& name, SceneChoice choice,
+                                         const std::vector<std::string>& set,
+                                         const std::optional<std::string>& burr,
+                                         const std::optional<double>& rpm,
+                                         const std::optional<std::filesystem::path>& bone,
+                                         const std::optional<std::filesystem::path>& trajectory,
+                                         const LoadedCase* similar) {
     choice.changes.option = "set";
     for (const std::string& change : set) choice.changes.changes.push_back(parse_scene_change(change));
     if (burr) choice.changes.changes.push_back({.key = "start_burr", .value = *burr, .is_text = true});
-    choice.spindle_rpm = rpm;
-    choice.bone = bone;
-    choice.trajectory = trajectory;
+    if (rpm) choice.spindle_rpm = rpm;
+    if (bone) choice.bone = bone;
+    if (trajectory) choice.trajectory = trajectory;
+    try {
+        return std::make_shared<LoadedCase>(name, std::move(choice), similar);
+    } catch (const SceneError& wrong) {
+        // A key of `set` is an argument; a file is none.
+        if (std::string_view(wrong.what()).starts_with("set: ")) fail(wrong.what());
+        throw;
+    } catch (const std::invalid_argument& wrong) {
+        fail(wrong.what());
+    }
+}
+
+std::shared_ptr<LoadedCase> load(const std::string& name, const std::vector<std::string>& set,
+                                 const py::object& burr, const std::optional<double>& rpm,
+                                 const std::optional<std::filesystem::path>& bone,
+                                 const std::optional<std::filesystem::path>& trajectory) {
+    const std::optional<std::string> start_burr = burr_named(burr);
+    const ReleasedLock released;
+    SceneChoice choice;
+    try {
+        choice = name.ends_with(".toml") ? SceneChoice{.name = name} : case_chosen(name);
+    } catch (const std::invalid_argument& wrong) {
+        fail(wrong.what());
+    }
+    return load_changed(name, std::move(choice), set, start_burr, rpm, bone, trajectory, nullptr);
+}
+
+std::shared_ptr<LoadedCase> with(const LoadedCase& loaded, const std::vector<std::string>& set,
+                                 const py::object& burr, const std::optional<double>& rpm,
+                                 const std::optional<std::filesystem::path>& bone,
+                                 const std::optional<std::filesystem::path>& trajectory) {
+    const std::optional<std::string> start_burr = burr_named(burr);
+    const ReleasedLock released;
+    return load_changed(loaded.name(), loaded.choice(), set, start_burr, rpm, bone, trajectory, &loaded);
+}
+
+/// Of a case: what it was chosen by, so that another process loads it once more.
+py::tuple kept(const LoadedCase& loaded) {
+    const SceneChoice& choice = loaded.choice();
+    py::list changes;
+    for (const SceneChange& change : choice.changes.changes)
+        changes.append(py::make_tuple(change.key, change.value, change.is_text));
+    return py::make_tuple(loaded.name(), choice.name, changes, choice.spindle_rpm, choice.bone,
+                          choice.trajectory, choice.case_folder);
+}
+
+std::shared_ptr<LoadedCase> load_kept(const py::tuple& kept) {
+    SceneChoice choice{.name = kept[1].cast<std::optional<std::string>>(),
+                       .spindle_rpm = kept[3].cast<std::optional<double>>(),
+                       .bone = kept[4].cast<std::optional<std::filesystem::path>>(),
+                       .trajectory = kept[5].cast<std::optional<std::filesystem::path>>(),
+                       .case_folder = kept[6].cast<std::optional<std::filesystem::path>>()};
+    choice.changes.option = "set";
+    for (const py::handle& one : kept[2]) {
+        const auto change = one.cast<py::tuple>();
+        choice.changes.changes.push_back({.key = change[0].cast<std::string>(),
+                                          .value = change[1].cast<std::string>(),
+                                          .is_text = change[2].cast<bool>()});
+    }
+    const auto name = kept[0].cast<std::string>();
+    const ReleasedLock released;
     return std::make_shared<LoadedCase>(name, std::move(choice));
 }
 
@@ -100,7 +179,16 @@ name: a folder that bone_import --case made, one built in ("tooth", "cube", "hea
 set: changes of the scene's keys, as haptic_server --set takes them: ["wall_friction=0.3"].
 burr: the one to start with, by its name in the scene. rpm: of every burr. bone: a file that bone_import wrote, instead of the
 case's. trajectory: a CSV file that the simulated hand follows, instead of the case's.
-ValueError, RuntimeError: in one line, what is wrong and what would be right.)")
+It can be pickled: the other process loads it from the same files once more.
+BadInput, Fault: in one line, what is wrong and what would be right.)")
+        .def("with_", &with, py::kw_only(), py::arg("set") = std::vector<std::string>(),
+             py::arg("burr") = py::none(), py::arg("rpm") = py::none(), py::arg("bone") = py::none(),
+             py::arg("trajectory") = py::none(),
+             R"(The same case with other settings, each as for Case; those that were given before stay.
+
+The bone is shared where they leave it as it is, so that this takes milliseconds: burrs, friction, where the tool starts. A
+tissue's stiffness or another bone loads it anew. Errors as Case.)")
+        .def(py::pickle(&kept, &load_kept))
         .def_property_readonly("name", &LoadedCase::name)
         .def_property_readonly(
             "bone",

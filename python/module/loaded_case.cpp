@@ -20,10 +20,10 @@ std::vector<LoadedCase::NamedLabel> labels_of(const SessionScene& scene) {
 
 }  // namespace
 
-LoadedCase::LoadedCase(std::string name, SceneChoice choice)
+LoadedCase::LoadedCase(std::string name, SceneChoice choice, const LoadedCase* similar)
     : name_(std::move(name)),
       choice_(std::move(choice)),
-      scene_(load_session_scene(choice_)),
+      scene_(load_session_scene(choice_, similar != nullptr ? &similar->scene_ : nullptr)),
       bone_checksum_(checksum(scene_.bone)),
       labels_(labels_of(scene_)) {
     const std::vector<double>& loaded_mm3 = scene_.source.loaded_mm3;
@@ -40,6 +40,10 @@ LoadedCase::LoadedCase(std::string name, SceneChoice choice)
         reach_mm_.push_back(watched_mm(tissue));
         fields_.emplace_back(structure.mask, reach_mm_.back() + largest_radius_mm);
     }
+    auto names = std::make_shared<StepNames>();
+    for (const NamedLabel& one : labels_) names->tissues.push_back(one.name);
+    names->structures = structure_names_;
+    step_names_ = std::move(names);
 }
 
 double LoadedCase::distance_mm(std::size_t i, const ToolState& tool) const noexcept {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,19 @@
 
 namespace osteomill::python {
 
+/// In the order of a step's numbers.
+struct StepNames {
+    std::vector<std::string> tissues{};
+    std::vector<std::string> structures{};
+
+    bool operator==(const StepNames&) const = default;
+};
+
 class LoadedCase {
   public:
-    /// Loads it, for as long as that takes. Throws in one line as load_session_scene does.
-    LoadedCase(std::string name, SceneChoice choice);
+    /// Loads it, for as long as that takes; the bone of `similar` is shared where it is the same. Throws in
+    /// one line as load_session_scene does.
+    LoadedCase(std::string name, SceneChoice choice, const LoadedCase* similar = nullptr);
 
     const std::string& name() const { return name_; }
     const SceneChoice& choice() const { return choice_; }
@@ -34,6 +44,8 @@ class LoadedCase {
         std::size_t label;
     };
     const std::vector<NamedLabel>& labels() const { return labels_; }
+    /// Their names, and those of the structures: what steps are read by.
+    std::shared_ptr<const StepNames> step_names() const { return step_names_; }
     /// Of the tissues that the bone had.
     const std::vector<std::size_t>& labels_of_bone() const { return labels_of_bone_; }
 
@@ -51,6 +63,7 @@ class LoadedCase {
     std::vector<NamedLabel> labels_;
     std::vector<std::size_t> labels_of_bone_;
     std::vector<std::string> structure_names_;
+    std::shared_ptr<const StepNames> step_names_;
     std::vector<DistanceField> fields_;
     std::vector<double> reach_mm_;
     std::vector<BurrClearance> heads_;

@@ -22,6 +22,18 @@ void add(StateColumns& columns, const Playhead& playhead) {
 
 }  // namespace
 
+std::vector<TickSample> ticks_of(const std::filesystem::path& file) {
+    std::vector<TickSample> all;
+    Playhead playhead(file);
+    play_to_end(
+        playhead, [](double) {},
+        [&](Playhead::Step step) {
+            if (step != Playhead::Step::state) return;
+            all.insert(all.end(), playhead.ticks().begin(), playhead.ticks().end());
+        });
+    return all;
+}
+
 void OpenedRecording::read() {
     if (summary_) return;
     StateColumns columns;

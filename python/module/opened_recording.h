@@ -20,6 +20,9 @@ struct StateColumns {
     std::vector<std::uint8_t> burr, spindle_on;
 };
 
+/// All of a recording; what cannot be read is left out.
+std::vector<TickSample> ticks_of(const std::filesystem::path& file);
+
 class OpenedRecording {
   public:
     /// Throws RecordingError where there is no bone in it.

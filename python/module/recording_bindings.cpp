@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
@@ -13,10 +14,12 @@
 #include "analysis/hdf5/recording_hdf5.h"
 #include "analysis/report/metric_files.h"
 #include "analysis/report/session_metrics.h"
+#include "haptic_server/replay/repeated_session.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
 #include "python/module/bone_view.h"
 #include "python/module/opened_recording.h"
+#include "python/module/released_lock.h"
 
 namespace osteomill::python {
 
@@ -32,10 +35,10 @@ py::object from_json(const std::string& text) {
 template <typename Value>
 auto column(std::vector<Value> StateColumns::*values, int width = 1) {
     return [values, width](const SharedRecording& recording) {
-        const std::unique_lock<std::mutex> held = taken(recording->busy());
+        const std::unique_lock<std::mutex> held = waited(recording->busy());
         std::vector<Value> copy;
         {
-            const py::gil_scoped_release released;
+            const ReleasedLock released;
             copy = recording->columns().*values;
         }
         const auto n = static_cast<py::ssize_t>(copy.size()) / width;
@@ -47,15 +50,15 @@ auto column(std::vector<Value> StateColumns::*values, int width = 1) {
 BoneView bone_at(const SharedRecording& recording, double time_s) {
     if (!(time_s >= 0.0))
         throw std::invalid_argument(fmt::format("time_s: takes seconds from 0 on, not {}", time_s));
-    const py::gil_scoped_release released;
-    const std::unique_lock<std::mutex> held = taken(recording->busy());
+    const ReleasedLock released;
+    const std::unique_lock<std::mutex> held(recording->busy());
     return BoneView(Bone(recording->bone_at(time_s)));
 }
 
 py::object metrics(const SharedRecording& recording) {
     std::string text;
     {
-        const py::gil_scoped_release released;
+        const ReleasedLock released;
         const SessionTrace trace = read_trace(recording->file(), [](double) {});
         text = metrics_json(trace, metric_rows(session_metrics(trace)));
     }
@@ -65,8 +68,8 @@ py::object metrics(const SharedRecording& recording) {
 py::object info(const SharedRecording& recording) {
     std::string text;
     {
-        const py::gil_scoped_release released;
-        const std::unique_lock<std::mutex> held = taken(recording->busy());
+        const ReleasedLock released;
+        const std::unique_lock<std::mutex> held(recording->busy());
         // Names may be what a hostile file holds.
         text = to_json(recording->summary())
                    .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -79,15 +82,70 @@ void to_hdf5(const SharedRecording& recording, const std::filesystem::path& file
     if (name == hdf5_layout_names.end())
         throw std::invalid_argument(
             fmt::format("layout: takes {}, not '{}'", fmt::join(hdf5_layout_names, ", "), layout));
-    const py::gil_scoped_release released;
+    const ReleasedLock released;
     const std::string error = write_hdf5(
         recording->file(), file, static_cast<Hdf5Layout>(name - hdf5_layout_names.begin()), [](double) {});
     if (!error.empty()) throw std::runtime_error(error);
 }
 
+/// Every tick, read when it is asked for and not kept.
+py::dict ticks(const SharedRecording& recording) {
+    std::vector<TickSample> all;
+    {
+        const ReleasedLock released;
+        all = ticks_of(recording->file());
+    }
+    const auto n = static_cast<py::ssize_t>(all.size());
+    const auto vector = [&](const auto& of) {
+        std::vector<double> column;
+        column.reserve(3 * all.size());
+        for (const TickSample& tick : all) {
+            const glm::dvec3 v = of(tick);
+            column.insert(column.end(), {v.x, v.y, v.z});
+        }
+        return array_of(std::move(column), {n, 3});
+    };
+    const auto number = [&]<typename Value>(Value, const auto& of) {
+        std::vector<Value> column;
+        column.reserve(all.size());
+        for (const TickSample& tick : all) column.push_back(static_cast<Value>(of(tick)));
+        return array_of(std::move(column), {n});
+    };
+    using T = const TickSample&;
+    py::dict columns;
+    columns["time_s"] = number(0.0, [](T tick) { return tick.time_s; });
+    columns["hand_mm"] = vector([](T tick) { return tick.hand_mm; });
+    columns["burr_mm"] = vector([](T tick) { return tick.burr_mm; });
+    columns["axis"] = vector([](T tick) { return tick.spindle_axis; });
+    columns["force_n"] = vector([](T tick) { return tick.force_n; });
+    columns["torque_nmm"] = vector([](T tick) { return tick.shank_torque_n_mm.value_or(glm::dvec3(0.0)); });
+    columns["depth_mm"] = number(0.0, [](T tick) { return tick.depth_mm; });
+    columns["removed_mm3"] = number(0.0, [](T tick) { return tick.removed_mm3; });
+    columns["spindle_on"] =
+        number(std::uint8_t{}, [](T tick) { return tick.spindle_on; }).attr("view")("bool");
+    columns["pedal"] = number(std::uint8_t{}, [](T tick) {
+                           return tick.input ? tick.input->pedal == TickInput::Pedal::down : tick.spindle_on;
+                       }).attr("view")("bool");
+    columns["fault"] = number(std::uint8_t{}, [](T tick) { return tick.fault; });
+    columns["burr"] = number(std::uint8_t{}, [](T tick) { return tick.burr; });
+    return columns;
+}
+
+py::object repeated(const std::filesystem::path& file) {
+    const RepeatedSession result = [&file] {
+        const ReleasedLock released;
+        return repeat_session(file, [](double) {
+            const py::gil_scoped_acquire acquired;
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        });
+    }();
+    return py::make_tuple(result.is_equal, result.line(), result.ticks, result.tick, result.time_s);
+}
+
 }  // namespace
 
 void bind_recording(py::module_& module) {
+    module.def("_repeat", &repeated, py::arg("file"), "What osteomill.repeat says.");
     py::class_<OpenedRecording, SharedRecording>(
         module, "Recording", R"(A recording of a session: its states, and its bone at any instant.
 
@@ -133,6 +191,16 @@ patient LPS.)")
              "Writes all of it into an HDF5 file (docs/hdf5.md); layout: \"osteomill\", \"fivrs\" or "
              "\"fivrs-v3\". Of a torn recording, what can be read. RuntimeError: it cannot be written, or is "
              "damaged; ValueError: no such layout.")
+        .def_property_readonly("ticks", &ticks,
+                               "Every tick of the session, a millisecond each, as a dict of arrays of the "
+                               "names of Session.rollout: time_s, "
+                               "depth_mm, removed_mm3 (the total), spindle_on, pedal, fault, burr (N,); "
+                               "hand_mm, burr_mm, axis, force_n, "
+                               "torque_nmm (N, 3). Read from the file whenever it is asked. Hand, axis and "
+                               "pedal, fed to rollout, give the "
+                               "same bone and forces to the bit; the first row is the tick that a session "
+                               "begins with. Empty where the "
+                               "recording holds none.")
         .def("info", &info,
              "What packet_replay --json says: duration_s, frames, removed_mm3 by tissue, bone_checksum, "
              "error and more.")

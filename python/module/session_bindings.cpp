@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -17,9 +19,11 @@
 
 #include "common/bone/patient_space.h"
 #include "common/scene/session_control.h"
+#include "common/text/plain_text.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
 #include "python/module/bone_view.h"
+#include "python/module/released_lock.h"
 #include "python/module/tick_bindings.h"
 #include "python/module/tick_columns.h"
 
@@ -54,6 +58,11 @@ SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std:
                            const py::object& start_mm, const py::object& start_axis,
                            const std::optional<std::filesystem::path>& record) {
     if (record && record->empty()) throw std::invalid_argument("record: is empty; give a file, or None");
+    if (record && record->extension() != ".pcap")
+        throw std::invalid_argument(
+            fmt::format("record: takes the name of a pcap file, such as \"session.pcap\", not \"{}\"; "
+                        "Recording.to_hdf5 makes HDF5 of it",
+                        one_line(record->string())));
     SteppedOptions options{.grip = grip_of(hand),
                            .coupling = coupling.value_or(""),
                            .milling_rate_hz = milling_rate_hz,
@@ -66,7 +75,7 @@ SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std:
         if (!start_axis.is_none())
             options.start->spindle_axis = unit(vector_of(start_axis, "start_axis"), "start_axis");
     }
-    const py::gil_scoped_release released;
+    const ReleasedLock released;
     // A forked process has the session's memory and none of its threads: there it is let go as it is.
     const auto end = [](SteppedSession* session) {
         if (session->is_of_this_process()) delete session;
@@ -120,12 +129,12 @@ Tick step(const SharedSession& session, const py::object& hand_mm, const py::obj
     for (std::uint64_t left = input.ticks; left > 0; left -= input.ticks) {
         input.ticks = std::min(left, ticks_between_signals);
         {
-            const py::gil_scoped_release released;
+            const ReleasedLock released;
             session->step(input);
         }
         raise_of_signal();
     }
-    return {session->state(), session->shared_case()};
+    return {session->state(), session->loaded()};
 }
 
 /// Rows of three, N of them. Throws std::invalid_argument for another shape and for what is not finite.
@@ -177,7 +186,7 @@ py::dict rollout(const SharedSession& session, const Doubles& hands, const std::
     for (std::span<const HandInput> left = inputs; !left.empty();) {
         const auto now = left.first(std::min<std::size_t>(left.size(), ticks_between_signals));
         {
-            const py::gil_scoped_release released;
+            const ReleasedLock released;
             for (const HandInput& input : now) {
                 session->step(input);
                 columns.add(*session);
@@ -198,7 +207,7 @@ py::dict run(const SharedSession& session, std::int64_t ms) {
     TickColumns columns(session->loaded(), static_cast<std::size_t>(ms));
     for (std::int64_t tick = 0; tick < ms && !session->is_finished();) {
         {
-            const py::gil_scoped_release released;
+            const ReleasedLock released;
             const std::int64_t until = std::min(ms, tick + static_cast<std::int64_t>(ticks_between_signals));
             for (; tick < until && !session->is_finished(); ++tick) {
                 session->step(input);
@@ -224,24 +233,53 @@ FedMotion motion_of(const std::string& session, const std::string& bytes) {
     return motion;
 }
 
+std::uint64_t milliseconds_of(const FedMotion& motion) {
+    return std::accumulate(motion.inputs.begin(), motion.inputs.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const HandInput& one) { return sum + one.ticks; });
+}
+
 void bind_state(py::module_& module) {
     py::class_<FedMotion>(module, "State", R"(A state of a session, to go back to: the motion that led there.
 
 A session is a pure function of its case, its settings and its hand, so its motion is its state. 80 bytes a millisecond that
 differs from the one before; no bone. It can be pickled and sent to other processes.)")
-        .def_property_readonly(
-            "ticks",
-            [](const FedMotion& motion) {
-                return std::accumulate(
-                    motion.inputs.begin(), motion.inputs.end(), std::uint64_t{0},
-                    [](std::uint64_t sum, const HandInput& one) { return sum + one.ticks; });
-            },
-            "Milliseconds since the session began: load_state computes so many again.")
+        .def_property_readonly("ticks", &milliseconds_of,
+                               "Milliseconds since the session began: load_state computes so many again.")
+        .def("__repr__",
+             [](const FedMotion& motion) {
+                 return fmt::format("<State after {} ms>", milliseconds_of(motion));
+             })
         .def(py::pickle(
             [](const FedMotion& motion) { return py::make_tuple(motion.session, bytes_of(motion)); },
             [](const py::tuple& kept) {
                 return motion_of(kept[0].cast<std::string>(), kept[1].cast<std::string>());
             }));
+}
+
+std::string text_of(const SharedSession& session) {
+    const std::unique_lock<std::mutex> held(session->busy(), std::try_to_lock);
+    if (!held.owns_lock())
+        return fmt::format("<Session of \"{}\", at work in another thread>", session->loaded().name());
+    const ToolState& tool = session->tool();
+    return fmt::format("<Session of \"{}\" at {:.3f} s: burr \"{}\", force {:.3f} N, {:.3f} mm^3 removed{}>",
+                       session->loaded().name(), tool.time_s,
+                       session->loaded().settings().burrs[tool.burr].name, glm::length(tool.force_n),
+                       session->removed_in_all_mm3(), session->has_ended() ? ", closed" : "");
+}
+
+std::string html_of(const SharedSession& session) {
+    const py::object escape = py::module_::import("html").attr("escape");
+    const auto row = [&escape](const char* name, const std::string& value) {
+        return fmt::format("<tr><th>{}</th><td>{}</td></tr>", name, escape(value).cast<std::string>());
+    };
+    const std::unique_lock<std::mutex> held = taken(session->busy());
+    const ToolState& tool = session->tool();
+    return "<table>" + row("case", session->loaded().name()) +
+           row("time", fmt::format("{:.3f} s", tool.time_s)) +
+           row("burr", session->loaded().settings().burrs[tool.burr].name) +
+           row("force", fmt::format("{:.3f} N", glm::length(tool.force_n))) +
+           row("removed", fmt::format("{:.3f} mm^3", session->removed_in_all_mm3())) +
+           (tool.fault.text().empty() ? "" : row("fault", std::string(tool.fault.text()))) + "</table>";
 }
 
 }  // namespace
@@ -295,7 +333,7 @@ A prescribed hand stays where it is, with the pedal up.)")
             "now",
             [](const SharedSession& session) {
                 const std::unique_lock<std::mutex> held = taken(session->busy());
-                return Tick{session->state(), session->shared_case()};
+                return Tick{session->state(), session->loaded()};
             },
             "What the last tick knew: a Step.")
         .def(
@@ -308,15 +346,21 @@ A prescribed hand stays where it is, with the pedal up.)")
         .def(
             "load_state",
             [](const SharedSession& session, const FedMotion& motion) {
-                const py::gil_scoped_release released;
                 const std::unique_lock<std::mutex> held = taken(session->busy());
-                session->replay(motion);
+                session->replay(motion, [](const std::function<void()>& compute) {
+                    {
+                        const ReleasedLock released;
+                        compute();
+                    }
+                    raise_of_signal();
+                });
             },
             py::arg("state"),
             "Goes (back) to a state, exactly: begins with the case's bone and computes State.ticks "
             "milliseconds again, which takes as "
-            "long as they took. ValueError: the state is of another case or of other settings, or the "
-            "session is recorded.")
+            "long as they took. Ctrl-C leaves the session as it was. BadInput: the state is of another case "
+            "or of "
+            "other settings, or the session is recorded.")
         .def_property_readonly(
             "bone", [](const SharedSession& session) { return BoneView(session); },
             "The bone as it is whenever it is asked.")
@@ -337,11 +381,21 @@ A prescribed hand stays where it is, with the pedal up.)")
         .def(
             "close",
             [](const SharedSession& session) {
-                const py::gil_scoped_release released;
+                const ReleasedLock released;
                 const std::unique_lock<std::mutex> held = taken(session->busy());
                 session->end();
             },
             "Ends the session; its recording is whole then. RuntimeError: that could not be written.")
+        .def(
+            "_show_into",
+            [](const SharedSession& session, const std::filesystem::path& file) {
+                const std::unique_lock<std::mutex> held = taken(session->busy());
+                const ReleasedLock released;
+                session->show_into(file);
+            },
+            py::arg("file"), "Writes what there is to see now as a recording of one state.")
+        .def("__repr__", &text_of)
+        .def("_repr_html_", &html_of)
         .def("__enter__", [](const SharedSession& session) { return session; })
         .def("__exit__", [](const py::object& session, const py::args&) { session.attr("close")(); });
 }

@@ -2,17 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "common/text/plain_text.h"
+#include "common/wire/bone_replica.h"
+#include "common/wire/scene_messages.h"
+#include "common/wire/structure_messages.h"
 #include "haptic_server/session/device_table.h"
 #include "haptic_server/session/session_defaults.h"
 #include "haptic_server/session/session_settings.h"
+#include "haptic_server/streaming/live_session.h"
+#include "haptic_server/streaming/session_recorder.h"
+#include "imaging/case/structures.h"
 
 namespace osteomill::python {
 
 namespace {
+
+/// Computed without a look at whether somebody wants it to stop.
+constexpr std::uint64_t ticks_at_once = 1000;
 
 MillingSessionOptions milling_options(const SteppedOptions& options) {
     MillingSessionOptions milling{.clock = ClockKind::virtual_time,
@@ -29,26 +41,36 @@ MillingSessionOptions milling_options(const SteppedOptions& options) {
     return milling;
 }
 
-std::string fingerprint_of(const LoadedCase& loaded, const SteppedOptions& options) {
-    const MillingSessionOptions milling = milling_options(options);
-    const ToolPose start = options.start.value_or(loaded.settings().start_pose);
-    return fmt::format(
-        "{}: bone {:016x}, start {} {} {} {} {} {}, hand {}, coupling {}, force model {}, {} Hz{}",
-        loaded.name(), loaded.bone_checksum(), start.position_mm.x, start.position_mm.y, start.position_mm.z,
-        start.spindle_axis.x, start.spindle_axis.y, start.spindle_axis.z,
-        !options.grip                  ? "prescribed"
-        : *options.grip == Grip::light ? "light"
-                                       : "firm",
-        milling.coupling, milling.force_model, milling.milling_rate_hz,
-        options.vibration ? ", vibration" : "");
+/// All that it computes from, a line for each: two sessions of one are the same function of their hand.
+std::string origin_of(const std::map<std::string, std::string>& settings, const std::string& scene_toml,
+                      const std::string& case_name) {
+    std::string text = fmt::format("case = {}\n", case_name);
+    // Every instruction set gives the same bits.
+    for (const auto& [name, value] : settings)
+        if (name != "instruction_set") text += fmt::format("{} = {}\n", name, value);
+    return text + scene_toml;
+}
+
+/// The first line in which two origins differ.
+std::string first_difference(const std::string& of_state, const std::string& of_session) {
+    std::istringstream theirs(of_state);
+    std::istringstream ours(of_session);
+    for (std::string their_line, our_line;;) {
+        const bool has_theirs = static_cast<bool>(std::getline(theirs, their_line));
+        const bool has_ours = static_cast<bool>(std::getline(ours, our_line));
+        if (!has_theirs && !has_ours) return "";
+        if (!has_theirs) their_line = "no more";
+        if (!has_ours) our_line = "no more";
+        if (their_line != our_line)
+            return fmt::format("of the state: {}; of this session: {}", one_line(their_line),
+                               one_line(our_line));
+    }
 }
 
 }  // namespace
 
 SteppedSession::SteppedSession(std::shared_ptr<const LoadedCase> loaded, SteppedOptions options)
-    : loaded_(std::move(loaded)),
-      options_(std::move(options)),
-      fingerprint_(fingerprint_of(*loaded_, options_)) {
+    : loaded_(std::move(loaded)), options_(std::move(options)) {
     begin();
 }
 
@@ -63,17 +85,25 @@ SteppedSession::~SteppedSession() {
 void SteppedSession::begin() {
     SessionScene scene = loaded_->scene();
     if (options_.start) scene.scene.start_pose = *options_.start;
-    hand_ = scene.scene.start_pose;
+    run_.hand = scene.scene.start_pose;
     DeviceParts parts;
     if (options_.grip) {
         parts = simulated_hand(scene.scene, *options_.grip);
-        simulated_ = parts.simulated;
+        run_.simulated = parts.simulated;
     } else {
-        auto prescribed = std::make_unique<PrescribedDevice>(hand_, scene.scene.device);
-        prescribed_ = prescribed.get();
+        auto prescribed = std::make_unique<PrescribedDevice>(run_.hand, scene.scene.device);
+        run_.prescribed = prescribed.get();
         parts.device = std::move(prescribed);
     }
     SessionOptions session{.milling = milling_options(options_)};
+    scene = seated(std::move(scene), parts);
+    const auto settings = as_texts(session_settings(session.milling, loaded_->choice(), scene,
+                                                    {.device = options_.grip ? "simulated" : "prescribed",
+                                                     .grip = options_.grip.value_or(Grip::firm),
+                                                     .arm = parts.device->limits()},
+                                                    OSTEOMILL_VERSION));
+    const std::string scene_toml = effective_scene_text(scene.scene);
+    origin_ = origin_of(settings, scene_toml, loaded_->name());
     if (options_.record) {
         session.shown.emplace();
         session.shown->streaming.listens = false;
@@ -82,41 +112,40 @@ void SteppedSession::begin() {
         session.shown->accepts_controls = false;
         session.shown->case_name = loaded_->name();
         session.shown->version = OSTEOMILL_VERSION;
-        session.shown->settings = as_texts(session_settings(
-            session.milling, loaded_->choice(), scene.scene, options_.grip ? "simulated" : "prescribed",
-            options_.grip.value_or(Grip::firm), OSTEOMILL_VERSION));
+        session.shown->settings = settings;
+        session.shown->scene_toml = scene_toml;
     }
     // The one before, if any, goes only once there is another.
-    assembly_ = std::make_unique<SessionAssembly>(std::move(scene), std::move(parts), std::move(session));
-    assembly_->start();
-    assembly_->advance(1);
-    tool_ = assembly_->session().newest_state();
-    fed_.clear();
+    run_.assembly = std::make_unique<SessionAssembly>(std::move(scene), std::move(parts), std::move(session));
+    run_.assembly->start();
+    run_.assembly->advance(1);
+    run_.tool = run_.assembly->session().newest_state();
+    run_.fed.clear();
 }
 
 void SteppedSession::make_ticks(const HandInput& input) {
-    if (prescribed_ != nullptr) {
-        hand_ = input.pose;
-        prescribed_->move_to(input.pose);
-        prescribed_->press(input.pedal);
-        if (input.burr >= 0) prescribed_->take_burr(static_cast<std::size_t>(input.burr));
+    if (run_.prescribed != nullptr) {
+        run_.hand = input.pose;
+        run_.prescribed->move_to(input.pose);
+        run_.prescribed->press(input.pedal);
+        if (input.burr >= 0) run_.prescribed->take_burr(static_cast<std::size_t>(input.burr));
     }
-    assembly_->advance(input.ticks);
-    tool_ = assembly_->session().newest_state();
+    run_.assembly->advance(input.ticks);
+    run_.tool = run_.assembly->session().newest_state();
 }
 
 void SteppedSession::step(const HandInput& input) {
     if (has_ended_) throw std::logic_error("the session has ended; make another");
     make_ticks(input);
-    if (!fed_.empty() && fed_.back().is_as(input))
-        fed_.back().ticks += input.ticks;
+    if (!run_.fed.empty() && run_.fed.back().is_as(input))
+        run_.fed.back().ticks += input.ticks;
     else
-        fed_.push_back(input);
+        run_.fed.push_back(input);
 }
 
 TickState SteppedSession::state() const {
     TickState state{
-        .tool = tool_, .milling_force_n = milling_force_n(), .removed_in_all_mm3 = removed_in_all_mm3()};
+        .tool = run_.tool, .milling_force_n = milling_force_n(), .removed_in_all_mm3 = removed_in_all_mm3()};
     state.removed_mm3.reserve(loaded_->labels().size());
     for (const LoadedCase::NamedLabel& one : loaded_->labels())
         state.removed_mm3.push_back(removed_mm3(one.label));
@@ -129,26 +158,62 @@ double SteppedSession::removed_in_all_mm3() const {
     return sum_mm3;
 }
 
-void SteppedSession::replay(const FedMotion& motion) {
-    if (motion.session != fingerprint_)
-        throw std::invalid_argument(fmt::format("the state is of another session ({}); this one is {}",
-                                                motion.session, fingerprint_));
+void SteppedSession::replay(const FedMotion& motion, const Pace& pace) {
+    if (motion.session != origin_)
+        throw std::invalid_argument(fmt::format("the state is of another case or of other settings; {}",
+                                                first_difference(motion.session, origin_)));
     if (is_recorded())
         throw std::invalid_argument(
             "a session that is recorded cannot go back: its recording would be of two");
     if (has_ended_) throw std::logic_error("the session has ended; make another");
-    std::vector<HandInput> inputs = motion.inputs;
-    begin();
-    for (const HandInput& input : inputs) make_ticks(input);
-    fed_ = std::move(inputs);
+    Run before = std::move(run_);
+    try {
+        run_ = {};
+        pace([this] { begin(); });
+        std::size_t next = 0;
+        std::uint64_t made = 0;  // of the next input's ticks
+        const auto make_some = [&] {
+            for (std::uint64_t left = ticks_at_once; left > 0 && next < motion.inputs.size();) {
+                HandInput part = motion.inputs[next];
+                part.ticks = std::min(left, part.ticks - made);
+                make_ticks(part);
+                left -= part.ticks;
+                made += part.ticks;
+                if (made < motion.inputs[next].ticks) continue;
+                ++next;
+                made = 0;
+            }
+        };
+        while (next < motion.inputs.size()) pace(make_some);
+        run_.fed = motion.inputs;
+    } catch (...) {
+        run_ = std::move(before);
+        throw;
+    }
+}
+
+void SteppedSession::show_into(const std::filesystem::path& file) const {
+    const SessionScene& scene = loaded_->scene();
+    SessionInfo info =
+        session_info(scene.scene, false, run_.assembly->device().limits().max_force_n, OSTEOMILL_VERSION);
+    info.case_name = loaded_->name();
+    const BoneReplica mirror(bone());
+    const std::vector<v2::StructureBricks> pieces =
+        structure_pieces(structures_outside_bone_labels(scene.structures, scene.scene, bone()));
+    SessionRecorder recorder({.file = file, .began = std::chrono::system_clock::now()}, to_message(info),
+                             mirror, pieces);
+    recorder.record({.tool = run_.tool}, true);
+    recorder.finish({.tool = run_.tool}, "the moment is over");
+    if (const RecordingReport report = recorder.report(); !report.error.empty())
+        throw std::runtime_error(report.error);
 }
 
 void SteppedSession::end() {
     if (std::exchange(has_ended_, true)) return;
-    assembly_->end();
-    if (assembly_->shown() == nullptr) return;
-    assembly_->shown()->server().stop();
-    if (const auto recording = assembly_->shown()->server().recording();
+    run_.assembly->end();
+    if (run_.assembly->shown() == nullptr) return;
+    run_.assembly->shown()->server().stop();
+    if (const auto recording = run_.assembly->shown()->server().recording();
         recording && !recording->error.empty())
         throw std::runtime_error(recording->error);
 }

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -86,29 +87,33 @@ class SteppedSession {
     void step(const HandInput& input);
     /// As it was after the last tick.
     TickState state() const;
-    const ToolState& tool() const { return tool_; }
-    const glm::dvec3& milling_force_n() const { return assembly_->session().known_result().force_n; }
+    const ToolState& tool() const { return run_.tool; }
+    const glm::dvec3& milling_force_n() const { return run_.assembly->session().known_result().force_n; }
     /// So far, of one tissue, and of all that the bone had.
-    double removed_mm3(std::size_t label) const { return assembly_->session().removed_mm3(label); }
+    double removed_mm3(std::size_t label) const { return run_.assembly->session().removed_mm3(label); }
     double removed_in_all_mm3() const;
 
     /// The hand that was prescribed last, or where the session starts.
-    const ToolPose& hand() const { return hand_; }
+    const ToolPose& hand() const { return run_.hand; }
     bool has_simulated_hand() const { return options_.grip.has_value(); }
     /// The simulated hand is at its trajectory's end.
-    bool is_finished() const { return simulated_ != nullptr && simulated_->is_finished(); }
+    bool is_finished() const { return run_.simulated != nullptr && run_.simulated->is_finished(); }
     bool has_ended() const { return has_ended_; }
     bool is_recorded() const { return options_.record.has_value(); }
 
     const LoadedCase& loaded() const { return *loaded_; }
     std::shared_ptr<const LoadedCase> shared_case() const { return loaded_; }
-    const Bone& bone() const { return assembly_->session().bone(); }
-    const MillingSessionOptions& settings() const { return assembly_->options(); }
+    const Bone& bone() const { return run_.assembly->session().bone(); }
+    const MillingSessionOptions& settings() const { return run_.assembly->options(); }
 
-    FedMotion fed() const { return {.session = fingerprint_, .inputs = fed_}; }
-    /// Throws std::invalid_argument for a motion of another case or other settings, and for a session that is
-    /// recorded.
-    void replay(const FedMotion& motion);
+    FedMotion fed() const { return {.session = origin_, .inputs = run_.fed}; }
+    /// Goes to where the motion leads. `pace` is called with what computes the next second or less of it, and
+    /// calls that; whatever it throws leaves the session as it was. Throws std::invalid_argument for a motion
+    /// of another case or other settings, and for a session that is recorded.
+    using Pace = std::function<void(const std::function<void()>& compute)>;
+    void replay(const FedMotion& motion, const Pace& pace);
+    /// Writes a recording of what there is to see now: the bone as it is, and one state.
+    void show_into(const std::filesystem::path& file) const;
 
     /// Ends it; a recording is whole then. Throws std::runtime_error where that could not be written.
     void end();
@@ -119,15 +124,18 @@ class SteppedSession {
 
     std::shared_ptr<const LoadedCase> loaded_;
     SteppedOptions options_;
-    std::string fingerprint_;
+    std::string origin_;
     std::mutex busy_;
     pid_t process_ = ::getpid();
-    PrescribedDevice* prescribed_ = nullptr;      // the assembly's
-    const SimulatedDevice* simulated_ = nullptr;  // likewise
-    std::unique_ptr<SessionAssembly> assembly_;
-    ToolState tool_;
-    ToolPose hand_;
-    std::vector<HandInput> fed_;
+    struct Run {
+        PrescribedDevice* prescribed = nullptr;      // the assembly's
+        const SimulatedDevice* simulated = nullptr;  // likewise
+        std::unique_ptr<SessionAssembly> assembly{};
+        ToolState tool{};
+        ToolPose hand{};
+        std::vector<HandInput> fed{};
+    };
+    Run run_;
     bool has_ended_ = false;
 };
 

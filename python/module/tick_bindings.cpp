@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,22 +17,75 @@ namespace osteomill::python {
 
 namespace {
 
-py::dict by_name(const Tick& tick) {
-    py::dict removed;
-    removed["total"] = tick.state.removed_in_all_mm3;
-    for (std::size_t i = 0; i < tick.state.removed_mm3.size(); ++i)
-        removed[py::str(tick.loaded->labels()[i].name)] = tick.state.removed_mm3[i];
-    return removed;
+py::dict by_name(const std::vector<std::string>& names, const std::vector<double>& values) {
+    py::dict all;
+    for (std::size_t i = 0; i < names.size(); ++i) all[py::str(names[i])] = values[i];
+    return all;
 }
 
-py::dict distances(const Tick& tick) {
-    py::dict distance;
-    for (std::size_t i = 0; i < tick.loaded->structures().size(); ++i)
-        distance[py::str(tick.loaded->structures()[i])] = tick.loaded->distance_mm(i, tick.state.tool);
-    return distance;
+py::dict removed(const Tick& tick) {
+    py::dict all;
+    all["total"] = tick.state.removed_in_all_mm3;
+    all.attr("update")(by_name(tick.names->tissues, tick.state.removed_mm3));
+    return all;
+}
+
+py::tuple row(const glm::dvec3& v) {
+    return py::make_tuple(v.x, v.y, v.z);
+}
+
+glm::dvec3 vector_in(const py::handle& row) {
+    const auto [x, y, z] = row.cast<std::tuple<double, double, double>>();
+    return {x, y, z};
+}
+
+/// All that a step says, and nothing else: two that say the same are equal, and it can be sent to other
+/// processes.
+py::tuple said(const Tick& tick) {
+    const ToolState& tool = tick.state.tool;
+    return py::make_tuple(
+        tool.time_s, row(tool.hand_position_mm), row(tool.burr_position_mm), row(tool.spindle_axis),
+        row(tool.force_n), row(tool.shank_torque_n_mm.value_or(glm::dvec3(0.0))),
+        row(tick.state.milling_force_n), tool.depth_mm.value_or(0.0), tool.spindle_on, tool.burr,
+        tool.peak_force_n.value_or(0.0), tool.touches_protected, std::string(tool.fault.text()),
+        std::string(tool.notice.text()), tick.state.removed_in_all_mm3, tick.state.removed_mm3,
+        tick.distance_mm, tick.names->tissues, tick.names->structures);
+}
+
+Tick tick_that_said(const py::tuple& said) {
+    if (said.size() != 19) throw std::invalid_argument("this is no Step of this version");
+    Tick tick;
+    tick.state.tool = {.time_s = said[0].cast<double>(),
+                       .burr_position_mm = vector_in(said[2]),
+                       .spindle_axis = vector_in(said[3]),
+                       .hand_position_mm = vector_in(said[1]),
+                       .force_n = vector_in(said[4]),
+                       .burr = said[9].cast<std::size_t>(),
+                       .spindle_on = said[8].cast<bool>(),
+                       .touches_protected = said[11].cast<bool>(),
+                       .fault = said[12].cast<std::string>(),
+                       .notice = said[13].cast<std::string>(),
+                       .depth_mm = said[7].cast<double>(),
+                       .shank_torque_n_mm = vector_in(said[5]),
+                       .peak_force_n = said[10].cast<double>()};
+    tick.state.milling_force_n = vector_in(said[6]);
+    tick.state.removed_in_all_mm3 = said[14].cast<double>();
+    tick.state.removed_mm3 = said[15].cast<std::vector<double>>();
+    tick.distance_mm = said[16].cast<std::vector<double>>();
+    tick.names = std::make_shared<const StepNames>(
+        StepNames{said[17].cast<std::vector<std::string>>(), said[18].cast<std::vector<std::string>>()});
+    if (tick.state.removed_mm3.size() != tick.names->tissues.size() ||
+        tick.distance_mm.size() != tick.names->structures.size())
+        throw std::invalid_argument("this is no Step of this version");
+    return tick;
 }
 
 }  // namespace
+
+Tick::Tick(TickState known, const LoadedCase& loaded) : state(std::move(known)), names(loaded.step_names()) {
+    for (std::size_t i = 0; i < names->structures.size(); ++i)
+        distance_mm.push_back(loaded.distance_mm(i, state.tool));
+}
 
 void bind_tick(py::module_& module) {
     py::list faults;
@@ -66,12 +121,13 @@ void bind_tick(py::module_& module) {
             "depth_mm", [](const Tick& tick) { return tick.state.tool.depth_mm.value_or(0.0); },
             "Of the burr below where it first met bone, along the spindle axis of that moment; 0 before.")
         .def_property_readonly(
-            "removed_mm3", &by_name,
+            "removed_mm3", &removed,
             "Bone removed since the session began, mm^3, by tissue's name and in \"total\".")
-        .def_property_readonly("distance_mm", &distances,
-                               "From the burr's head to each protected structure, mm; 0 and below: they "
-                               "overlap, so deep; inf: farther "
-                               "than 3 mm, or twice the distance of its warning.")
+        .def_property_readonly(
+            "distance_mm", [](const Tick& tick) { return by_name(tick.names->structures, tick.distance_mm); },
+            "From the burr's head to each protected structure, mm; 0 and below: they "
+            "overlap, so deep; inf: farther "
+            "than 3 mm, or twice the distance of its warning.")
         .def_property_readonly("spindle_on", [](const Tick& tick) { return tick.state.tool.spindle_on; })
         .def_property_readonly(
             "burr", [](const Tick& tick) { return tick.state.tool.burr; }, "Number in Case.burrs.")
@@ -88,6 +144,9 @@ void bind_tick(py::module_& module) {
             "notice", [](const Tick& tick) { return std::string(tick.state.tool.notice.text()); },
             "What something that was requested waits for, such as a pedal that was held too long; empty: "
             "nothing.")
+        .def("__eq__", [](const Tick& tick, const Tick& other) { return said(tick).equal(said(other)); })
+        .def("__eq__", [](const Tick&, const py::object&) { return false; })
+        .def(py::pickle(&said, &tick_that_said))
         .def("__repr__", [](const Tick& tick) {
             const glm::dvec3& force_n = tick.state.tool.force_n;
             return fmt::format("<Step at {:.3f} s: force ({:.3f}, {:.3f}, {:.3f}) N, {:.3f} mm^3 removed>",

@@ -4,16 +4,21 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <vector>
 
 #include "python/module/stepped_session.h"
 #include "python/module/tick_columns.h"
 
 namespace osteomill::python {
 
-/// What a step returns: what its last tick knew.
+/// What a step returns: what its last tick knew. It needs no case, and goes to other processes.
 struct Tick {
-    TickState state;
-    std::shared_ptr<const LoadedCase> loaded;
+    TickState state{};
+    std::shared_ptr<const StepNames> names{};
+    std::vector<double> distance_mm{};  ///< by the structures' names
+
+    Tick() = default;
+    Tick(TickState known, const LoadedCase& loaded);
 };
 
 void bind_tick(pybind11::module_& module);

@@ -3,38 +3,54 @@
 Units are mm, s, N, N mm; positions are in patient LPS (x to the patient's left, y to the back, z up).
 """
 
-from osteomill._core import (
-    FAULTS,
-    Bone,
-    Burr,
-    Case,
-    Motion,
-    Recording,
-    Session,
-    State,
-    Step,
-    __version__,
-    reference_force,
-)
-from osteomill.env import Box, Env
+try:
+    from osteomill._core import (
+        FAULTS,
+        BadInput,
+        Bone,
+        Burr,
+        Case,
+        Fault,
+        Motion,
+        Recording,
+        Session,
+        State,
+        Step,
+        __version__,
+        reference_force,
+    )
+except ModuleNotFoundError as error:
+    if error.name != "osteomill._core":
+        raise
+    raise ModuleNotFoundError(
+        "osteomill: its compiled core is not built for this Python; with python3-dev, python3-numpy and pybind11-dev installed, "
+        "cmake --preset release && cmake --build --preset release --target osteomill_python builds it for /usr/bin/python3",
+        name=error.name) from None
+from osteomill.env import Env
 from osteomill.render import Rendering, render
+from osteomill.repeat_recording import Repeated, repeat
+from osteomill.spaces import Box
 from osteomill.sweep import sweep
 
 __all__ = [
     "FAULTS",
+    "BadInput",
     "Bone",
     "Box",
     "Burr",
     "Case",
     "Env",
+    "Fault",
     "Motion",
     "Recording",
     "Rendering",
+    "Repeated",
     "Session",
     "State",
     "Step",
     "__version__",
     "reference_force",
     "render",
+    "repeat",
     "sweep",
 ]

@@ -2,7 +2,7 @@
 import os
 import pathlib
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,6 +10,43 @@ from numpy.typing import ArrayLike, NDArray
 __version__: str
 FAULTS: tuple[str, ...]
 
+class BadInput(ValueError): ...
+class Fault(RuntimeError): ...
+
+_Hand = Literal["prescribed", "light", "firm"]
+_Coupling = Literal[
+    "implicit",
+    "hold",
+    "interpolate",
+    "sample-estimate-hold",
+    "corrected-sample-estimate-hold",
+    "sample-estimate-interpolate",
+    "virtual-coupling",
+    "passivity",
+    "damper",
+    "hold+damper",
+    "hold+passivity",
+    "interpolate+damper",
+    "interpolate+passivity",
+    "sample-estimate-hold+damper",
+    "sample-estimate-hold+passivity",
+    "corrected-sample-estimate-hold+damper",
+    "corrected-sample-estimate-hold+passivity",
+    "sample-estimate-interpolate+damper",
+    "sample-estimate-interpolate+passivity",
+]
+_ForceModel = Literal[
+    "milling",
+    "published",
+    "milling-partial",
+    "milling-bins",
+    "milling-instants",
+    "milling-scan",
+    "point-spring",
+    "petersik",
+    "morris",
+    "agus",
+]
 _Floats = NDArray[np.float64]
 _Box = Sequence[Sequence[int]]  # ((i, j, k), (i, j, k))
 _Path = str | os.PathLike[str]
@@ -64,6 +101,15 @@ class Case:
         bone: _Path | None = None,
         trajectory: _Path | None = None,
     ) -> None: ...
+    def with_(
+        self,
+        *,
+        set: Sequence[str] = ...,
+        burr: str | None = None,
+        rpm: float | None = None,
+        bone: _Path | None = None,
+        trajectory: _Path | None = None,
+    ) -> Case: ...
     @property
     def name(self) -> str: ...
     @property
@@ -126,9 +172,9 @@ class Session:
         self,
         case: Case,
         *,
-        hand: str = "prescribed",
-        coupling: str | None = None,
-        force_model: str | None = None,
+        hand: _Hand = "prescribed",
+        coupling: _Coupling | None = None,
+        force_model: _ForceModel | None = None,
         milling_rate_hz: float | None = None,
         vibration: bool = False,
         start_mm: ArrayLike | None = None,
@@ -156,6 +202,8 @@ class Session:
     def save_state(self) -> State: ...
     def load_state(self, state: State) -> None: ...
     def close(self) -> None: ...
+    def _show_into(self, file: _Path) -> None: ...
+    def _repr_html_(self) -> str: ...
     @property
     def now(self) -> Step: ...
     @property
@@ -197,6 +245,8 @@ class Recording:
     def burr(self) -> NDArray[np.uint8]: ...
     @property
     def spindle_on(self) -> NDArray[np.bool_]: ...
+    @property
+    def ticks(self) -> dict[str, NDArray[Any]]: ...
     def bone_at(self, time_s: float) -> Bone: ...
     def metrics(self) -> dict[str, Any]: ...
     def to_hdf5(self, file: _Path, layout: str = "osteomill") -> None: ...
@@ -213,4 +263,5 @@ class Motion:
     @property
     def axis(self) -> _Floats: ...
 
+def _repeat(file: _Path) -> tuple[bool, str, int, int | None, float]: ...
 def reference_force(burr: Burr, motion: Motion, bone: Bone | str | Callable[[float, float, float], float] = "flat") -> _Floats: ...

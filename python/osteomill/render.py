@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from osteomill._core import Case, Recording, Session
+from osteomill._core import Case, Fault, Recording, Session
 
 if TYPE_CHECKING:
     from osteomill import _render
@@ -43,6 +43,7 @@ class Rendering(Iterator[dict[str, Any]]):
         return self._rendering.sessions
 
     def __next__(self) -> dict[str, Any]:
+        _require_own_drawing()
         frame = self._rendering.next() if self._left != 0 else None
         if frame is None:
             raise StopIteration
@@ -58,8 +59,21 @@ class Rendering(Iterator[dict[str, Any]]):
         return frame
 
 
+_drawing_process: int | None = None
+
+
+def _require_own_drawing() -> None:
+    """A driver's threads and memory do not come along into a forked process: whatever draws there waits for ever."""
+    global _drawing_process
+    if _drawing_process is None:
+        _drawing_process = os.getpid()
+    if _drawing_process != os.getpid():
+        raise Fault("osteomill.render: this process was forked from one that has drawn; start it with multiprocessing's \"spawn\" or "
+                    "\"forkserver\", or draw here first")
+
+
 def render(
-    case_or_recording: Case | Recording | _Path,
+    case_or_recording: Case | Recording | Session | _Path,
     cameras: _Path | Sequence[Mapping[str, Any]] | None = None,
     *,
     fps: float | None = None,
@@ -67,9 +81,9 @@ def render(
     images: Sequence[str] = ("colour", "depth", "labels", "normals"),
     randomise: int | None = None,
 ) -> Rendering:
-    """Draw frames of a recording, or the one of a case before anything is milled, without a display.
+    """Draw frames of a recording, or the one of a session as it is now or of a case before anything is milled, without a display.
 
-    case_or_recording: a Recording or its file, or a Case.
+    case_or_recording: a Recording or its file, a Session, or a Case.
     cameras: a file of cameras, or what it would hold, a mapping for each ("name", "eye_mm", "intrinsics", ...);
         "trainee": from where the trainee looked; None: one of 640 x 480 at the first view.
     fps: frames a recorded second, the first state at or behind each; None: every recorded state.
@@ -79,13 +93,14 @@ def render(
 
     To the bit what render_client --dataset writes: "colour" uint8 (height, width, 3), "depth" and "ray_depth"
     float32 (height, width) in mm, "labels" uint8 (height, width), "normals" float16 (height, width, 3).
-    Raises ValueError for cameras and images that cannot be, RuntimeError for a recording that cannot be read
-    and where there is no OpenGL 3.3.
+    Raises BadInput for cameras and images that cannot be, Fault for a recording that cannot be read, where there is no
+    OpenGL 3.3, and in a process that was forked from one that has drawn.
     """
+    _require_own_drawing()
     try:
         from osteomill import _render
     except ImportError as error:
-        raise RuntimeError(f"osteomill.render: {error}; install libepoxy0, libegl1 and libgl1-mesa-dri") from None
+        raise Fault(f"osteomill.render: {error}; install libepoxy0, libegl1 and libgl1-mesa-dri") from None
 
     named, text = ("", "") if cameras is None else _cameras(cameras)
 
@@ -94,12 +109,15 @@ def render(
 
     if isinstance(case_or_recording, Recording):
         return Rendering(begin(case_or_recording.file))
-    if not isinstance(case_or_recording, Case):
+    if not isinstance(case_or_recording, Case | Session):
         return Rendering(begin(case_or_recording))
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "start.pcap"
-        with Session(case_or_recording, record=file) as session:
-            session.step()
+        if isinstance(case_or_recording, Session):
+            case_or_recording._show_into(file)
+        else:
+            with Session(case_or_recording, record=file) as session:
+                session.step()
         return Rendering(begin(file), most=1)
 
 

@@ -13,6 +13,8 @@
 
 #include "common/scene/scene_file.h"
 #include "python/module/arrays.h"
+#include "python/module/exceptions.h"
+#include "python/module/released_lock.h"
 #include "python/render/rendering.h"
 #include "render_client/dataset/dataset_index.h"
 #include "render_client/dataset/image_files.h"
@@ -52,7 +54,7 @@ std::unique_ptr<Rendering> begin(std::filesystem::path recording, const std::str
         throw std::invalid_argument(fmt::format("fps: takes 0.001 to 1000 frames a second, not {}", *fps));
     if (!(from_s >= 0.0))
         throw std::invalid_argument(fmt::format("from_s: takes seconds from 0 on, not {}", from_s));
-    const py::gil_scoped_release released;
+    const ReleasedLock released;
     try {
         DatasetContents contents{
             .cameras = cameras_text.empty() ? cameras_named(cameras)
@@ -71,7 +73,7 @@ std::unique_ptr<Rendering> begin(std::filesystem::path recording, const std::str
 py::object next(Rendering& rendering) {
     std::optional<Rendering::Frame> frame;
     {
-        const py::gil_scoped_release released;
+        const ReleasedLock released;
         frame = rendering.next([] {
             const py::gil_scoped_acquire acquired;
             return PyErr_CheckSignals() != 0;
@@ -99,7 +101,7 @@ py::object cameras(const Rendering& rendering) {
 /// Waits for whoever draws; the interpreter does not.
 struct Unhurried {
     void operator()(Rendering* rendering) const {
-        const py::gil_scoped_release released;
+        const ReleasedLock released;
         delete rendering;
     }
 };
@@ -111,6 +113,9 @@ struct Unhurried {
 PYBIND11_MODULE(_render, module) {
     namespace py = pybind11;
     using namespace osteomill::python;
+    py::module_::import("osteomill._core");
+    py::register_local_exception_translator(&translate);
+    watch_for_exit();
     module.doc() = "Frames of image sets; use it through osteomill.render.";
     py::class_<Rendering, std::unique_ptr<Rendering, Unhurried>>(module, "Rendering")
         .def(py::init([](std::filesystem::path recording, const std::string& named, const std::string& text,

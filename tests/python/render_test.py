@@ -83,6 +83,19 @@ class RenderTest(unittest.TestCase):
         self.assertEqual(frames.sessions, index["sessions"])
         self.assertEqual(plain(frames.cameras), {camera["name"]: camera["intrinsics"] for camera in index["cameras"]})
 
+    def test_a_session_is_drawn_as_it_is_now_and_as_its_recording(self):
+        file = self.folder / "live.pcap"
+        with om.Session(tooth(), record=file) as session:
+            session.rollout(tooth().start_mm - np.linspace(0.0, 3.0, 900)[:, None] * tooth().start_axis, pedals=True)
+            [now] = om.render(session, [SIDE], images=KINDS)
+            session.rollout(np.tile(session.now.hand_mm, (10, 1)), pedals=False)
+            [later] = om.render(session, [SIDE], images=KINDS)
+        before = next(om.render(tooth(), [SIDE], images=KINDS))
+        self.assertFalse(same(now, before))
+        last = list(om.render(file, [SIDE], images=KINDS))[-1]
+        self.assertTrue(same(later, last))
+        self.assertEqual(later["removed_mm3"], last["removed_mm3"])
+
     def test_is_to_the_bit_what_render_client_writes(self):
         self.expect_the_set(om.render(self.file, self.folder / "cameras.toml", fps=10, images=KINDS), "set")
 

@@ -123,6 +123,7 @@ class SweepTest(unittest.TestCase):
     def test_the_documents_script_needs_no_change_for_an_array(self):
         whole = self.run_script("peaks.py")
         self.assertEqual(len(json.loads(whole)), 3)
+        self.assertGreater(min(json.loads(whole)), 0.1, "it measures a force")
         for shard in ("1/2", "2/2"):
             said = self.run_script("peaks.py", OSTEOMILL_SHARD=shard, OSTEOMILL_OUT=str(self.parts))
             self.assertTrue(said.startswith(f"part {shard[0]} of 2 is in "), said)

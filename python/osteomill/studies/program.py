@@ -12,6 +12,7 @@ from typing import Any
 
 from osteomill import _studies
 from osteomill.part_files import JoinedParts, part_named
+from osteomill.repeat_recording import say_repeated
 from osteomill.studies import manifest, repeat
 from osteomill.studies.kept_command import joined_parts, program_fingerprint, require_study_words, words_of_study
 from osteomill.studies.options import Parser, UsageError, add_common, name_of, require_plain
@@ -34,7 +35,7 @@ STUDIES = (
     ("bridge", "bridge", "the way to an arm behind the bridge and back, beside a bare echo of the same size"),
     ("calibrate", "calibrate", "the six coefficients of the milling law from forces on a dynamometer; or which runs to make"),
     ("sessions", "sessions", "recorded sessions of several trainees: tables, learning curves, an overview, a tidy CSV"),
-    ("repeat", REPEAT, "run a study again, twice, and say what differs from its folder by more than its noise"),
+    ("repeat", REPEAT, "run a study again, twice, and say what differs from its folder by more than its noise; or a recording, to the bit"),
 )
 
 EXIT_FAILURE, EXIT_USAGE, EXIT_INTERRUPTED = 1, 2, 128 + signal.SIGINT
@@ -108,11 +109,13 @@ def _list_of_studies() -> str:
 def _repeat(words: list[str]) -> int:
     """The folder may be from elsewhere: what its manifest names must be a study, which writes into --out alone."""
     parser = Parser(prog=f"{PROGRAM} {REPEAT}", description=_what_is(REPEAT))
-    parser.add_argument("dir", type=pathlib.Path, help="the folder that the study wrote")
+    parser.add_argument("dir", type=pathlib.Path, help="the folder that the study wrote; or a recording (.pcap), which is computed again")
     try:
         folder = parser.parse(words[1:]).dir
     except SystemExit as end:
         return int(end.code or 0)
+    if folder.is_file():
+        return say_repeated(folder)
     kept = repeat.kept_manifest(folder)
     file, name = folder / manifest.NAME, kept["command"][0]
     module = next((module for study, module, _ in STUDIES if study == name), None)

@@ -1,0 +1,261 @@
+#include "haptic_server/replay/repeated_session.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "common/recording/playhead.h"
+#include "common/scene/decimal_code.h"
+#include "common/scene/scene_file.h"
+#include "common/scene/seen_steps.h"
+#include "common/text/foreign_json.h"
+#include "common/text/plain_text.h"
+#include "common/text/words.h"
+#include "devices/simulated/hand_model.h"
+#include "devices/simulated/recorded_device.h"
+#include "simulation/loop/milling_session.h"
+
+namespace osteomill {
+
+namespace {
+
+/// Why a session cannot be computed again, in one line.
+class NotRepeatable : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+constexpr const char* only_to_four_decimals =
+    "its poses are written with four decimals: it repeats to 0.1 um only (recorded by a version of protocol "
+    "2.2 or before)";
+
+const std::string& setting(const SessionInfo& session, const std::string& name) {
+    const auto found = session.settings.find(name);
+    if (found == session.settings.end())
+        throw NotRepeatable(fmt::format("it does not say its setting '{}'", name));
+    return found->second;
+}
+
+double number_of(const SessionInfo& session, const std::string& name) {
+    const std::optional<double> number = finite_number(setting(session, name));
+    if (!number) throw NotRepeatable(fmt::format("its setting '{}' is no number", name));
+    return *number;
+}
+
+DeviceLimits arm_of(const SessionInfo& session) {
+    try {
+        const auto json = parse_foreign_json(setting(session, "arm"), "arm");
+        return {.max_force_n = json.at("max_force_n"),
+                .max_stiffness_n_per_mm = json.at("max_stiffness_n_per_mm"),
+                .apparent_mass_kg = json.at("apparent_mass_kg"),
+                .position_resolution_mm = json.at("position_resolution_mm"),
+                .damping_n_s_per_mm = json.at("damping_n_s_per_mm"),
+                .gives_force = json.at("gives_force")};
+    } catch (const nlohmann::json::exception&) {
+        throw NotRepeatable("its setting 'arm' does not say what the arm can do");
+    }
+}
+
+Scene scene_of(const SessionInfo& session) {
+    if (session.scene_toml.empty())
+        throw NotRepeatable(session.holds_ticks ? only_to_four_decimals : "it does not say its scene");
+    try {
+        return parse_scene(session.scene_toml, "the recorded scene");
+    } catch (const SceneError& error) {
+        throw NotRepeatable(error.what());
+    }
+}
+
+MillingSessionOptions options_of(const SessionInfo& session) {
+    const std::string& coupling = setting(session, "coupling");
+    if ((coupling == "damper" || coupling.ends_with("+damper")) &&
+        setting(session, "device") != "prescribed" && setting(session, "grip") != rails_name)
+        throw NotRepeatable("its coupling " + coupling +
+                            " takes the arm's own velocity, which is not recorded");
+    MillingSessionOptions options{.clock = ClockKind::virtual_time,
+                                  .milling_rate_hz = number_of(session, "milling_rate_hz"),
+                                  .coupling = coupling,
+                                  .force_model = setting(session, "force_model"),
+                                  .vibration = setting(session, "vibration") == "true",
+                                  .repeats_real_clock = setting(session, "clock") == "real"};
+    options.removed_before_mm3[0] = number_of(session, "removed_before_mm3");
+    return options;
+}
+
+/// What changes a session beside its hand.
+bool acts_on_session(const ControlEvent& event) {
+    switch (event.action) {
+        case SessionAction::none:
+        case SessionAction::mark:
+        case SessionAction::save:
+        case SessionAction::finish:
+            return false;
+        default:
+            return !event.is_refused;
+    }
+}
+
+class KeptTicks final : public SampleLog<TickSample> {
+  public:
+    void push(const TickSample& sample) noexcept override { last_ = sample; }
+    void drain() override {}
+    void drain_all() override {}
+    std::optional<TickSample> take() { return std::exchange(last_, std::nullopt); }
+
+  private:
+    std::optional<TickSample> last_;
+};
+
+class Repeat {
+  public:
+    Repeat(const std::filesystem::path& file, RepeatedSession& result) : playhead_(file), result_(result) {}
+
+    void run(const std::function<void(double)>& on_progress) {
+        for (;;) {
+            on_progress(playhead_.share_read());
+            const Playhead::Step step = playhead_.step(std::numeric_limits<double>::infinity());
+            if (step == Playhead::Step::new_bone) throw NotRepeatable("several sessions were joined in it");
+            if (step == Playhead::Step::goodbye || step == Playhead::Step::end) break;
+            if (!take_state()) return;
+        }
+        end();
+    }
+
+  private:
+    /// False where something differs.
+    bool take_state() {
+        if (!playhead_.session().holds_ticks) throw NotRepeatable("it holds no ticks");
+        for (const ControlEvent& event : playhead_.state().events)
+            if (acts_on_session(event))
+                throw NotRepeatable(fmt::format("'{}' at {:.3f} s acted on it beside its hand",
+                                                name_of(event.action), event.time_s));
+        if (playhead_.counts().missed_ticks > 0) throw NotRepeatable("ticks are missing from it");
+        for (const TickSample& tick : playhead_.ticks()) {
+            if (!session_) begin(tick);
+            if (!take_tick(tick)) return false;
+        }
+        // On the real clock steps of the tick under way may be in the bone, or not yet.
+        if (is_real_ || !session_) return true;
+        ++result_.states;
+        if (checksum(session_->bone()) == playhead_.bone_checksum()) return true;
+        return differs(fmt::format("the bone's checksum is {:016x}, recorded {:016x}",
+                                   checksum(session_->bone()), playhead_.bone_checksum()));
+    }
+
+    void begin(const TickSample& first) {
+        if (!first.input) throw NotRepeatable(only_to_four_decimals);
+        const SessionInfo& info = playhead_.session();
+        const Scene scene = scene_of(info);
+        const MillingSessionOptions options = options_of(info);
+        is_real_ = options.repeats_real_clock;
+        if (is_real_ && options.milling_rate_hz != 1.0 / MillingSession::tick_s)
+            throw NotRepeatable(
+                "its milling loop ran at another rate than its haptic loop, on the real clock");
+        device_ = std::make_unique<RecordedDevice>(arm_of(info), scene.device);
+        try {
+            session_ = std::make_unique<MillingSession>(scene, *start_, *device_, options, &made_);
+        } catch (const std::invalid_argument& error) {
+            throw NotRepeatable(error.what());
+        }
+        session_->start();
+    }
+
+    bool take_tick(const TickSample& recorded) {
+        if (!recorded.input) throw NotRepeatable(only_to_four_decimals);
+        const std::uint64_t tick = ticks_++;
+        device_->say(recorded);
+        if (recorded.input->lets_go) session_->let_go();
+        if (!is_real_) {
+            session_->advance(1);
+            const std::optional<TickSample> made = made_.take();
+            return made && is_as(recorded, *made, tick);
+        }
+        const auto steps = steps_of_code(recorded.input->steps, tick);
+        if (!steps)
+            throw NotRepeatable(fmt::format("it does not say which milling steps came before tick {}", tick));
+        const auto missed =
+            std::llround((recorded.time_s - session_->next_tick_s()) / MillingSession::tick_s);
+        if (missed < 0) throw NotRepeatable(fmt::format("tick {} comes too early", tick));
+        try {
+            session_->repeat_tick(*steps, static_cast<std::uint64_t>(missed));
+        } catch (const std::invalid_argument& error) {
+            throw NotRepeatable(error.what());
+        }
+        // Its row says what was removed until the next.
+        const std::optional<TickSample> before = made_.take();
+        const bool is_equal = !before_ || (before && is_as(*before_, *before, tick - 1));
+        before_ = recorded;
+        return is_equal;
+    }
+
+    bool is_as(const TickSample& recorded, const TickSample& made, std::uint64_t tick) {
+        ++result_.ticks;
+        for (const TickQuantity& quantity : tick_quantities()) {
+            if (!quantity.is_of(recorded)) continue;
+            // The order of the loops is the real clock's, not theirs.
+            if (quantity.part == TickPart::input && !is_real_) continue;
+            if (to_code(quantity.of(recorded), quantity.decimals) ==
+                to_code(quantity.of(made), quantity.decimals))
+                continue;
+            result_.tick = tick;
+            result_.time_s = recorded.time_s;
+            return differs(fmt::format("{} is {:.{}f}, recorded {:.{}f}", quantity.name, quantity.of(made),
+                                       quantity.decimals, quantity.of(recorded), quantity.decimals));
+        }
+        return true;
+    }
+
+    void end() {
+        if (!session_) throw NotRepeatable("it has no tick");
+        // A step or two may have come behind the last tick of the real clock.
+        for (int more = 0; is_real_ && more < 3 && checksum(session_->bone()) != playhead_.bone_checksum();
+             ++more)
+            session_->repeat_step_at_end();
+        ++result_.states;
+        result_.is_equal = checksum(session_->bone()) == playhead_.bone_checksum();
+        if (!result_.is_equal) differs("the bone at its end has another checksum");
+    }
+
+    bool differs(std::string what) {
+        result_.difference = std::move(what);
+        return false;
+    }
+
+    Playhead playhead_;
+    std::optional<Bone> start_{playhead_.bone()};
+    RepeatedSession& result_;
+    KeptTicks made_;
+    std::unique_ptr<RecordedDevice> device_;
+    std::unique_ptr<MillingSession> session_;
+    bool is_real_ = false;
+    std::uint64_t ticks_ = 0;
+    std::optional<TickSample> before_;
+};
+
+}  // namespace
+
+std::string RepeatedSession::line() const {
+    if (is_equal) return fmt::format("equal to the bit: {} ticks, and the bone {} times", ticks, states);
+    if (tick) return fmt::format("differs first at tick {} ({:.4f} s): {}", *tick, time_s, difference);
+    return ticks == 0 ? fmt::format("cannot be repeated to the bit: {}", difference)
+                      : fmt::format("differs behind tick {}: {}", ticks - 1, difference);
+}
+
+RepeatedSession repeat_session(const std::filesystem::path& file,
+                               const std::function<void(double)>& on_progress) {
+    RepeatedSession result;
+    try {
+        Repeat(file, result).run(on_progress);
+    } catch (const NotRepeatable& why) {
+        result.ticks = 0;
+        result.difference = printable(why.what());
+    }
+    return result;
+}
+
+}  // namespace osteomill

@@ -1,0 +1,123 @@
+"""Recordings repeat to the bit: what is recorded is what was used, whichever session it is of."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from support import program, tooth
+
+import osteomill as om
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+
+
+def wandering_hand(case, ms, seed):
+    """A hand that trembles and tilts: no coordinate of it has few digits."""
+    rng = np.random.default_rng(seed)
+    hands = case.start_mm - np.linspace(0.0, 4.0, ms)[:, None] * case.start_axis + np.cumsum(rng.normal(0, 0.002, (ms, 3)), 0)
+    axes = case.start_axis + np.cumsum(rng.normal(0, 0.0005, (ms, 3)), 0)
+    return hands, axes, rng.random(ms) > 0.05
+
+
+class RepeatRecordingTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def record(self, name, ms=1500, seed=0, **session):
+        hands, axes, pedals = wandering_hand(tooth(), ms, seed)
+        file = self.folder / name
+        with om.Session(tooth(), record=file, **session) as made:
+            ticks = made.rollout(hands, axes, pedals)
+            self.assertGreater(ticks["removed_mm3"]["total"][-1], 0.1)
+            return file, ticks, made.bone.checksum()
+
+    def serve(self, *arguments):
+        subprocess.run([program("haptic_server"), *map(str, arguments)], check=True, capture_output=True, timeout=300)
+
+    def assert_repeats(self, file, least_ticks):
+        result = om.repeat(file)
+        self.assertTrue(result.is_equal, result.line)
+        self.assertTrue(str(result).startswith("equal to the bit: "), result.line)
+        self.assertGreaterEqual(result.ticks, least_ticks)
+
+    def test_a_session_of_python(self):
+        for coupling, model in (("implicit", "milling"), ("hold+damper", "milling"), ("interpolate", "petersik")):
+            file, _, _ = self.record(f"{model}-{coupling}.pcap", coupling=coupling, force_model=model, vibration=model == "milling")
+            self.assert_repeats(file, 1501)
+
+    def test_what_ticks_say_fed_again_gives_the_same(self):
+        file, ticks, checksum = self.record("a.pcap")
+        told = om.Recording(file).ticks
+        self.assertEqual(len(told["time_s"]), 1501)
+        session = om.Session(tooth())
+        again = session.rollout(told["hand_mm"][1:], told["axis"][1:], told["pedal"][1:])
+        self.assertEqual(session.bone.checksum(), checksum)
+        for name in ("hand_mm", "burr_mm", "axis", "force_n", "milling_force_n"):
+            np.testing.assert_array_equal(again[name], ticks[name], name)
+        np.testing.assert_allclose(told["removed_mm3"][1:], ticks["removed_mm3"]["total"], atol=5.1e-6)
+
+    def test_a_recorded_motion_on_rails(self):
+        file, _, checksum = self.record("a.pcap")
+        subprocess.run([program("packet_replay"), file, "--trajectory", self.folder / "a.csv"], check=True, capture_output=True)
+        self.serve("--clock", "virtual", "--trajectory", self.folder / "a.csv", "--grip", "rails", "--record", self.folder / "b.pcap",
+                   "--duration-s", "1.5")
+        self.assertEqual(om.Recording(self.folder / "b.pcap").info()["bone_checksum"], checksum)
+        self.assert_repeats(self.folder / "b.pcap", 1501)
+
+    def test_a_simulated_hand_with_settings_of_its_own(self):
+        file = self.folder / "s.pcap"
+        self.serve("--clock", "virtual", "--scene", "tooth", "--set", "wall_friction=0.35", "--set", "device.scale=0.5",
+                   "--grip", "light", "--rpm", "20000", "--duration-s", "3", "--record", file)
+        self.assert_repeats(file, 3001)
+
+    def test_a_bone_that_was_carved_before(self):
+        self.serve("--clock", "virtual", "--duration-s", "4", "--save-bone", self.folder / "carved.nrrd")
+        self.serve("--clock", "virtual", "--scene", "tooth", "--bone", self.folder / "carved.nrrd", "--duration-s", "4",
+                   "--record", self.folder / "c.pcap")
+        self.assert_repeats(self.folder / "c.pcap", 4001)
+
+    def serve_until_it_repeats(self, *arguments):
+        """On a busy machine a loop may stand still for longer than a tick can tell of: again, then."""
+        for attempt in range(10):
+            file = self.folder / f"r{attempt}.pcap"
+            self.serve("--scene", "tooth", "--listen", "none", "--duration-s", "4", "--record", file, *arguments)
+            if "which milling steps" not in om.repeat(file).line:
+                return self.assert_repeats(file, 100)
+        return self.skipTest("the machine is too busy for a session of the real clock")
+
+    def test_a_session_of_the_real_clock(self):
+        self.serve_until_it_repeats()
+
+    def test_an_arm_behind_the_bridge(self):
+        socket = self.folder / "arm.socket"
+        arm = subprocess.Popen([sys.executable, REPOSITORY / "bridge/examples/simulated_arm.py", f"unix:{socket}"],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(arm.wait)
+        self.addCleanup(arm.kill)
+        self.serve_until_it_repeats("--device", "bridge", "--bridge", f"unix:{socket}")
+
+    def test_says_what_cannot_be_repeated(self):
+        old = om.repeat(REPOSITORY / "tests/golden/0.3/recording.pcap")
+        self.assertFalse(old.is_equal)
+        self.assertIn("repeats to 0.1 um only", old.line)
+        (self.folder / "controls.csv").write_text("t_s,action,text\n0.3,pause,\n0.5,resume,\n")
+        self.serve("--clock", "virtual", "--controls", self.folder / "controls.csv", "--duration-s", "1",
+                   "--record", self.folder / "paused.pcap")
+        self.assertIn("'pause' at 0.3", om.repeat(self.folder / "paused.pcap").line)
+        with self.assertRaisesRegex(om.Fault, "nowhere.pcap"):
+            om.repeat("nowhere.pcap")
+
+    def test_a_command_says_it(self):
+        file, _, _ = self.record("a.pcap", ms=200)
+        done = subprocess.run([program("osteomill_study"), "repeat", file], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("equal to the bit: 201 ticks", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
