@@ -38,6 +38,28 @@ std::string heading(const SessionTrace& trace) {
     return html;
 }
 
+/// What was done to protected structures, whether or not there are marks: nobody may overlook it.
+std::string harm(const std::vector<StructureMetrics>& structures) {
+    std::string html;
+    for (const StructureMetrics& one : structures) {
+        const double milled_mm3 = one.dose_mm3 + one.undone_dose_mm3;
+        const auto volume = [](double mm3) { return number_text(mm3) + " mm³"; };
+        std::string how;
+        if (milled_mm3 > 0.0) {
+            how = volume(milled_mm3) + " of it milled";
+            if (one.undone_dose_mm3 > 0.0)
+                how += fmt::format(", {} given back by undo", volume(one.undone_dose_mm3));
+        } else if (one.entered_mm3 > 0.0) {
+            how = volume(one.entered_mm3) + " of it inside the burr";
+        } else {
+            continue;
+        }
+        html +=
+            fmt::format("<div class='verdict failed'><b>Opened: {}</b>{}</div>", html_text(one.name), how);
+    }
+    return html;
+}
+
 std::string mark_text(const JudgedMark& mark) {
     return fmt::format("{} {}", mark.kind->is_least ? "at least" : "at most",
                        shown_value(mark.kind->metric, mark.mark).text());
@@ -79,6 +101,11 @@ std::string gauge(double value, const std::optional<Interval>& band, const Judge
     return svg + fmt::format("<circle cx='{:.1f}' cy='7' r='4' fill='#222'/></svg>", x(value));
 }
 
+/// Without a mark, too, a touch is no neutral number.
+bool is_harm(std::string_view key, double value) {
+    return key == "structure_touches" && value > 0.0;
+}
+
 std::string tile(const Headline& what, double value, const std::string& words,
                  const std::vector<JudgedMark>& marks, const ReferenceSessions& references) {
     const auto mark = std::ranges::find_if(
@@ -88,7 +115,7 @@ std::string tile(const Headline& what, double value, const std::string& words,
     if (const auto others = references.values.find(what.key); others != references.values.end())
         band = middle_half(others->second);
     std::string html = fmt::format("<div class='tile {}'><span>{}</span><b>{}</b>{}",
-                                   !is_judged           ? ""
+                                   !is_judged           ? is_harm(what.key, value) ? "missed" : ""
                                    : mark->is_reached() ? "reached"
                                                         : "missed",
                                    html_text(what.text), shown_value(what.key, value).text(), words);
@@ -156,8 +183,8 @@ std::string first_page(const SessionTrace& trace, const SessionMetrics& metrics,
                        const std::vector<MetricRow>& rows, const SessionPictures& pictures,
                        const ReferenceSessions& references) {
     const std::vector<JudgedMark> marks = judged_marks(metrics.pass, rows);
-    return "<div class='first'>" + heading(trace) + verdict(trace, marks) + tiles(rows, marks, references) +
-           figures(pictures.first, "two") + legend(trace) +
+    return "<div class='first'>" + heading(trace) + harm(metrics.structures) + verdict(trace, marks) +
+           tiles(rows, marks, references) + figures(pictures.first, "two") + legend(trace) +
            "<div class='comment'>Comment</div><div class='signatures'><div>Date</div><div>Teacher</div>"
            "<div>Trainee</div></div></div>";
 }

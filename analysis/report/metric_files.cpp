@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/start_conditions.h"
 #include "common/text/csv_cell.h"
 
 namespace osteomill {
@@ -21,7 +22,7 @@ std::string metrics_csv(const std::vector<MetricRow>& rows) {
     for (const MetricRow& row : rows)
         text += fmt::format("{},{},{},{}\n", row.key, csv_cell(row.of),
                             row.value ? fmt::format("{:.9g}", *row.value) : "", row.unit);
-    return text;
+    return with_utf8_mark(std::move(text));
 }
 
 std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>& rows) {
@@ -52,6 +53,7 @@ std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>
           {"version", session.server_version},
           {"protocol", fmt::format("{}.{}", session.protocol_major, session.protocol_minor)},
           {"bone_checksum", fmt::format("{:016x}", trace.bone_checksum)},
+          {"bone_at_start", start_conditions(trace).bone},
           {"settings", settings}}},
         {"metrics", metrics},
         {"events", events}};

@@ -5,6 +5,7 @@
 
 #include "analysis/report/headlines.h"
 #include "analysis/report/metric_files.h"
+#include "analysis/report/start_conditions.h"
 #include "analysis/report/trainee_groups.h"
 #include "common/files/input_file.h"
 #include "common/statistics/percentile.h"
@@ -25,9 +26,13 @@ std::optional<double> value_of(const nlohmann::json& metrics, const std::string&
     return sum;
 }
 
+std::map<std::string, std::string> settings_felt_in(const nlohmann::json& session) {
+    return felt_settings(session.at("settings").get<std::map<std::string, std::string>>());
+}
+
 /// The trainee's group; nothing where this session is no reference for the other.
 std::optional<std::string> add(const std::filesystem::path& file, const nlohmann::json& own,
-                               const std::map<std::string, std::string>& groups,
+                               const std::map<std::string, TraineeGroup>& groups,
                                std::map<std::string, double>& values) {
     if (!std::filesystem::is_regular_file(file)) return std::nullopt;
     const auto json = parse_foreign_json(read_text(file, json_kind), file.string());
@@ -38,10 +43,14 @@ std::optional<std::string> add(const std::filesystem::path& file, const nlohmann
                              session.at("began") == own.at("began") &&
                              session.at("bone_checksum") == own.at("bone_checksum");
     if (!is_of_the_case || is_the_same || json.at("is_complete") != true) return std::nullopt;
+    if (settings_felt_in(session) != settings_felt_in(own)) return std::nullopt;
+    // Reports of versions that did not say what bone it was are taken for the case's.
+    if (session.value("bone_at_start", own.at("bone_at_start")) != own.at("bone_at_start"))
+        return std::nullopt;
     for (const Headline& one : headlines)
         if (const auto value = value_of(json.at("metrics"), one.key)) values[one.key] = *value;
     const auto group = groups.find(session.at("trainee").get<std::string>());
-    return group == groups.end() ? std::string() : group->second;
+    return group == groups.end() ? std::string() : group->second.group;
 }
 
 }  // namespace
@@ -58,7 +67,7 @@ ReferenceSessions reference_sessions(const std::filesystem::path& folder, const 
     ReferenceSessions experts{.are_experts = true};
     std::size_t expert_sessions = 0;
     try {
-        std::map<std::string, std::string> groups;
+        std::map<std::string, TraineeGroup> groups;
         if (const auto file = beside / groups_file_name; std::filesystem::exists(file))
             groups = trainee_groups(file);
         for (const auto& entry : std::filesystem::directory_iterator(beside)) {

@@ -1,5 +1,5 @@
-// Other sessions of the same case that a report's numbers are shown against: those whose reports lie in
-// folders beside its own.
+// Other sessions of the same case, begun alike (start_conditions.h), that a report's numbers are shown
+// against: those whose reports lie in folders beside its own.
 //
 // Of experts, where at least four sessions are of trainees that groups.csv beside them puts into the group
 // "expert"; else of all, where there are at least four. Read from their metrics.json; incomplete ones are

@@ -62,9 +62,6 @@ std::string report_html(const SessionTrace& trace, const SessionMetrics& metrics
         page_style);
     html += first_page(trace, metrics, rows, pictures, references);
     html += "<h2>Numbers</h2>" + metric_tables(rows, trace.session);
-    html +=
-        "<p class='about'>Share of time with the burr in view: not recorded. A recording holds no "
-        "camera.</p>";
     html += "<h2>Over time</h2>";
     for (const SvgPlot& plot : session_plots(trace)) html += to_svg(plot);
     html += events(trace) + "<h2>Pictures</h2>" + pictures_of(pictures) + settings(trace.session);

@@ -1,5 +1,7 @@
 #include "common/text/csv_cell.h"
 
+#include <algorithm>
+
 #include "common/text/plain_text.h"
 
 namespace osteomill {
@@ -22,6 +24,12 @@ std::string csv_cell(std::string_view text) {
     for (const char letter : cell) quoted.append(letter == '"' ? 2 : 1, letter);
     quoted += '"';
     return quoted;
+}
+
+std::string with_utf8_mark(std::string table) {
+    if (std::ranges::any_of(table, [](char letter) { return static_cast<unsigned char>(letter) >= 0x80; }))
+        table.insert(0, "\xef\xbb\xbf");
+    return table;
 }
 
 }  // namespace osteomill

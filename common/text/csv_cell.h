@@ -11,4 +11,8 @@ namespace osteomill {
 /// spreadsheets mark text. For texts alone: numbers go into a cell as they are.
 std::string csv_cell(std::string_view text);
 
+/// A table that holds more than ASCII begins with the mark of UTF-8: without it, Excel takes each letter for
+/// two. One of ASCII stays as it is.
+std::string with_utf8_mark(std::string table);
+
 }  // namespace osteomill

@@ -16,6 +16,7 @@
 #include "analysis/report/page_style.h"
 #include "analysis/report/session_metrics.h"
 #include "analysis/report/session_trace.h"
+#include "analysis/report/start_conditions.h"
 #include "analysis/report/trainee_groups.h"
 #include "common/files/input_file.h"
 #include "common/recording/packet_reader.h"
@@ -68,13 +69,19 @@ py::dict read_session(const std::filesystem::path& file) {
     record["case_name"] = printable(session.case_name.empty() ? session.scene_name : session.case_name);
     record["began_unix_ns"] = trace.began_unix_ns;
     record["metrics"] = metrics;
+    const StartConditions start = start_conditions(trace);
+    py::dict felt;
+    for (const auto& [name, value] : start.settings) felt[py::str(printable(name))] = printable(value);
+    record["bone_at_start"] = start.bone;
+    record["settings"] = felt;
     return record;
 }
 
 py::dict groups_of(const std::filesystem::path& file) {
     const auto groups = with_printable_error([&] { return trainee_groups(file); });
     py::dict printed;
-    for (const auto& [trainee, group] : groups) printed[py::str(printable(trainee))] = printable(group);
+    for (const auto& [trainee, found] : groups)
+        printed[py::str(printable(trainee))] = py::make_tuple(printable(found.group), found.line);
     return printed;
 }
 
@@ -100,10 +107,12 @@ void bind_sessions(py::module_& module) {
     module.def("local_time_text", &local_time_text, py::arg("unix_ns"),
                "By the clock of this machine; empty where the recording does not say.");
     module.def("trainee_groups", &groups_of, py::arg("file"),
-               "Of groups.csv: the group by the trainee's name.");
+               "Of groups.csv: the group, and the line that says so, by the trainee's name.");
     module.def("digest_of_recording", &digest_of_recording, py::arg("file"), "Of its bytes.");
-    module.def("read_session", &read_session, py::arg("file"),
-               "Whose a whole recording is, of what, when, and its metrics: key, of, value, unit, text.");
+    module.def(
+        "read_session", &read_session, py::arg("file"),
+        "Whose a whole recording is, of what, when, its metrics (key, of, value, unit, text), and what it "
+        "began with: the bone's digest and the settings that are felt.");
 }
 
 }  // namespace osteomill::python

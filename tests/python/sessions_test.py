@@ -18,6 +18,7 @@ from support import program, run_server
 
 from osteomill.studies.sessions import page, records, statistics
 from osteomill.studies.sessions.cases import HEADLINES, cases_of
+from osteomill.studies.sessions.curves import _look_of, learning_curves
 from osteomill.studies.sessions.database import SessionStore
 from osteomill.studies.sessions.records import Metric, SessionRecord
 from osteomill.studies.tables import csv_of
@@ -68,7 +69,7 @@ class StatisticsTest(unittest.TestCase):
         sessions = of_trainees("expert", (155.7, 162.3, 149.0, 171.2, 158.8)) + of_trainees(
             "student", (201.4, 188.9, 240.2, 195.0, 222.6, 210.7))
         rows = table_rows(page.overview(sessions, page.compared_groups(sessions, []), []).html)
-        self.assertEqual(rows[-1], ["time (s)", "lower is better", "6", "209.8 [189.8 to 229.8]", "155.7 to 162.3", "–", "–",
+        self.assertEqual(rows[-1], ["time (s)", "lower is better", "6", "209.8 [190.3 to 230.3]", "155.7 to 162.3", "–", "–",
                                     "159.4 (5)", "209.8 (6)", "-50.4 [-70.7 to -30.1]", "g -3.03", "< 0.001", "Welch"])
         with self.assertRaisesRegex(RuntimeError, 'no session is of a trainee in group "nobody"; take one of "expert", "student"'):
             page.compared_groups(sessions, ["expert", "nobody"])
@@ -85,6 +86,53 @@ class StatisticsTest(unittest.TestCase):
         self.assertAlmostEqual(trend.slope, line.slope, places=9)
         self.assertAlmostEqual(trend.p(), line.pvalue, places=12)
         self.assertIn(">trend</text>", page.overview(sessions, [], []).html)
+
+    def test_sessions_that_began_otherwise_are_apart(self):
+        def session(number, bone, **settings):
+            return SessionRecord(str(number), "", "Anna", "tooth", number, [Metric("time_s", "", 1.0, "s", "time")],
+                                 bone_at_start=bone, settings=settings)
+
+        sessions = [session(1, "whole", force_model="voxels"), session(2, "carved", force_model="voxels"),
+                    session(3, "whole", force_model="point-spring"), session(4, "whole", force_model="voxels"),
+                    session(5, "whole", force_model="voxels", vibration="true")]
+        found = {case.name: [(one.session.digest, one.number) for one in case.attempts] for case in cases_of(sessions)}
+        self.assertEqual(found, {"tooth": [("1", 1), ("4", 2)], "tooth (another bone at the start)": [("2", 1)],
+                                 "tooth (force model point-spring)": [("3", 1)], "tooth (vibration true)": [("5", 1)]})
+        table = page.sessions_table(sessions)
+        self.assertEqual(len(table[["case", "attempt"]].drop_duplicates()), 5)
+        self.assertIn("because these sessions began otherwise: force model point-spring", page.overview(sessions, [], []).html)
+
+    def test_intervals_stay_within_what_is_possible(self):
+        for values, possible in (([1.0, 2.0, 60.0], statistics.Possible.NOT_NEGATIVE), ([0.0, 0.0, 1.0], statistics.Possible.NOT_NEGATIVE),
+                                 ([0.9, 0.7, 1.0], statistics.Possible.SHARE), ([0.01, 0.99], statistics.Possible.SHARE),
+                                 ([1.0, 1.0], statistics.Possible.SHARE), ([0.0, 0.0], statistics.Possible.NOT_NEGATIVE)):
+            mean = statistics.mean_of(values, possible)
+            low, high = mean.interval
+            self.assertTrue(0.0 <= low <= mean.mean + 1e-9, (values, mean))
+            self.assertTrue(mean.mean - 1e-9 <= high <= (1.0 if possible is statistics.Possible.SHARE else math.inf), (values, mean))
+        near = statistics.mean_of([100.0, 101.0, 102.0], statistics.Possible.NOT_NEGATIVE).interval
+        plain = statistics.mean_of([100.0, 101.0, 102.0]).interval
+        self.assertLess(max(abs(a - b) for a, b in zip(near, plain)), 0.02)  # far from the bound it is Student's
+
+    def test_one_is_not_compared_with_three(self):
+        sessions = of_trainees("expert", (155.7,)) + of_trainees("student", (201.4, 188.9, 240.2))
+        row = table_rows(page.overview(sessions, page.compared_groups(sessions, []), []).html)[-1]
+        self.assertEqual(row[-6:], ["155.7 (1)", "210.2 (3)", "–", "–", "–", ""])
+
+    def test_an_opened_structure_is_named_with_its_volume(self):
+        sessions = of_trainees("", (1.0, 2.0))
+        sessions[0].metrics += [Metric("structure_dose_mm3", "pulp", 3.0, "mm^3", ""), Metric("structure_undone_mm3", "pulp", 0.27, "mm^3", ""),
+                                Metric("structure_dose_mm3", "nerve", 0.0, "mm^3", "")]
+        found = page.overview(sessions, [], []).html
+        self.assertIn("<td class='no'>pulp 3.27 mm³</td>", found)
+        self.assertIn("<td class='no'></td>", found)
+
+    def test_the_curves_tell_trainees_apart_and_hold_nothing_impossible(self):
+        case = cases_of(of_trainees("t", [20.0 + i for i in range(30)], attempts=2))[0]
+        looks = {tuple(sorted(_look_of(case, f"t{i}").items())) for i in range(30)}
+        self.assertEqual(len(looks), 30)
+        low = cases_of(of_trainees("a", [0.5, 90.0, 1.0], attempts=2))[0]
+        self.assertEqual(learning_curves(low)["time_s"].axes[0].get_ylim()[0], 0.0)
 
     def test_ranks_are_exact_with_ties_and_without(self):
         without = statistics.compare_ranks([1.0, 4.0, 6.0], [2.0, 3.0, 9.0, 10.0])
@@ -204,8 +252,27 @@ class ProgramTest(unittest.TestCase):
         self.assertIn(">novice (n)<", self.text("sessions.html"))
         groups.write_text("Anna\n")
         self.assertIn("groups.csv:1: a line is TRAINEE,GROUP", self.refusal("term"))
-        groups.write_bytes(b"Zo\xeb,novice\nAnna,expert\n")
-        self.study("term")
+
+    def test_names_each_line_of_the_groups_that_matches_nobody(self):
+        groups = self.folder / "term" / "groups.csv"
+        self.addCleanup(groups.unlink)
+        groups.write_bytes(b"trainee;group\r\nZo\xeb;novice\r\nAnna;expert\r\n")
+        done = self.study("term")
+        self.assertIn('groups.csv:2: no session is of "Zoë"', done.stderr)
+        self.assertIn("; groups: 1 expert", done.stdout)
+        self.assertIn("Anna (expert)", self.text("sessions.html"))
+        self.assertIn("groups.csv:2: no session is of", self.text("sessions.html"))
+        groups.write_text("Ana,expert\nAnna,expert,left-handed\n")
+        said = self.study("term").stderr
+        self.assertIn('groups.csv:1: no session is of "Ana"; is it "Anna"?', said)
+        self.assertIn('groups.csv:2: no session is of "Anna,expert"; a line is TRAINEE,GROUP: is it "Anna"?', said)
+
+    def test_a_table_with_more_than_ascii_says_that_it_is_utf8(self):
+        (self.folder / "umlaut").mkdir(exist_ok=True)
+        run_server(self.folder, "--scene", "cube", "--duration-s", "0.5", "--trainee", "Jürgen",
+                   "--record", str(self.folder / "umlaut" / "session.pcap"))
+        self.study("umlaut")
+        self.assertEqual((self.out / "out" / "sessions.csv").read_bytes()[:10], b"\xef\xbb\xbfsession")
 
     def test_says_in_one_line_what_is_wrong(self):
         self.assertIn("nowhere: there is no such recording or folder", self.refusal("nowhere"))
@@ -229,7 +296,8 @@ class ProgramTest(unittest.TestCase):
 class StoreTest(unittest.TestCase):
     def test_keeps_a_record_as_it_is(self):
         record = SessionRecord("d1", "a'b.pcap", "O'Neil; DROP TABLE session", "molar", 1_700_000_000_123_456_789,
-                               [Metric("time_s", "", 1.0 / 3.0, "s", "time"), Metric("nothing", "pulp", None, "", "")])
+                               [Metric("time_s", "", 1.0 / 3.0, "s", "time"), Metric("nothing", "pulp", None, "", "")],
+                               bone_at_start="0123", settings={"force_model": "voxels"})
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "s?#.sqlite")
             store = SessionStore(file, "1")

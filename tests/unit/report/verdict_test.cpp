@@ -35,7 +35,8 @@ TEST(VerdictTest, PassesWhatReachesEveryMark) {
 class Judged : public ::testing::Test {
   protected:
     /// A cube of 8 mm of which all above z = 3 goes, 64 of 512 mm^3, in `time_s`.
-    void report(const std::string& name, const std::string& trainee, double time_s, bool is_whole = true) {
+    void report(const std::string& name, const std::string& trainee, double time_s, bool is_whole = true,
+                const std::string& force_model = "voxels") {
         const Bone bone = testing::labelled_cube(1, 0.5, [](const glm::dvec3&) { return std::uint8_t{1}; });
         const auto file = folder_ / (name + ".pcap");
         testing::WrittenSession written(file,
@@ -44,7 +45,8 @@ class Judged : public ::testing::Test {
                                          .tissues = {{.label = 1, .name = "lesion"}},
                                          .plan = Plan{.region = TissueRegion{"lesion"}},
                                          .pass = {{"time_s", 60.0}, {"plan_removed_share", 0.1}},
-                                         .trainee = trainee},
+                                         .trainee = trainee,
+                                         .settings = {{"force_model", force_model}}},
                                         bone);
         written.frame({.time_s = 0.0});
         written.cut([](const glm::dvec3& place) { return place.z > 3.0; });
@@ -86,6 +88,9 @@ TEST_F(Judged, IsShownAgainstTheSessionsBesideIt) {
     EXPECT_THAT(page_, HasSubstr("others' middle half (4): 27.5 to 42.5 s"));
     report("again", "Anna", 50.0);
     EXPECT_THAT(page_, HasSubstr("others' middle half (4):")) << "it is no peer of its own";
+    for (int i = 0; i < 4; ++i) report("other" + std::to_string(i), "Bo", 90.0, true, "point-spring");
+    report("again", "Anna", 50.0);
+    EXPECT_THAT(page_, HasSubstr("others' middle half (4): 27.5")) << "what feels otherwise is no reference";
     std::ofstream(folder_ / "all/groups.csv") << "trainee,group\nEva,expert\nBo,student\n";
     for (int i = 0; i < 4; ++i) report("expert" + std::to_string(i), "Eva", 10.0 + i);
     report("own", "Anna", 50.0);
@@ -100,7 +105,9 @@ TEST(TraineeGroups, AreALineEach) {
     const auto file = folder / "groups.csv";
     const auto written = [&](const std::string& text) {
         std::ofstream(file) << text;
-        return trainee_groups(file);
+        std::map<std::string, std::string> groups;
+        for (const auto& [trainee, found] : trainee_groups(file)) groups[trainee] = found.group;
+        return groups;
     };
     const std::map<std::string, std::string> two{{"Anna, A.", "novice"}, {"Eva", "expert"}};
     EXPECT_EQ(written("trainee,group\nAnna, A.,novice\n\n Eva , expert \n"), two);
@@ -108,6 +115,11 @@ TEST(TraineeGroups, AreALineEach) {
     EXPECT_EQ(written("\xef\xbb\xbftrainee,group\r\n\"Anna, A.\",\"novice\"\r\nEva,expert\r\n"), two)
         << "as Excel writes it";
     EXPECT_EQ(written("Anna, A.;novice\nEva;expert\n"), two);
+    EXPECT_EQ(written("trainee,group\rAnna, A.,novice\rEva,expert\r"), two) << "as an old Mac ends lines";
+    const std::map<std::string, std::string> german{{"J\xc3\xbcrgen \xe2\x80\x93", "expert"}};
+    EXPECT_EQ(written("trainee;group\r\nJ\xfcrgen \x96;expert\r\n"), german) << "as German Excel saves a CSV";
+    std::ofstream(file) << "trainee,group\r\n\r\nEva,expert\r\n";
+    EXPECT_EQ(trainee_groups(file).at("Eva"), (TraineeGroup{"expert", 3}));
     const auto error_of = [&](const std::string& text) {
         try {
             (void)written(text);
@@ -117,6 +129,8 @@ TEST(TraineeGroups, AreALineEach) {
         return std::string();
     };
     EXPECT_THAT(error_of("Eva,expert\nAnna\n"), HasSubstr("groups.csv:2: a line is TRAINEE,GROUP"));
+    EXPECT_THAT(error_of("trainee,group,note\nEva,expert,left-handed\n"),
+                HasSubstr("groups.csv:1: has 3 columns"));
     EXPECT_THAT(error_of("Eva,\n"), HasSubstr("neither is empty"));
     EXPECT_THAT(error_of("Eva,expert\nEva,novice\n"), HasSubstr("\"Eva\" is in group \"expert\" already"));
 }

@@ -68,6 +68,26 @@ TEST(WriteReport, ItsTilesSayWhatItsTablesSay) {
     EXPECT_THAT(page, HasSubstr("<td class='n'>5.10</td><td class='u'>N</td>"));
 }
 
+TEST(WriteReport, SaysFirstWhatWasOpened) {
+    const testing::TemporaryFolder folder;
+    const Bone bone = testing::labelled_cube(1, 0.5, [](const glm::dvec3&) { return std::uint8_t{1}; });
+    testing::WrittenSession written(folder / "a.pcap",
+                                    {.scene_name = "cube",
+                                     .burrs = {Burr{}},
+                                     .tissues = {{.label = 1, .name = "pulp", .is_protected = true}}},
+                                    bone);
+    written.frame({.time_s = 0.0, .burr_position_mm = {50.0, 0.0, 0.0}});
+    written.cut([](const glm::dvec3& place) { return place.z > 3.0; });
+    written.frame({.time_s = 1.0, .burr_position_mm = {50.0, 0.0, 0.0}, .spindle_on = true});
+    written.finish();
+    EXPECT_EQ(write_report(folder / "a.pcap", folder / "report", [](double) {}), "");
+    const std::string page = testing::bytes_of(folder / "report/report.html");
+    const auto opened = page.find("<div class='verdict failed'><b>Opened: pulp</b>64 mm³ of it milled</div>");
+    ASSERT_NE(opened, std::string::npos);
+    EXPECT_LT(opened, page.find("No pass marks are set"));
+    EXPECT_THAT(page, HasSubstr("<div class='tile missed'><span>touches of protected structures"));
+}
+
 TEST(WriteReport, OfATornRecordingIsOfWhatCanBeRead) {
     const testing::TemporaryFolder folder;
     testing::make_recording(folder / "a.pcap");

@@ -28,5 +28,10 @@ TEST(CsvCell, IsTextWhereASpreadsheetWouldComputeIt) {
     EXPECT_EQ(csv_cell("=HYPERLINK(\"x\")"), "\"'=HYPERLINK(\"\"x\"\")\"");
 }
 
+TEST(Utf8Mark, IsWhereATableHoldsMoreThanAscii) {
+    EXPECT_EQ(with_utf8_mark("a,b\n"), "a,b\n");
+    EXPECT_EQ(with_utf8_mark("J\xc3\xbcrgen\n"), "\xef\xbb\xbfJ\xc3\xbcrgen\n");
+}
+
 }  // namespace
 }  // namespace osteomill

@@ -13,9 +13,9 @@ import pathlib
 import urllib.parse
 from typing import Any
 
-from osteomill import _studies
 from osteomill.studies.options import existing_file
 from osteomill.studies.sessions import records
+from osteomill.studies.sessions.groups import Groups, groups_text
 from osteomill.studies.sessions.records import SessionRecord
 from osteomill.studies.study_run import StudyRun
 from osteomill.studies.tables import csv_of
@@ -24,6 +24,7 @@ from osteomill.studies.text import holds_password, printable
 WRITES = ("sessions.*", "*.svg")
 IS_REPEATED = False  # it may write into a database
 CSV_DIGITS = 9
+UTF8_MARK = "\ufeff"  # without it, Excel takes each letter beyond ASCII for two
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -39,15 +40,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, study: StudyRun) -> None:
     files = records.recordings_in(options.places)
-    groups = _groups_of(options)
+    groups = Groups.of(options.groups or records.groups_file(options.places))
     sessions, skipped = _read(files, study)
-    for session in sessions:
-        session.group = groups.get(session.trainee, "")
+    nobodies = groups.assign(sessions)
+    for line in nobodies:
+        study.warn(line)
     if options.database:
         from osteomill.studies.sessions.database import add_to_database
 
         add_to_database(options.database, sessions)
-    _write(sessions, options.compare, skipped, study)
+    _write(sessions, options.compare, skipped, nobodies, study)
 
 
 def _read(files: list[pathlib.Path], study: StudyRun) -> tuple[list[SessionRecord], list[str]]:
@@ -93,21 +95,17 @@ def _read_one(store: str, case: dict[str, str]) -> dict[str, Any]:
     return dataclasses.asdict(kept) if kept else records.read(case["file"])
 
 
-def _write(sessions: list[SessionRecord], compare: list[str], skipped: list[str], study: StudyRun) -> None:
+def _write(sessions: list[SessionRecord], compare: list[str], skipped: list[str], nobodies: list[str], study: StudyRun) -> None:
     from osteomill.studies.sessions import page
 
-    study.text("sessions.csv", csv_of(page.sessions_table(sessions), CSV_DIGITS))
-    found = page.overview(sessions, page.compared_groups(sessions, compare), skipped)
+    table = csv_of(page.sessions_table(sessions), CSV_DIGITS)
+    study.text("sessions.csv", table if table.isascii() else UTF8_MARK + table)
+    found = page.overview(sessions, page.compared_groups(sessions, compare), skipped, nobodies)
     for name, svg in found.charts.items():
         study.text(name + ".svg", svg)
     study.text("sessions.html", found.html)
     left_out = f", {len(skipped)} left out," if skipped else ""
-    study.say(f"{len(sessions)} sessions{left_out} in {study.out / 'sessions.html'}")
-
-
-def _groups_of(options: argparse.Namespace) -> dict[str, str]:
-    file = options.groups or records.groups_file(options.places)
-    return _studies.trainee_groups(file) if file else {}
+    study.say(f"{len(sessions)} sessions{left_out} in {study.out / 'sessions.html'}{groups_text(sessions)}")
 
 
 def _report_address(recording: pathlib.Path, out: pathlib.Path) -> str:

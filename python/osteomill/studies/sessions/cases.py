@@ -2,12 +2,13 @@
 
 import dataclasses
 from collections.abc import Iterable
+from typing import Any
 
 import pandas as pd
 
 from osteomill import _studies
 from osteomill.studies.sessions.records import SessionRecord
-from osteomill.studies.sessions.statistics import Interval, middle_half
+from osteomill.studies.sessions.statistics import Interval, Possible, middle_half
 
 EXPERTS = "expert"  # the group that others are shown against
 
@@ -23,6 +24,12 @@ class Headline:
     better: str  # which is, in words; empty: neither
     is_count: bool  # compared by ranks, not by means
 
+    @property
+    def possible(self) -> Possible:
+        if self.key in ("stroke_smoothness_ldlj", "cutting_angle_mean_deg"):
+            return Possible.ANY
+        return Possible.SHARE if self.unit == "%" else Possible.NOT_NEGATIVE
+
     def number(self, value: float) -> str:
         return _studies.number_text(self.key, value)
 
@@ -36,18 +43,21 @@ HEADLINES = [Headline(*row) for row in _studies.headlines()]
 @dataclasses.dataclass(frozen=True)
 class Attempt:
     session: SessionRecord
-    number: int  # of the trainee's sessions of the case, from 1
+    number: int  # of the trainee's sessions of the case that began alike, from 1
 
 
 @dataclasses.dataclass(frozen=True)
 class Case:
+    """Sessions of a case that began alike; `apart`: in which way unlike most sessions of the case, empty: as most."""
+
     name: str
     attempts: list[Attempt]
+    apart: str = ""
 
     def learners(self) -> "Case":
         """Without the sessions of experts, whose level and trend are others; all where all are of experts."""
         some = [one for one in self.attempts if one.session.group != EXPERTS]
-        return Case(self.name, some or self.attempts)
+        return dataclasses.replace(self, attempts=some or self.attempts)
 
     def values(self, what: Headline) -> pd.DataFrame:
         """A row for each session that has a value: trainee, group, attempt, value, in the metric's own unit."""
@@ -80,10 +90,33 @@ class Case:
 
 
 def cases_of(sessions: Iterable[SessionRecord]) -> list[Case]:
-    """In the order in which the cases first come."""
-    cases: dict[str, Case] = {}
+    """In the order in which the cases first come; of one case those sessions first that began as most did."""
+    cases: dict[str, dict[Any, list[SessionRecord]]] = {}
     for session in sessions:
-        case = cases.setdefault(session.case_name, Case(session.case_name, []))
-        before = sum(one.session.trainee == session.trainee for one in case.attempts)
-        case.attempts.append(Attempt(session, before + 1))
-    return list(cases.values())
+        start = (session.bone_at_start, *sorted(session.settings.items()))
+        cases.setdefault(session.case_name, {}).setdefault(start, []).append(session)
+    found = []
+    for name, starts in cases.items():
+        by_number = sorted(starts.values(), key=len, reverse=True)
+        usual = by_number[0][0]
+        for alike in by_number:
+            apart = _apart(alike[0], usual)
+            found.append(Case(f"{name} ({apart})" if apart else name, _numbered(alike), apart))
+    return found
+
+
+def _numbered(sessions: list[SessionRecord]) -> list[Attempt]:
+    count: dict[str, int] = {}
+    attempts = []
+    for session in sessions:
+        count[session.trainee] = count.get(session.trainee, 0) + 1
+        attempts.append(Attempt(session, count[session.trainee]))
+    return attempts
+
+
+def _apart(one: SessionRecord, usual: SessionRecord) -> str:
+    ways = ["another bone at the start"] if one.bone_at_start != usual.bone_at_start else []
+    for name in sorted({*one.settings, *usual.settings}):
+        if (value := one.settings.get(name)) != usual.settings.get(name):
+            ways.append(f"{name.replace('_', ' ')} {value or 'none'}")
+    return ", ".join(ways)

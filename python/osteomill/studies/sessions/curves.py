@@ -8,10 +8,11 @@ from matplotlib.ticker import MaxNLocator
 
 from osteomill.studies import charts
 from osteomill.studies.sessions.cases import HEADLINES, Case, Headline
-from osteomill.studies.sessions.statistics import CusumDesign, PracticeTrend, practice_trend
+from osteomill.studies.sessions.statistics import CusumDesign, Possible, PracticeTrend, practice_trend
 
 MOST_IN_LEGEND = 20
 STEPS_PER_ATTEMPT = 8
+MARKERS = "osD^vPX*<>h"
 
 
 def learning_curves(case: Case) -> dict[str, Figure]:
@@ -27,7 +28,7 @@ def pass_chart(case: Case) -> Figure | None:
     design = CusumDesign()
     figure, axes = _empty("Passes and failures, cumulative sum (lower is better)", "failures beyond the rate")
     for trainee, has_passed in passes.items():
-        axes.plot(design.sums(has_passed), marker="o", label=_legend_text(trainee))
+        axes.plot(design.sums(has_passed), **_look_of(case, trainee), label=_legend_text(trainee))
     for level, text in ((design.level(), f"fails {100.0 * design.unacceptable_rate:.0f} % or more"),
                         (-design.level(), f"fails {100.0 * design.acceptable_rate:.0f} % or less")):
         axes.axhline(level, color=charts.GREY, linestyle="--", linewidth=1.0)
@@ -45,18 +46,27 @@ def _curve_of(case: Case, what: Headline) -> Figure:
         axes.fill_between([1, attempts], *(what.scale * end for end in band), color=charts.SKY, alpha=0.25,
                           linewidth=0, label="middle half of experts")
     for trainee, own in values.groupby("trainee"):
-        axes.plot(own["attempt"], what.scale * own["value"], marker="o", label=_legend_text(str(trainee)))
+        axes.plot(own["attempt"], what.scale * own["value"], **_look_of(case, str(trainee)), label=_legend_text(str(trainee)))
     if trend := practice_trend(case.learners().values(what)):
-        _add_trend(axes, trend, what.scale, attempts)
-    if (values["value"] >= 0.0).all():
+        _add_trend(axes, trend, what, attempts)
+    if what.possible is not Possible.ANY:
         axes.set_ylim(bottom=0.0)
+    if what.possible is Possible.SHARE:
+        axes.set_ylim(top=min(axes.get_ylim()[1], 1.05 * what.scale))
     _finish(axes, values["trainee"].nunique())
     return figure
 
 
-def _add_trend(axes: Any, trend: PracticeTrend, scale: float, attempts: int) -> None:
+def _look_of(case: Case, trainee: str) -> dict[str, Any]:
+    """The same in all charts of a case. The number of markers is prime to that of colours: 88 are told apart."""
+    place = sorted({one.session.trainee for one in case.attempts}).index(trainee)
+    return {"color": f"C{place % 8}", "marker": MARKERS[place % len(MARKERS)]}
+
+
+def _add_trend(axes: Any, trend: PracticeTrend, what: Headline, attempts: int) -> None:
+    scale = what.scale
     at = np.linspace(1.0, attempts, STEPS_PER_ATTEMPT * (attempts - 1) + 1)
-    low, high = zip(*(trend.interval_at(attempt) for attempt in at))
+    low, high = zip(*(trend.interval_at(attempt, what.possible) for attempt in at))
     axes.fill_between(at, scale * np.array(low), scale * np.array(high), color=charts.GREY, alpha=0.25, linewidth=0)
     axes.plot(at, [scale * trend.at(attempt) for attempt in at], color=charts.BLACK, linewidth=2.5, label="trend")
 

@@ -2,9 +2,11 @@
 
     session(digest, file, trainee, case_name, began_unix_ns)
     metric(digest, place, key, of, value, unit, text)
+    start(digest, bone, settings)
 """
 
 import contextlib
+import json
 import os
 import pathlib
 from collections.abc import Iterable, Iterator
@@ -34,6 +36,12 @@ _METRIC = sa.Table(
     sa.Column("value", sa.Float(53)),
     sa.Column("unit", sa.Text, nullable=False),
     sa.Column("text", sa.Text, nullable=False),
+)
+_START = sa.Table(  # apart from the session: databases of earlier versions have that table already
+    "start", _TABLES,
+    sa.Column("digest", sa.Text, sa.ForeignKey("session.digest", ondelete="CASCADE"), primary_key=True),
+    sa.Column("bone", sa.Text, nullable=False),
+    sa.Column("settings", sa.Text, nullable=False),  # JSON
 )
 _MADE_BY = sa.Table("made_by", sa.MetaData(), sa.Column("version", sa.Text, primary_key=True))
 
@@ -81,16 +89,19 @@ class SessionStore:
         """What is kept of the recording with this digest."""
         with self._errors_named(), self._engine.connect() as connection:
             session = connection.execute(_SESSION.select().where(_SESSION.c.digest == digest)).first()
-            if session is None:
+            start = connection.execute(_START.select().where(_START.c.digest == digest)).first()
+            if session is None or start is None:
                 return None
             rows = connection.execute(_METRIC.select().where(_METRIC.c.digest == digest).order_by(_METRIC.c.place))
             metrics = [Metric(row["key"], row["of"], row["value"], row["unit"], row["text"]) for row in rows.mappings()]
-            return SessionRecord(digest, session.file, session.trainee, session.case_name, session.began_unix_ns, metrics)
+            return SessionRecord(digest, session.file, session.trainee, session.case_name, session.began_unix_ns, metrics,
+                                 bone_at_start=start.bone, settings=json.loads(start.settings))
 
     def keep(self, record: SessionRecord) -> None:
         """Replaces what is kept of it."""
         with self._errors_named(), self._engine.begin() as connection:
-            connection.execute(_METRIC.delete().where(_METRIC.c.digest == record.digest))
+            for table in (_METRIC, _START):  # SQLite does not cascade by itself
+                connection.execute(table.delete().where(table.c.digest == record.digest))
             _replace(connection, record)
 
     def _is_of(self, version: str) -> bool:
@@ -104,6 +115,7 @@ class SessionStore:
                 # A file of that name may have tables of these names and other columns.
                 connection.execute(_SESSION.select().limit(1)).all()
                 connection.execute(_METRIC.select().limit(1)).all()
+                connection.execute(_START.select().limit(1)).all()
                 return made_by in (None, version)
         except sa.exc.SQLAlchemyError:
             return False
@@ -151,6 +163,8 @@ def _replace(connection: Any, session: SessionRecord) -> None:
     connection.execute(_SESSION.insert().values(
         digest=session.digest, file=session.file, trainee=session.trainee, case_name=session.case_name,
         began_unix_ns=session.began_unix_ns))
+    connection.execute(_START.insert().values(
+        digest=session.digest, bone=session.bone_at_start, settings=json.dumps(session.settings, sort_keys=True)))
     rows = [
         {"digest": session.digest, "place": place, "key": metric.key, "of": metric.of, "value": metric.value,
          "unit": metric.unit, "text": metric.text}

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import pathlib
+from collections.abc import Sequence
 from typing import Any
 
 import jinja2
@@ -15,6 +16,7 @@ from osteomill.studies.sessions.cases import HEADLINES, Attempt, Case, Headline,
 from osteomill.studies.sessions.curves import learning_curves, pass_chart
 from osteomill.studies.sessions.records import SessionRecord
 from osteomill.studies.sessions.statistics import (
+    FEWEST_COMPARED,
     Interval,
     compare_means,
     compare_ranks,
@@ -27,9 +29,9 @@ NONE = "–"
 
 def sessions_table(sessions: list[SessionRecord]) -> pd.DataFrame:
     """A row a session and metric; `attempt` counts a trainee's sessions of a case, in the order of `sessions`."""
-    number = {id(one.session): one.number for case in cases_of(sessions) for one in case.attempts}
+    place = {id(one.session): (case.name, one.number) for case in cases_of(sessions) for one in case.attempts}
     rows = [
-        (session.file, session.trainee, session.case_name, number[id(session)],
+        (session.file, session.trainee, *place[id(session)],
          int(session.began_unix_ns / 1_000_000_000), metric.key, metric.of, metric.value, metric.unit)
         for session in sessions
         for metric in session.metrics
@@ -59,8 +61,8 @@ class Overview:
     charts: dict[str, str]
 
 
-def overview(sessions: list[SessionRecord], compared: list[str], skipped: list[str]) -> Overview:
-    """`sessions` in the order of their start; `skipped`: what was left out and why."""
+def overview(sessions: list[SessionRecord], compared: list[str], skipped: list[str], nobodies: Sequence[str] = ()) -> Overview:
+    """`sessions` in the order of their start; `skipped`: what was left out and why; `nobodies`: lines of groups.csv."""
     files: dict[str, str] = {}
     shown = []
     for number, case in enumerate(cases_of(sessions), 1):
@@ -69,6 +71,8 @@ def overview(sessions: list[SessionRecord], compared: list[str], skipped: list[s
         passes = pass_chart(case)
         shown.append({
             "name": case.name,
+            "apart": case.apart,
+            "is_opened": any(one.session.opened() for one in case.attempts),
             "columns": [what.heading() for what in _columns(case)],
             "is_judged": bool(case.passes()),
             "sessions": [_session_row(case, one) for one in sorted(case.attempts, key=lambda one: one.session.trainee)],
@@ -80,7 +84,7 @@ def overview(sessions: list[SessionRecord], compared: list[str], skipped: list[s
         loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True, trim_blocks=True,
         lstrip_blocks=True, undefined=jinja2.StrictUndefined,
     ).get_template("page.html.jinja")
-    html = page.render(style=Markup(_studies.PAGE_STYLE), count=len(sessions), skipped=skipped, cases=shown, compared=compared)
+    html = page.render(style=Markup(_studies.PAGE_STYLE), count=len(sessions), skipped=skipped, nobodies=nobodies, cases=shown, compared=compared)
     return Overview(html + "\n", files)
 
 
@@ -98,6 +102,7 @@ def _session_row(case: Case, attempt: Attempt) -> dict[str, Any]:
         "began": _studies.local_time_text(session.began_unix_ns),
         "report": session.report,
         "passed": session.value("passed"),
+        "opened": ", ".join(f"{one.of} {_studies.number_text(one.key, one.value or 0.0)} mm³" for one in session.opened()),
         "values": [NONE if value is None else what.number(value) for what, value in values],
     }
 
@@ -113,7 +118,7 @@ def _statistics_row(case: Case, what: Headline, compared: list[str]) -> dict[str
 
 
 def _mean_cells(case: Case, what: Headline) -> list[str]:
-    mean = mean_of(case.learners().trainee_means(what))
+    mean = mean_of(case.learners().trainee_means(what), what.possible)
     if mean is None:
         return ["0", NONE]
     return [str(mean.n), _with_interval(what, mean.mean, mean.interval) if mean.interval else what.number(mean.mean)]
@@ -126,13 +131,16 @@ def _trend_cells(case: Case, what: Headline) -> list[str]:
         return [NONE, NONE]
     low, high = trend.slope_interval()
     doubling = math.log(2.0)
-    return [_with_interval(what, doubling * trend.slope, (doubling * low, doubling * high)), _p_text(trend.p())]
+    interval = what.possible.difference((doubling * low, doubling * high))
+    return [_with_interval(what, doubling * trend.slope, interval), _p_text(trend.p())]
 
 
 def _comparison_cells(case: Case, what: Headline, compared: list[str]) -> list[str]:
     """Both means, the difference, the effect size, p, and the name of the test."""
     first, second = (case.trainee_means(what, group) for group in compared)
     means = [f"{what.number(mean.mean)} ({mean.n})" if (mean := mean_of(group)) else NONE for group in (first, second)]
+    if min(len(first), len(second)) < FEWEST_COMPARED:
+        return [*means, NONE, NONE, NONE, ""]
     if what.is_count:
         ranks = compare_ranks(first, second)
         if ranks is None:
@@ -141,7 +149,7 @@ def _comparison_cells(case: Case, what: Headline, compared: list[str]) -> list[s
     welch = compare_means(first, second)
     if welch is None:
         return [*means, NONE, NONE, NONE, ""]
-    return [*means, _with_interval(what, welch.difference, welch.interval), f"g {welch.hedges_g:.2f}", _p_text(welch.p), "Welch"]
+    return [*means, _with_interval(what, welch.difference, what.possible.difference(welch.interval)), f"g {welch.hedges_g:.2f}", _p_text(welch.p), "Welch"]
 
 
 def _interval_text(what: Headline, interval: Interval) -> str:

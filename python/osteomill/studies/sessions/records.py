@@ -36,11 +36,22 @@ class SessionRecord:
     # Of the study, not of the recording.
     group: str = ""  # of the trainee; empty: none
     report: str = ""  # address of its report from the overview; empty: there is none
+    # What it began with: only sessions that began alike are attempts at one task.
+    bone_at_start: str = ""  # a digest
+    settings: dict[str, str] = dataclasses.field(default_factory=dict)  # those that a trainee feels
 
     def value(self, key: str) -> float | None:
         """Of a metric, added up over tissues, burrs or structures; None where none has a value."""
         values = [metric.value for metric in self.metrics if metric.key == key and metric.value is not None]
         return sum(values) if values else None
+
+    def opened(self) -> list[Metric]:
+        """Protected structures that lost bone, given back or not: of each the volume."""
+        volume_mm3: dict[str, float] = {}
+        for metric in self.metrics:
+            if metric.key in ("structure_dose_mm3", "structure_undone_mm3") and metric.value:
+                volume_mm3[metric.of] = volume_mm3.get(metric.of, 0.0) + metric.value
+        return [Metric("structure_dose_mm3", of, mm3, "mm^3", "") for of, mm3 in volume_mm3.items()]
 
 
 def recordings_in(places: Iterable[pathlib.Path]) -> list[pathlib.Path]:
@@ -88,7 +99,8 @@ def read(file: str) -> dict[str, Any]:
 def record_of(digest: str, file: str, found: dict[str, Any]) -> SessionRecord:
     """Of what `read` found."""
     metrics = [Metric(**row) if isinstance(row, dict) else Metric(*row) for row in found["metrics"]]
-    return SessionRecord(digest, file, found["trainee"], found["case_name"], found["began_unix_ns"], metrics)
+    return SessionRecord(digest, file, found["trainee"], found["case_name"], found["began_unix_ns"], metrics,
+                         bone_at_start=found["bone_at_start"], settings=found["settings"])
 
 
 def has_entry(path: pathlib.Path) -> bool:

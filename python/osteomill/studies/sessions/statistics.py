@@ -4,6 +4,7 @@ Intervals are of 95 %.
 """
 
 import dataclasses
+import enum
 import math
 from collections.abc import Sequence
 
@@ -14,9 +15,42 @@ import scipy.stats
 
 CONFIDENCE = 0.95
 FEWEST_REFERENCES = 4
+FEWEST_COMPARED = 3  # of each group: fewer say nothing of others
 MOST_RANKED = 200
 
 Interval = tuple[float, float]
+
+
+class Possible(enum.Enum):
+    """Which values a metric can have."""
+
+    ANY = enum.auto()
+    NOT_NEGATIVE = enum.auto()
+    SHARE = enum.auto()  # from 0 to 1
+
+    def interval(self, mean: float, half: float) -> Interval:
+        """Student's interval mean -+ half, carried to a scale on which nothing impossible lies, and back.
+
+        The scale is the square root, for shares its arcsine; to first order (the delta method) both stretch `half` by
+        their slope at the mean.
+        """
+        if self is Possible.NOT_NEGATIVE and mean > 0.0:
+            middle, half = math.sqrt(mean), half / (2.0 * math.sqrt(mean))
+            return max(0.0, middle - half) ** 2, (middle + half) ** 2
+        if self is Possible.SHARE and 0.0 < mean < 1.0:
+            middle, half = math.asin(math.sqrt(mean)), half / (2.0 * math.sqrt(mean * (1.0 - mean)))
+            return math.sin(max(0.0, middle - half)) ** 2, math.sin(min(0.5 * math.pi, middle + half)) ** 2
+        return self.cut((mean - half, mean + half))
+
+    def cut(self, interval: Interval) -> Interval:
+        low = -math.inf if self is Possible.ANY else 0.0
+        high = 1.0 if self is Possible.SHARE else math.inf
+        return min(max(interval[0], low), high), min(max(interval[1], low), high)
+
+    def difference(self, interval: Interval) -> Interval:
+        """Of two such values: two shares are never more than 1 apart."""
+        most = 1.0 if self is Possible.SHARE else math.inf
+        return max(interval[0], -most), min(interval[1], most)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -28,7 +62,7 @@ class Mean:
     interval: Interval | None
 
 
-def mean_of(values: Sequence[float]) -> Mean | None:
+def mean_of(values: Sequence[float], possible: Possible = Possible.ANY) -> Mean | None:
     """None where there are no values."""
     n = len(values)
     if n == 0:
@@ -37,7 +71,7 @@ def mean_of(values: Sequence[float]) -> Mean | None:
     if n == 1:
         return Mean(1, mean, None)
     half = _errors(n - 1.0) * float(np.std(values, ddof=1)) / math.sqrt(n)
-    return Mean(n, mean, (mean - half, mean + half))
+    return Mean(n, mean, possible.interval(mean, half))
 
 
 def middle_half(values: Sequence[float]) -> Interval | None:
@@ -77,10 +111,10 @@ class PracticeTrend:
     def at(self, attempt: float) -> float:
         return self.mean_value + self.slope * (math.log(attempt) - self.mean_log)
 
-    def interval_at(self, attempt: float) -> Interval:
+    def interval_at(self, attempt: float, possible: Possible = Possible.ANY) -> Interval:
         off = math.log(attempt) - self.mean_log
         half = _errors(self.degrees) * math.sqrt(self.variance * (1.0 / self.n + off * off / self.spread))
-        return self.at(attempt) - half, self.at(attempt) + half
+        return possible.interval(self.at(attempt), half)
 
 
 def practice_trend(values: pd.DataFrame) -> PracticeTrend | None:

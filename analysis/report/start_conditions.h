@@ -1,0 +1,24 @@
+// What a session began with, as far as a trainee feels it: only sessions that began alike are attempts at the
+// same task, and only they are shown against each other.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "analysis/report/session_trace.h"
+
+namespace osteomill {
+
+struct StartConditions {
+    std::string bone;                             ///< digest of what was there, of which tissue and how hard
+    std::map<std::string, std::string> settings;  ///< those that are felt; what is off is left out
+
+    bool operator==(const StartConditions&) const = default;
+};
+
+/// Those of a session's settings that a trainee feels.
+std::map<std::string, std::string> felt_settings(const std::map<std::string, std::string>& settings);
+
+StartConditions start_conditions(const SessionTrace& trace);
+
+}  // namespace osteomill

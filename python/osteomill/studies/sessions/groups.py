@@ -1,0 +1,57 @@
+"""A teacher's groups.csv, held against the trainees who have sessions."""
+
+import dataclasses
+import difflib
+import pathlib
+import unicodedata
+from collections import Counter
+
+from osteomill import _studies
+from osteomill.studies.sessions.records import SessionRecord
+from osteomill.studies.text import printable
+
+
+@dataclasses.dataclass(frozen=True)
+class Groups:
+    """The group and the line that says so, by the trainee's name."""
+
+    file: pathlib.Path | None
+    of_trainee: dict[str, tuple[str, int]]
+
+    @classmethod
+    def of(cls, file: pathlib.Path | None) -> "Groups":
+        return cls(file, _studies.trainee_groups(file) if file else {})
+
+    def assign(self, sessions: list[SessionRecord]) -> list[str]:
+        """Says each session's group; returns a line for each line of the file that matches nobody.
+
+        Names that only differ in how a letter and its dots are put together are the same.
+        """
+        trainees = {_composed(session.trainee): session.trainee for session in sessions}
+        groups = {_composed(name): group for name, (group, _) in self.of_trainee.items()}
+        for session in sessions:
+            session.group = groups.get(_composed(session.trainee), "")
+        return [
+            f'{printable(str(self.file))}:{line}: no session is of "{name}"{_advice(name, list(trainees.values()))}'
+            for name, (_, line) in sorted(self.of_trainee.items(), key=lambda item: item[1][1])
+            if _composed(name) not in trainees
+        ]
+
+
+def groups_text(sessions: list[SessionRecord]) -> str:
+    """How many trainees are in which group; empty where nobody is in one."""
+    group_of = {session.trainee: session.group for session in sessions}
+    count = Counter(group for group in group_of.values() if group)
+    return "; groups: " + ", ".join(f"{number} {group}" for group, number in sorted(count.items())) if count else ""
+
+
+def _composed(name: str) -> str:
+    return unicodedata.normalize("NFC", name)
+
+
+def _advice(name: str, trainees: list[str]) -> str:
+    first = name.split(",")[0].strip()
+    if first in trainees:
+        return f'; a line is TRAINEE,GROUP: is it "{first}"?'
+    likely = difflib.get_close_matches(name, trainees, n=1)
+    return f'; is it "{likely[0]}"?' if likely else ""
