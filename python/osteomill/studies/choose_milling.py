@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 
 from osteomill import Burr, Case, Session, _studies
+from osteomill.studies.stability_points import METHODS
 from osteomill.studies.studied_motions import LATTICE_SHIFTS, StudiedMotion, error_and_ripple, motions_of, run_motion
 
 TICKS_HZ = 1000.0
@@ -68,7 +69,7 @@ class Errors:
 
 def ways(quick: bool) -> list[Way]:
     """All that are tried."""
-    couplings = QUICK_COUPLINGS if quick else tuple(_studies.map_methods())
+    couplings = QUICK_COUPLINGS if quick else METHODS
     models = tuple(MODELS)[:2] if quick else tuple(MODELS)
     return [Way(*chosen) for chosen in itertools.product(QUICK_VOXELS_MM if quick else VOXELS_MM,
                                                          QUICK_RATES_HZ if quick else RATES_HZ, models, couplings)]
