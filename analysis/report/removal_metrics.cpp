@@ -36,8 +36,9 @@ RemovalMetrics removal_metrics(const SessionTrace& trace, std::span<const Stroke
                 {tissue_name(trace.session, static_cast<std::uint8_t>(label)), trace.mm3(left_out[label])});
     std::map<std::size_t, std::int64_t> by_burr;
     for (const Stroke& stroke : strokes)
-        for (const auto& [burr, levels] : stroke.levels_by_burr)
-            by_burr[burr] += stroke.is_undone ? 0 : levels;
+        for (const Stroke::Slice& slice : stroke.slices)
+            for (const auto& [burr, levels] : slice.levels_by_burr)
+                by_burr[burr] += slice.is_undone ? 0 : levels;
     for (const auto& [burr, levels] : by_burr)
         metrics.by_burr.push_back({trace.session.burrs[burr].name, trace.mm3(levels)});
     return metrics;

@@ -8,6 +8,7 @@
 
 #include "analysis/report/smoothness.h"
 #include "common/scene/stroke_span.h"
+#include "common/scene/undo_slice.h"
 #include "common/statistics/percentile.h"
 
 namespace osteomill {
@@ -16,13 +17,13 @@ namespace {
 
 constexpr double shortest_smooth_s = 0.5;
 
-/// Who was undone, as the server's journal of strokes keeps it.
-class UndoneStrokes {
+/// What was undone, as the server's journal keeps it.
+class UndoneSlices {
   public:
-    explicit UndoneStrokes(std::vector<Stroke>& strokes) : strokes_(strokes) {}
+    explicit UndoneSlices(std::vector<Stroke>& strokes) : strokes_(strokes) {}
 
-    void take(std::size_t stroke) {
-        done_.push_back(stroke);
+    void take(std::size_t stroke, std::size_t slice) {
+        done_.push_back({stroke, slice});
         undone_.clear();
     }
     void act(SessionAction action) {
@@ -33,16 +34,19 @@ class UndoneStrokes {
     }
 
   private:
-    void move(std::vector<std::size_t>& from, std::vector<std::size_t>& to, bool is_undone) {
+    struct Place {
+        std::size_t stroke, slice;
+    };
+    void move(std::vector<Place>& from, std::vector<Place>& to, bool is_undone) {
         if (from.empty()) return;  // of a stroke before the recording began
         to.push_back(from.back());
         from.pop_back();
-        strokes_[to.back()].is_undone = is_undone;
+        strokes_[to.back().stroke].slices[to.back().slice].is_undone = is_undone;
     }
 
     std::vector<Stroke>& strokes_;
-    std::vector<std::size_t> done_;
-    std::vector<std::size_t> undone_;
+    std::vector<Place> done_;
+    std::vector<Place> undone_;
 };
 
 std::optional<double> variation(const std::vector<double>& values) {
@@ -59,19 +63,25 @@ std::optional<double> variation(const std::vector<double>& values) {
 
 std::vector<Stroke> strokes_of(const SessionTrace& trace) {
     std::vector<Stroke> strokes;
-    UndoneStrokes undone(strokes);
+    UndoneSlices undone(strokes);
     StrokeSpan span;
+    UndoSlice slice;
+    bool is_slice_open = false;
     Stroke so_far;  // with what may turn out to be air behind the last touch
     std::vector<TimedPosition> hand;
     std::size_t touched_hand = 0;  // so many of these are the stroke's
     bool is_open = false;
     auto event = trace.events.begin();
+    const auto end_slice = [&] {
+        if (std::exchange(is_slice_open, false))
+            undone.take(strokes.size() - 1, strokes.back().slices.size() - 1);
+    };
     const auto close = [&] {
+        end_slice();
         if (!std::exchange(is_open, false)) return;
         Stroke& stroke = strokes.back();
         hand.resize(touched_hand);
         if (stroke.duration_s >= shortest_smooth_s) stroke.smoothness = log_dimensionless_jerk(hand);
-        if (stroke.took_bone()) undone.take(strokes.size() - 1);
     };
     const auto& samples = trace.samples;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -92,11 +102,15 @@ std::vector<Stroke> strokes_of(const SessionTrace& trace) {
             so_far.force_n_s += now.force_n * trace.dt_s(i);
             hand.push_back({now.time_s, now.hand_mm});
         }
-        if (cuts) so_far.levels_by_burr[now.burr] += now.milled();
+        if (cuts) {
+            if (!std::exchange(is_slice_open, true)) so_far.slices.emplace_back();
+            so_far.slices.back().levels_by_burr[now.burr] += now.milled();
+        }
         if (span.touches()) {
             strokes.back() = so_far;
             touched_hand = hand.size();
         }
+        if (slice.ends(now.time_s, goes_on, cuts)) end_slice();
         for (; event != trace.events.end() && event->time_s <= now.time_s; ++event)
             if (!event->is_refused) {
                 if (event->action == SessionAction::undo || event->action == SessionAction::reset) close();
@@ -115,7 +129,7 @@ StrokeMetrics stroke_metrics(const std::vector<Stroke>& strokes) {
     std::vector<double> lengths_mm;
     std::vector<double> forces_n;
     for (const Stroke& stroke : strokes) {
-        metrics.undone += stroke.is_undone ? 1 : 0;
+        metrics.undone += stroke.is_undone() ? 1 : 0;
         metrics.mean_duration_s += stroke.duration_s;
         metrics.mean_length_mm += stroke.length_mm;
         metrics.longest_s = std::max(metrics.longest_s, stroke.duration_s);

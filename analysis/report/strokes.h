@@ -1,9 +1,10 @@
 // The strokes of a session, and which of them were undone.
 //
-// A stroke is what undo takes back (common/scene/stroke_span.h). It is measured from the first touch of the
-// turning burr to the last: what follows in air is none of it.
+// Undo takes a stroke (common/scene/stroke_span.h) back slice by slice (undo_slice.h). It is measured from
+// the first touch of the turning burr to the last: what follows in air is none of it.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <vector>
@@ -18,10 +19,15 @@ struct Stroke {
     double length_mm = 0.0;   ///< of the burr's path in that time
     double force_n_s = 0.0;   ///< integral of the force on the hand over it
     std::optional<double> smoothness{};
-    std::map<std::size_t, std::int64_t> levels_by_burr{};  ///< that it took
-    bool is_undone = false;
+    /// Of those that took bone.
+    struct Slice {
+        std::map<std::size_t, std::int64_t> levels_by_burr{};
+        bool is_undone = false;
+    };
+    std::vector<Slice> slices{};
 
-    bool took_bone() const { return !levels_by_burr.empty(); }
+    /// Nothing is left of what it took.
+    bool is_undone() const { return !slices.empty() && std::ranges::all_of(slices, &Slice::is_undone); }
 };
 
 std::vector<Stroke> strokes_of(const SessionTrace& trace);

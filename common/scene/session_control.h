@@ -14,9 +14,9 @@ enum class SessionAction : std::uint8_t {
     mark,    ///< this moment, with a note
     pause,   ///< force and spindle off
     resume,  ///< the force comes back once the burr is clear of bone
-    undo,    ///< the last stroke that took bone (stroke_span.h); one under way ends with it
-    redo,    ///< the stroke undone last
-    reset,   ///< undoes all strokes; each can be redone
+    undo,    ///< the last slice of a stroke (undo_slice.h); one under way ends with it
+    redo,    ///< the slice undone last
+    reset,   ///< undoes all slices; each can be redone
     save,    ///< the bone as it is, or its surface
     finish,  ///< ends the session, everything saved
     place,   ///< the tool somewhere else: the patient is moved and turned under the device
@@ -51,14 +51,14 @@ inline bool is_spindle_speed(double rpm) {
 struct ControlEvent {
     double time_s = 0.0;  ///< session time
     SessionAction action = SessionAction::none;
-    std::string text{};  ///< a mark's note; where the tool was placed; why it was refused
+    std::string text{};  ///< a mark's note; the tool's place; what undo gave back; why it was refused
     bool is_refused = false;
 
     bool operator==(const ControlEvent&) const = default;
 };
 
 struct SessionStatus {
-    std::uint32_t undo_steps = 0;  ///< strokes that can be undone
+    std::uint32_t undo_steps = 0;  ///< slices that can be undone
     std::uint32_t redo_steps = 0;
     bool is_paused = false;
     bool may_control = false;  ///< this client's controls are taken now

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -37,8 +38,9 @@ void SessionControls::note(const BrickChange& change, const Bone& bone) {
 
 void SessionControls::end_frame(const Bone& bone, const ToolState& tool) {
     time_s_ = tool.time_s;
-    if (!stroke_.goes_on(tool.time_s, tool.spindle_on, has_changes_, tool.force_n != glm::dvec3(0.0)))
-        journal_.end_stroke();
+    const bool goes_on =
+        stroke_.goes_on(tool.time_s, tool.spindle_on, has_changes_, tool.force_n != glm::dvec3(0.0));
+    if (slice_.ends(tool.time_s, goes_on, has_changes_)) journal_.end_stroke();
     if (requests_.save_news)
         for (std::string& line : requests_.save_news()) say({.action = SessionAction::save}, std::move(line));
     queue_restored();
@@ -108,14 +110,13 @@ std::string SessionControls::restore(SessionAction action, const Bone& bone, con
         say({action}, redoes ? "nothing was undone" : "nothing was milled");
         return {};
     }
+    std::int64_t levels = 0;
     do {
-        if (redoes)
-            journal_.redo(bone, restoration_);
-        else
-            journal_.undo(bone, restoration_);
+        levels += redoes ? journal_.redo(bone, restoration_) : journal_.undo(bone, restoration_);
     } while (action == SessionAction::reset && steps() > 0);
     may_be_in_bone_ = true;
-    say({action});
+    const double mm3 = static_cast<double>(levels) / 255.0 * voxel_volume_mm3(bone.grid());
+    say({.action = action, .text = fmt::format("{:.2f} mm³", std::abs(mm3))});
     return {};
 }
 

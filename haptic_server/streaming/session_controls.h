@@ -1,6 +1,6 @@
-// Controls of a session by its operator: pause, undo and redo by strokes, marks, the speed of the spindle,
-// saving, the end. They run on the streaming thread, whose own copy of the bone shows everything that was
-// milled.
+// Controls of a session by its operator: pause, undo and redo by slices of strokes, marks, the speed of the
+// spindle, saving, the end. They run on the streaming thread, whose own copy of the bone shows everything
+// that was milled.
 //
 // Undo takes the path of milling in reverse: the fractions in the journal are queued for the milling loop,
 // which writes them into its bone while the spindle is off; they return as changes that restore, for the copy
@@ -21,6 +21,7 @@
 #include "common/scene/session_control.h"
 #include "common/scene/stroke_span.h"
 #include "common/scene/tool_state.h"
+#include "common/scene/undo_slice.h"
 #include "common/wire/bone_replica.h"
 #include "haptic_server/streaming/stroke_journal.h"
 #include "simulation/exchange/change_queue.h"
@@ -98,6 +99,7 @@ class SessionControls {
     Requests requests_;
     StrokeJournal journal_;
     StrokeSpan stroke_;
+    UndoSlice slice_;
 
     std::deque<Waiting> waiting_;
     std::vector<ControlEvent> events_;

@@ -33,12 +33,12 @@ void StrokeJournal::end_stroke() {
     done_.push_back(pack(bricks));
 }
 
-void StrokeJournal::undo(const Bone& bone, Restoration& restoration) {
-    move(done_, undone_, bone, restoration);
+std::int64_t StrokeJournal::undo(const Bone& bone, Restoration& restoration) {
+    return move(done_, undone_, bone, restoration);
 }
 
-void StrokeJournal::redo(const Bone& bone, Restoration& restoration) {
-    move(undone_, done_, bone, restoration);
+std::int64_t StrokeJournal::redo(const Bone& bone, Restoration& restoration) {
+    return move(undone_, done_, bone, restoration);
 }
 
 std::size_t StrokeJournal::memory_bytes() const {
@@ -48,12 +48,13 @@ std::size_t StrokeJournal::memory_bytes() const {
     return bytes;
 }
 
-void StrokeJournal::move(std::vector<Stroke>& from, std::vector<Stroke>& to, const Bone& bone,
-                         Restoration& restoration) {
+std::int64_t StrokeJournal::move(std::vector<Stroke>& from, std::vector<Stroke>& to, const Bone& bone,
+                                 Restoration& restoration) {
     if (from.empty() || has_open_stroke())
         throw std::logic_error("there is no stroke to restore, or one is under way");
     std::vector<Restored> stroke = unpack(from.back());
     from.pop_back();
+    std::int64_t levels = 0;
     for (Restored& brick : stroke) {
         const auto [found, is_new] = restoration.try_emplace(brick.change.brick);
         Restored& all = found->second;
@@ -65,10 +66,13 @@ void StrokeJournal::move(std::vector<Stroke>& from, std::vector<Stroke>& to, con
         const VoxelMask only_in_bone = brick.change.voxels.without(all.change.voxels);
         only_in_bone.for_each([&](std::size_t voxel) { all.fractions[voxel] = now[voxel]; });
         all.change.voxels |= only_in_bone;
-        brick.change.voxels.for_each(
-            [&](std::size_t voxel) { std::swap(brick.fractions[voxel], all.fractions[voxel]); });
+        brick.change.voxels.for_each([&](std::size_t voxel) {
+            levels += int{brick.fractions[voxel]} - int{all.fractions[voxel]};
+            std::swap(brick.fractions[voxel], all.fractions[voxel]);
+        });
     }
     to.push_back(pack(stroke));
+    return levels;
 }
 
 StrokeJournal::Stroke StrokeJournal::pack(const std::vector<Restored>& bricks) {

@@ -1,8 +1,8 @@
 // Journal of the bone removed by each stroke, for any number of undos and redos.
 //
-// The owner decides where a stroke ends (common/scene/stroke_span.h). For each changed brick the journal
-// keeps the mask of its voxels and, compressed, their fractions before: no second copy of the bone. An undone
-// stroke keeps the fractions after it instead, for redo.
+// The owner decides where a stroke ends, for undo (common/scene/undo_slice.h). For each changed brick the
+// journal keeps the mask of its voxels and, compressed, their fractions before: no second copy of the bone.
+// An undone stroke keeps the fractions after it instead, for redo.
 #pragma once
 
 #include <cstddef>
@@ -37,9 +37,9 @@ class StrokeJournal {
     using Restoration = std::map<BrickIndex, Restored>;
     /// Adds the changes that restore the bone of the last closed stroke, or remove it again. After everything
     /// already in `restoration`, `bone` is as that stroke left it, or found it. No stroke is open, and there
-    /// is one to undo, or to redo.
-    void undo(const Bone& bone, Restoration& restoration);
-    void redo(const Bone& bone, Restoration& restoration);
+    /// is one to undo, or to redo. Returns how many levels of fraction come back; removed again: below zero.
+    std::int64_t undo(const Bone& bone, Restoration& restoration);
+    std::int64_t redo(const Bone& bone, Restoration& restoration);
 
     /// Bytes that the closed strokes take.
     std::size_t memory_bytes() const;
@@ -54,7 +54,8 @@ class StrokeJournal {
     Stroke pack(const std::vector<Restored>& bricks);
     static std::vector<Restored> unpack(const Stroke& stroke);
     /// Takes the last of `from`, which then is at the end of `to` with what the bone has now.
-    void move(std::vector<Stroke>& from, std::vector<Stroke>& to, const Bone& bone, Restoration& restoration);
+    std::int64_t move(std::vector<Stroke>& from, std::vector<Stroke>& to, const Bone& bone,
+                      Restoration& restoration);
 
     std::map<BrickIndex, Restored> open_;
     ZstdCompressor compressor_{1};

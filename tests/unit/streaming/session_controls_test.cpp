@@ -155,6 +155,23 @@ TEST_F(SessionControlsTest, CountsTheStrokeUnderWayAmongThoseThatCanBeUndone) {
     EXPECT_EQ(controls_.status().undo_steps, 1U);
 }
 
+TEST_F(SessionControlsTest, GivesALongStrokeBackInSlicesAndSaysHowMuch) {
+    const double whole_mm3 = bone_volume_mm3(milled_);
+    for (int i = 0; i < 250; ++i) {  // 7.5 s with a latched pedal
+        testing::carve_somewhere(milled_, random_, *this);
+        frame(true);
+    }
+    EXPECT_EQ(controls_.status().undo_steps, 3U) << "two have ended, one is under way";
+    controls_.control({SessionAction::undo});
+    frames(400);
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_TRUE(events[0].text.ends_with(" mm\u00b3")) << events[0].text;
+    EXPECT_EQ(controls_.status(), (SessionStatus{.undo_steps = 2, .redo_steps = 1}));
+    EXPECT_LT(bone_volume_mm3(mirror_), whole_mm3) << "the slices before stay";
+    EXPECT_GT(std::stod(events[0].text), 0.0);
+}
+
 TEST_F(SessionControlsTest, EndsAStrokeInAirThoughThePedalStaysDown) {
     const std::uint64_t whole = checksum(milled_);
     mill();
