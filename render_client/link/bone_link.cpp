@@ -30,6 +30,12 @@ class BoneLink::Impl {
         }
         if (taken > 0) connection.resume();
         complete(update);
+        // What waited in the queue was no silence, however long nobody asked.
+        if (taken == 0)
+            update.silent_s =
+                std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch() -
+                                              connection.counters().heard.load())
+                    .count();
         return update;
     }
 

@@ -229,6 +229,7 @@ void ServerConnection::read() {
         if (error) return lose(describe_loss(error));
         has_heard_ = true;
         counters_.bytes += arrived.size();
+        counters_.heard = std::chrono::steady_clock::now().time_since_epoch();
         decoder_.append(arrived);
         take_frames();
         if (generation == generation_) read();

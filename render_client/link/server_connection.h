@@ -34,6 +34,7 @@ struct LinkCounters {
     std::atomic<std::uint64_t> rejected_frames{0};
     std::atomic<std::uint32_t> snapshot_bricks{0};
     std::atomic<std::uint32_t> snapshot_bricks_total{0};
+    std::atomic<std::chrono::steady_clock::duration> heard{};  ///< the last time, since the clock's epoch
 };
 
 class ServerConnection {

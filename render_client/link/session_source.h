@@ -61,6 +61,9 @@ struct LinkUpdate {
     /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
     std::string recording_error{};
 
+    /// Since anything came of the server; of a recording 0.
+    double silent_s = 0.0;
+
     // Since the link was made.
     std::uint64_t frames = 0;               ///< state frames applied
     std::uint64_t checksums_verified = 0;   ///< stated by the server and found equal

@@ -45,6 +45,7 @@ RenderReport run_film(const RenderOptions& options, SessionSource& source,
     SessionPicture session(source, panels, size_px, FrameQuality::full, options.renderer, options.look,
                            options.stereo);
     take_over(session, options);
+    session.view().playback_shown = false;
     session.view().scale = static_cast<float>(options.ui_scale.value_or(1.0));
 
     FilmFile film(*options.film, session.size_px(), frames_per_s);

@@ -234,6 +234,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
                             const ServerAddress server = parse_server_address(text);
                             options.host = server.host;
                             options.port = server.port;
+                            options.names_server = true;
                         },
                         "The server's HOST:PORT (127.0.0.1:7010)")
                         ->type_name("HOST:PORT");

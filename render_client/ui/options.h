@@ -22,6 +22,7 @@ namespace osteomill {
 struct RenderOptions {
     std::string host = "127.0.0.1";
     std::uint16_t port = 7010;
+    bool names_server = false;                    ///< the command line does
     std::optional<TlsFiles> tls;                  ///< absent: in the clear
     std::optional<std::filesystem::path> record;  ///< what is received goes there, too
     std::optional<std::filesystem::path> replay;  ///< a recording in place of a server

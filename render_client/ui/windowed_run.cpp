@@ -20,6 +20,7 @@
 #include "render_client/ui/input/commands.h"
 #include "render_client/ui/input/hand_input.h"
 #include "render_client/ui/input/input_mailbox.h"
+#include "render_client/ui/input/wheel_step.h"
 #include "render_client/ui/input/window_input.h"
 #include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/view/drawing_thread.h"
@@ -31,6 +32,7 @@
 #include "render_client/ui/view/session_picture.h"
 #include "render_client/ui/view/transfer_file.h"
 #include "render_client/ui/view/window.h"
+#include "render_client/volume/bone_ahead.h"
 
 namespace osteomill {
 
@@ -76,10 +78,9 @@ void move_camera(SessionPicture& session, Commands& commands, float wheel_notche
         zoom(session.camera(), std::pow(zoom_per_notch, wheel_notches));
 }
 
-/// A session can be started from the window that it would connect to.
+/// A session of this machine can be started from the window, whose link speaks no TLS.
 bool can_start_here(const RenderOptions& options) {
-    const bool is_here = options.host == "127.0.0.1" || options.host == "localhost" || options.host == "::1";
-    return is_here && !options.replay && !options.tls && !options.until_server_ends;
+    return !options.replay && !options.tls && !options.until_server_ends;
 }
 
 std::filesystem::path home_of(const RenderOptions& options) {
@@ -173,9 +174,13 @@ class Drawing {
             view_told_ = now;
         }
         const LinkUpdate& link = session_.link();
+        if (start_)
+            start_->page.link_line = options_.names_server && link.status == LinkStatus::connecting
+                                         ? link.status_line
+                                         : std::string();
         session_over_ = options_.until_server_ends && link.status == LinkStatus::finished;
         commands_.tell(link.events, std::chrono::duration<double>(now - began_).count());
-        drills_ = source_.player() == nullptr && link.status == LinkStatus::live && session_.tool() &&
+        drills_ = source_.player() == nullptr && session_.elements().controls && session_.tool() &&
                   session_.session() && session_.session()->accepts_operator;
         shared_.desk.show({.drills = drills_,
                            .burr_count = session_.session() ? session_.session()->burrs.size() : 0,
@@ -187,6 +192,7 @@ class Drawing {
                            .panels = panels_.input_boxes(),
                            .panels_have_keyboard = has_keyboard(),
                            .over_bone_mm = over_bone_mm(),
+                           .wheel_step_mm = step_of_wheel_mm(),
                            .drag_tilts = session_.view().drag_tilts,
                            .is_clutched = commands_.is_clutched(),
                            .holds_still = link.controls.is_paused});
@@ -264,10 +270,8 @@ class Drawing {
             -view_motion_a_s * std::min(elapsed_s, longest_wait_s) * session_.size_px().y *
                 glm::dvec2(view_motion()),
             session_.size_px());
-        for (const Action action :
-             actions_of(input_.pressed_keys(), situation_of(drills_, source_.player() != nullptr)))
-            if (action == Action::end && start_ && start_->is_due(session_.link().status) &&
-                start_->page.tour_card)
+        for (const Action action : actions_of(input_.pressed_keys(), situation()))
+            if (action == Action::end && shows_start_page() && start_->page.tour_card)
                 start_->page.tour_card.reset();
             else if (!has_keyboard() || action == Action::end)
                 commands_.take(action);
@@ -303,12 +307,32 @@ class Drawing {
         return pose ? std::optional(pose->position_mm) : std::nullopt;
     }
 
-    glm::ivec2 view_motion() const {
-        return has_keyboard() ? glm::ivec2(0) : held_view_motion(input_.keys_down);
+    double step_of_wheel_mm() const {
+        const std::optional<ToolState> tool = session_.tool();
+        if (!drills_ || !tool || source_.bone() == nullptr) return HandInputPicture{}.wheel_step_mm;
+        const Burr* burr = session_.session()->burr_of(tool->burr);
+        return wheel_step_mm(
+            mm_per_px_at(session_.camera(), tool->burr_position_mm, session_.size_px()),
+            bone_ahead_mm(*source_.bone(), *tool, burr != nullptr ? burr->radius_mm() : 0.0));
     }
 
-    /// A text is being written: letters are no commands.
-    bool has_keyboard() const { return ImGui::GetIO().WantTextInput; }
+    glm::ivec2 view_motion() const {
+        const bool is_at_a_page = has_keyboard() || situation() == Situation::starting;
+        return is_at_a_page ? glm::ivec2(0) : held_view_motion(input_.keys_down);
+    }
+
+    bool shows_start_page() const { return start_ && start_->is_due(session_.link().status); }
+
+    Situation situation() const {
+        if (shows_start_page()) return Situation::starting;
+        const bool plays = source_.player() != nullptr;
+        return plays || session_.elements().controls ? situation_of(drills_, plays) : Situation::waiting;
+    }
+
+    /// A text is being written, or its field is about to open: letters are no commands.
+    bool has_keyboard() const {
+        return ImGui::GetIO().WantTextInput || session_.view().question == SessionQuestion::mark;
+    }
 
     const RenderOptions& options_;
     SessionSource& source_;

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string_view>
 
@@ -53,6 +54,11 @@ std::string language_of_environment() {
 
 void speak(const std::string& language) {
     spoken() = &tables().at(language);
+}
+
+std::string tissue_words(std::string name) {
+    std::ranges::replace(name, '_', ' ');
+    return tr(name);
 }
 
 const char* tr(const char* english) {

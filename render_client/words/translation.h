@@ -30,6 +30,8 @@ const char* tr(const char* english);
 inline std::string tr(const std::string& english) {
     return tr(english.c_str());
 }
+/// Of a tissue's name, as a person writes it: files write "Facial_Nerve".
+std::string tissue_words(std::string name);
 /// Of a text with places for values, as fmt::format.
 template <typename... Values>
 std::string trf(const char* english, const Values&... values) {

@@ -12,9 +12,8 @@ namespace osteomill {
 namespace {
 
 constexpr double advance_mm_per_s = 2.0;
-constexpr double advance_mm_per_notch = 0.1;
-/// As if the mouse tilted it.
-constexpr double tilt_px_per_s = 100.0;
+/// As if the mouse tilted or moved it.
+constexpr double keys_px_per_s = 100.0;
 /// A key that is held does not move the hand by what a thread that stood still has missed.
 constexpr double longest_step_s = 0.1;
 
@@ -78,7 +77,7 @@ void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
     double advanced_mm =
         advance_mm_per_s * elapsed_s * (static_cast<double>(is_down(GLFW_KEY_W)) - is_down(GLFW_KEY_S));
     if (!input.ctrl && !input.alt && input.wheel.y != 0.0 && !panels_have(input))
-        advanced_mm += advance_mm_per_notch * input.wheel.y;
+        advanced_mm += picture_.wheel_step_mm * input.wheel.y;
     drags_hand_ = drags_hand_ && input.is_down[WindowInput::left];
     // A burr that turns goes where the hand moves it; one that does not, as in air, where one points.
     if (drags_hand_ && !picture_.drag_tilts && !hand_.command().pedal && picture_.over_bone_mm) {
@@ -91,10 +90,12 @@ void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
                             : hand_.move_in_picture(moved_px, picture_.camera, picture_.size_px);
     }
     if (advanced_mm != 0.0) hand_.advance(advanced_mm);
-    const double turned_px = tilt_px_per_s * elapsed_s;
-    const glm::dvec2 tilt_px(static_cast<double>(is_down(GLFW_KEY_RIGHT)) - is_down(GLFW_KEY_LEFT),
-                             static_cast<double>(is_down(GLFW_KEY_DOWN)) - is_down(GLFW_KEY_UP));
-    if (tilt_px != glm::dvec2(0.0)) hand_.tilt_in_picture(turned_px * tilt_px, picture_.camera);
+    const glm::dvec2 arrows(static_cast<double>(is_down(GLFW_KEY_RIGHT)) - is_down(GLFW_KEY_LEFT),
+                            static_cast<double>(is_down(GLFW_KEY_DOWN)) - is_down(GLFW_KEY_UP));
+    const glm::dvec2 by_keys_px = keys_px_per_s * elapsed_s * arrows;
+    if (arrows != glm::dvec2(0.0))
+        input.shift ? hand_.move_in_picture(by_keys_px, picture_.camera, picture_.size_px)
+                    : hand_.tilt_in_picture(by_keys_px, picture_.camera);
     for (const int key : input.pressed_keys())
         if (!picture_.panels_have_keyboard && key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
             hand_.choose_burr(static_cast<std::size_t>(key - GLFW_KEY_1));

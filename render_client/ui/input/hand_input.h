@@ -34,9 +34,10 @@ struct HandInputPicture {
     bool panels_have_keyboard = false;  ///< a text is being written
     /// A position with the burr clear of the bone under the cursor, patient LPS; nothing beside the bone.
     std::optional<glm::dvec3> over_bone_mm{};
-    bool drag_tilts = false;   ///< the mouse tilts the handpiece instead of moving it
-    bool is_clutched = false;  ///< mouse and keys move the bone: the hand lets go
-    bool holds_still = false;  ///< the session is paused: a pedal that was left down comes up
+    double wheel_step_mm = 0.1;  ///< along the spindle, of a notch
+    bool drag_tilts = false;     ///< the mouse tilts the handpiece instead of moving it
+    bool is_clutched = false;    ///< mouse and keys move the bone: the hand lets go
+    bool holds_still = false;    ///< the session is paused: a pedal that was left down comes up
 };
 
 class HandInput {

@@ -45,6 +45,12 @@ const std::vector<KeyBinding>& table() {
          Action::none,
          "arrow keys",
          "tilt the handpiece"},
+        {hand,
+         drilling,
+         {},
+         Action::none,
+         "shift + arrows",
+         "move the burr sideways, up, down, as it is seen"},
         {hand, drilling, {GLFW_KEY_T}, Action::tilt, "T", "left drag tilts it: on, off"},
         {hand,
          drilling,
@@ -132,7 +138,8 @@ bool acts_on_start_page(Action action) {
 bool holds(const KeyBinding& binding, Situation situation) {
     if (situation == Situation::starting) return acts_on_start_page(binding.action);
     return binding.situation == Situation::always || binding.situation == situation ||
-           (binding.situation == Situation::live && situation != Situation::playing);
+           (binding.situation == Situation::live &&
+            (situation == Situation::drilling || situation == Situation::looking_on));
 }
 
 Situation situation_of(bool drills, bool shows_recording) {
@@ -186,6 +193,7 @@ std::vector<HelpLine> help_lines(Situation situation) {
             lines.push_back({"", "In the picture", true});
             lines.push_back({"orange arrow", "the force that an arm would give to the hand"});
             lines.push_back({"blue ball", "where the hand wants the burr"});
+            lines.push_back({"ring on the bone", "where the burr would meet it along its spindle"});
             break;
         case Situation::looking_on:
             lines.push_back({"", "This server has its own device: to drill with the mouse,"});

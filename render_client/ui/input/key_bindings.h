@@ -64,6 +64,7 @@ enum class Situation {
     looking_on,  ///< neither
     starting,    ///< the start page is shown
     live,        ///< drilling or looking on: there is a session that may be controlled
+    waiting,     ///< for a session or its bone: nothing acts on it
 };
 
 Situation situation_of(bool drills, bool shows_recording);

@@ -66,7 +66,8 @@ void draw_case_card(StartPage& page, CardPictures& pictures, std::size_t index, 
     const float width = first.x + size.x - gap - left;
     const float end_y = first.y + size.y;
     const ImU32 plain = ImGui::GetColorU32(ImGuiCol_Text);
-    float y = write_in_card(shelved.name.c_str(), {left, inner.y}, width, end_y, plain);
+    float y = write_in_card(shelved.is_built_in ? tr(shelved.name.c_str()) : shelved.name.c_str(),
+                            {left, inner.y}, width, end_y, plain);
     y = write_in_card(tr(shelved.description.c_str()), {left, y}, width, end_y,
                       ImGui::GetColorU32(ImGuiCol_TextDisabled));
     if (!shelved.protected_names.empty())

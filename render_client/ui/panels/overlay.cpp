@@ -13,6 +13,7 @@
 #include "render_client/ui/panels/picture_marks.h"
 #include "render_client/ui/panels/playback_panel.h"
 #include "render_client/ui/panels/session_dialog.h"
+#include "render_client/ui/panels/sight_panel.h"
 #include "render_client/ui/panels/slices_panel.h"
 #include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/panels/structure_text.h"
@@ -118,7 +119,7 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
                              [&](const PanelPlace& place) { draw_transfer_panel(painter, view, place); });
     if (content.operator_command)
         panels.add_text(painter, Anchor::lower_left, operator_text(content), side_width);
-    if (content.player != nullptr)
+    if (content.player != nullptr && view.playback_shown)
         panels.add(Anchor::lower_left, {playback_panel_size(painter, picture)},
                    [&](const PanelPlace& place) { draw_playback_panel(*content.player, painter, place); });
 }
@@ -160,11 +161,6 @@ void add_readings(PanelList& panels, const OverlayContent& content, const PanelP
     }
 }
 
-double burr_radius_mm(const OverlayContent& content) {
-    const Burr* burr = content.burr_in_tool();
-    return burr ? burr->radius_mm() : 0.0;
-}
-
 /// What the burr takes of the picture; none where it is not in it.
 std::optional<PanelPlace> burr_in(const OverlayContent& content, const glm::ivec2& size_px) {
     const Burr* burr = content.burr_in_tool();
@@ -188,10 +184,14 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         glm::clamp(0.45f * picture.x, 200.0f * painter.scale(), 360.0f * painter.scale());
     PanelList panels;
     const bool starts = shows_start_page(content);
+    const SightElements elements = elements_of(content.sight);
+    if (elements.is_grey && content.has_bone) draw_veil(painter, size_px);
     if (content.view->help_shown) {
-        const Situation situation =
-            starts ? Situation::starting
-                   : situation_of(content.operator_command.has_value(), content.player != nullptr);
+        const bool plays = content.player != nullptr;
+        const Situation situation = starts ? Situation::starting
+                                    : plays || elements.controls
+                                        ? situation_of(content.operator_command.has_value(), plays)
+                                        : Situation::waiting;
         panels.add_page(
             Anchor::middle, help_size(painter, situation, picture - 2.0f * margin),
             [&painter, situation](const PanelPlace& place) { draw_help(painter, situation, place); });
@@ -203,13 +203,18 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
                         [&](const PanelPlace& place) {
                             draw_start_panel(content.start->page, content.start->picture, place);
                         });
+    if (elements.has_words && !starts && !content.view->help_shown &&
+        content.view->question == SessionQuestion::none)
+        panels.add_page(Anchor::middle, sight_panel_size(content, picture - 2.0f * margin),
+                        [&](const PanelPlace& place) { draw_sight_panel(content, place); });
     // Before the warnings, which come and go: a button must not slip away under the pointer.
     const bool shows_panels = content.view->panels_shown && !starts;
     if (shows_panels && has_tool_bar(content))
         panels.add(Anchor::top, tool_bar_sizes(content, painter),
                    [&](const PanelPlace& place) { draw_tool_bar(content, place); });
     const bool alarms = is_alarm(content) && !starts;
-    if (alarms) draw_alarm_frame(painter, size_px);
+    // A fault is no harm to a structure, and does not look like it.
+    if (alarms && !structure_warnings(content).empty()) draw_alarm_frame(painter, size_px);
     if (const PanelText warnings = starts ? notice_text(content) : warning_text(content); !warnings.empty())
         panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin,
                         alarms ? banner_letters : 1.0f);
@@ -223,10 +228,10 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     }
     const auto places = panels.draw_in(picture, margin, burr_in(content, size_px));
     if (content.tool && content.has_bone && content.bone && content.operator_command && !starts)
-        draw_touch_ring(painter, *content.bone, *content.tool, burr_radius_mm(content), *content.camera,
+        draw_touch_ring(painter, *content.bone, *content.tool, content.burr_radius_mm(), *content.camera,
                         size_px);
     if (content.tool && content.has_bone && shows_panels)
-        draw_force_label(painter, *content.tool, burr_radius_mm(content), *content.camera, size_px, places);
+        draw_force_label(painter, *content.tool, content.burr_radius_mm(), *content.camera, size_px, places);
 }
 
 }  // namespace osteomill

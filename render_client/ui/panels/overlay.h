@@ -9,6 +9,7 @@
 #include "render_client/link/session_source.h"
 #include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/tool_history.h"
+#include "render_client/ui/view/session_sight.h"
 #include "render_client/ui/view/slices_view.h"
 #include "render_client/ui/view/view_settings.h"
 #include "render_client/volume/camera.h"
@@ -46,9 +47,11 @@ struct OverlayContent {
     /// Progress of the preparation of a new bone or appearance; nothing when all is shown.
     std::optional<int> preparation_percent{};
     bool has_bone = false;
+    SessionSight sight = SessionSight::now;
 
     /// Null where there is no tool, or the server has announced no such burr.
     const Burr* burr_in_tool() const { return session && tool ? session->burr_of(tool->burr) : nullptr; }
+    double burr_radius_mm() const { return burr_in_tool() != nullptr ? burr_in_tool()->radius_mm() : 0.0; }
 };
 
 void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px);

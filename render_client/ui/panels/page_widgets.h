@@ -30,8 +30,11 @@ inline ImVec2 list_size(float lines) {
 }
 
 inline void draw_message(const StartPage& page) {
+    const bool is_of_link = page.message().empty();
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(page.message().c_str());
+    if (is_of_link) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_NavHighlight));
+    ImGui::TextUnformatted((is_of_link ? page.link_line : page.message()).c_str());
+    if (is_of_link) ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
 }
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "render_client/ui/panels/fault_remedy.h"
 #include "render_client/ui/panels/structure_text.h"
+#include "render_client/volume/bone_ahead.h"
 #include "render_client/words/translation.h"
 
 namespace osteomill {
@@ -40,12 +42,18 @@ void add_details(const OverlayContent& content, PanelText& text) {
                                            1e3 * delay->by_clocks_s, 1e3 * delay->over_least_s)));
 }
 
+/// What is wrong, and what to do.
+void add_fault(const std::string& fault, PanelText& text) {
+    text.push_back(line(Tone::warning, trf("FAULT: {}", tr(fault))));
+    text.push_back(line(Tone::plain, tr(remedy_of(fault))));
+}
+
 }  // namespace
 
 PanelText session_text(const OverlayContent& content) {
     PanelText text;
     if (content.session) {
-        text.push_back(line(Tone::plain, content.session->scene_name));
+        text.push_back(line(Tone::plain, tr(content.session->scene_name)));
         const auto scale = content.session->settings.find("force_scale");
         if (scale != content.session->settings.end())
             text.push_back(line(Tone::warning, tr("forces of cutting times ") + scale->second));
@@ -74,6 +82,9 @@ PanelText tool_text(const OverlayContent& content) {
         text.push_back(tool.spindle_on ? line(Tone::good, trf("spindle {:.0f} rpm", spindle_rpm(tool, burr)))
                                        : line(Tone::dim, tr("spindle off")));
     }
+    if (content.operator_command && content.bone != nullptr)
+        if (const auto ahead_mm = bone_ahead_mm(*content.bone, tool, content.burr_radius_mm()))
+            text.push_back(line(Tone::plain, trf("{:.1f} mm to the bone", *ahead_mm)));
     text.push_back(line(Tone::plain, trf("removed {:.2f} mm\u00b3", tool.removed_mm3)));
     text.push_back(line(Tone::dim, trf("time {:.1f} s", tool.time_s)));
     return text;
@@ -84,10 +95,10 @@ PanelText warning_text(const OverlayContent& content) {
     if (!content.bone_problem.empty()) text.push_back(line(Tone::warning, content.bone_problem));
     if (!content.link.recording_error.empty())
         text.push_back(line(Tone::warning, content.link.recording_error));
-    if (content.link.controls.is_paused)
+    if (content.link.controls.is_paused && elements_of(content.sight).controls)
         text.push_back(line(Tone::plain, tr("paused: force and spindle off")));
     else if (content.tool && !content.tool->fault.empty())
-        text.push_back(line(Tone::warning, trf("FAULT: {}", tr(std::string(content.tool->fault.text())))));
+        add_fault(std::string(content.tool->fault.text()), text);
     if (content.tool && !content.tool->notice.empty())
         text.push_back(line(Tone::plain, tr(std::string(content.tool->notice.text()))));
     if (content.tool && content.tool->driver == ToolDriver::others_only)

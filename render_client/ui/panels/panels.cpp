@@ -39,7 +39,9 @@ void set_colours(const Theme& theme, ImGuiStyle& style) {
     };
     set({ImGuiCol_Text, ImGuiCol_CheckMark}, theme[Tone::plain]);
     set({ImGuiCol_NavHighlight}, theme[Tone::warning]);
-    set({ImGuiCol_TextDisabled, ImGuiCol_SliderGrab}, theme[Tone::dim]);
+    set({ImGuiCol_TextDisabled}, theme[Tone::dim]);
+    // A slider's number is written over its handle.
+    set({ImGuiCol_SliderGrab}, theme.control_active);
     set({ImGuiCol_WindowBg, ImGuiCol_PopupBg}, theme.panel);
     set({ImGuiCol_Button, ImGuiCol_FrameBg, ImGuiCol_Header}, theme.control);
     set({ImGuiCol_ButtonHovered, ImGuiCol_FrameBgHovered, ImGuiCol_HeaderHovered}, theme.control_hovered);

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "common/bone/bone_ray.h"
+#include "render_client/volume/bone_ahead.h"
 #include "render_client/volume/tool/tool_renderer.h"
 
 namespace osteomill {
@@ -63,17 +63,12 @@ void draw_force_label(const PanelPainter& painter, const ToolState& tool, double
 
 void draw_touch_ring(const PanelPainter& painter, const Bone& bone, const ToolState& tool,
                      double burr_radius_mm, const Camera& camera, const glm::ivec2& size_px) {
-    constexpr double farthest_mm = 20.0;
     constexpr int corners = 32;
-    const Grid& grid = bone.grid();
-    const BoneRay ray{to_voxel_coordinates(grid, tool.burr_position_mm), -tool.spindle_axis};
-    RaySpan span = span_within(ray, grid);
-    span.from = std::max(span.from, burr_radius_mm / grid.spacing_mm);
-    span.to = std::min(span.to, farthest_mm / grid.spacing_mm);
-    if (span.is_empty()) return;
-    const auto met = BoneSampler(bone).first_surface(ray, span, [](double) { return true; });
-    if (!met || *met <= span.from + 1.0) return;
-    const glm::dvec3 middle_mm = grid.origin_mm + grid.spacing_mm * ray.at(*met);
+    const auto ahead_mm = bone_ahead_mm(bone, tool, burr_radius_mm);
+    if (!ahead_mm || *ahead_mm <= bone.grid().spacing_mm) return;
+    const glm::dvec3 middle_mm = tool.burr_position_mm - (burr_radius_mm + *ahead_mm) * tool.spindle_axis;
+    // Over the bone, not through it.
+    if (is_behind_bone(bone, camera.eye_mm(), middle_mm)) return;
     const glm::dvec3 beside = std::abs(tool.spindle_axis.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(tool.spindle_axis, beside));
     const glm::dvec3 v = glm::cross(tool.spindle_axis, u);
@@ -89,6 +84,12 @@ void draw_touch_ring(const PanelPainter& painter, const Bone& bone, const ToolSt
          {std::pair{painter.theme().behind_letter, 4.0f}, std::pair{painter.theme()[Tone::back], 2.0f}})
         painter.canvas().AddPolyline(points.data(), corners, colour_of(colour), ImDrawFlags_Closed,
                                      width_px * painter.scale());
+}
+
+void draw_veil(const PanelPainter& painter, const glm::ivec2& size_px) {
+    constexpr ImU32 grey = IM_COL32(110, 110, 110, 190);
+    painter.canvas().AddDrawCmd();
+    painter.canvas().AddRectFilled({0.0f, 0.0f}, to_imgui(glm::vec2(size_px)), grey);
 }
 
 void draw_alarm_frame(const PanelPainter& painter, const glm::ivec2& size_px) {

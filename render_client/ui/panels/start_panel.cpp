@@ -21,15 +21,16 @@ namespace {
 void draw_sessions(StartPage& page) {
     constexpr std::size_t most_shown = 20;
     for (std::size_t i = 0; i < std::min(page.sessions().size(), most_shown); ++i) {
-        const std::filesystem::path session = page.sessions()[i];
+        const KeptSession session = page.sessions()[i];  // a click may list them anew
         ImGui::PushID(static_cast<int>(i));
-        std::error_code ignored;
-        const bool has_report = std::filesystem::exists(session / "report.html", ignored);
-        if (button(tr("Report"), has_report)) page.open_report_of(session);
+        if (button(session.has_report ? tr("Report") : tr("Make report"),
+                   session.has_report || !page.is_working()))
+            page.open_report_of(session);
         ImGui::SameLine();
-        if (ImGui::Button(tr("Replay"))) page.replay(session / "session.pcap");
+        if (ImGui::Button(tr("Replay"))) page.replay(session.recording);
         ImGui::SameLine();
-        ImGui::TextUnformatted(session.filename().c_str());
+        const std::string title = session.is_whole ? session.title : session.title + tr(", broken off");
+        ImGui::TextUnformatted(title.c_str());
         ImGui::PopID();
     }
 }

@@ -13,8 +13,9 @@ namespace {
 /// Two lines, so that none is too long for a panel.
 void add_touches(PanelText& text, const StructureDistance& now, const Tissue& tissue) {
     const bool is_one = now.touches_so_far == 1;
-    text.push_back({{Tone::warning, is_one ? trf("touched: {}", tissue.name)
-                                           : trf("touched: {}, {} times", tissue.name, now.touches_so_far)}});
+    text.push_back({{Tone::warning,
+                     is_one ? trf("touched: {}", tissue_words(tissue.name))
+                            : trf("touched: {}, {} times", tissue_words(tissue.name), now.touches_so_far)}});
     std::string when = is_one
                            ? trf("at {:.1f} s, for {:.1f} s", now.first_touch_s, now.touched_s)
                            : trf("first at {:.1f} s, for {:.1f} s in all", now.first_touch_s, now.touched_s);
@@ -32,10 +33,10 @@ PanelText structure_text(const OverlayContent& content) {
     if (std::ranges::none_of(tissues, &Tissue::is_protected)) return text;
     if (const StructureDistance* nearest = nearest_structure(content.link.distances)) {
         const Tissue& tissue = tissues[nearest->tissue];
-        text.push_back(
-            {{warning_of(*nearest, tissue) != StructureWarning::none ? Tone::warning : Tone::plain,
-              *nearest->distance_mm <= 0.0 ? trf("{}: touching", tissue.name)
-                                           : trf("{}: {:.2f} mm away", tissue.name, *nearest->distance_mm)}});
+        text.push_back({{warning_of(*nearest, tissue) != StructureWarning::none ? Tone::warning : Tone::plain,
+                         *nearest->distance_mm <= 0.0
+                             ? trf("{}: touching", tissue_words(tissue.name))
+                             : trf("{}: {:.2f} mm away", tissue_words(tissue.name), *nearest->distance_mm)}});
     } else {
         text.push_back({{Tone::dim, tr("no protected structure near")}});
     }
@@ -46,17 +47,18 @@ PanelText structure_text(const OverlayContent& content) {
 
 PanelText structure_warnings(const OverlayContent& content) {
     PanelText text;
-    if (!content.session) return text;
+    if (!content.session || !elements_of(content.sight).tool) return text;
     for (const StructureDistance& now : content.link.distances) {
         const Tissue& tissue = content.session->tissues[now.tissue];
         if (now.touches)
-            text.push_back({{Tone::warning, trf("PROTECTED: the burr touches {}", tissue.name)}});
+            text.push_back({{Tone::warning,
+                             trf("PROTECTED: the burr touches {}: pull back", tissue_words(tissue.name))}});
         else if (warning_of(now, tissue) == StructureWarning::near)
-            text.push_back(
-                {{Tone::warning, trf("CAREFUL: {} is {:.1f} mm away", tissue.name, *now.distance_mm)}});
+            text.push_back({{Tone::warning, trf("CAREFUL: {} is {:.1f} mm away: go slowly",
+                                                tissue_words(tissue.name), *now.distance_mm)}});
     }
     if (text.empty() && content.tool && content.tool->touches_protected)
-        text.push_back({{Tone::warning, tr("PROTECTED TISSUE: the burr touches it")}});
+        text.push_back({{Tone::warning, tr("PROTECTED TISSUE: the burr touches it: pull back")}});
     return text;
 }
 

@@ -10,7 +10,8 @@ namespace osteomill {
 namespace {
 
 std::string name_of(const Tissue& tissue) {
-    return tissue.is_protected ? trf("{} (protected)", tissue.name) : tissue.name;
+    const std::string words = tissue_words(tissue.name);
+    return tissue.is_protected ? trf("{} (protected)", words) : words;
 }
 
 }  // namespace

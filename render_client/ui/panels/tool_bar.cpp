@@ -273,7 +273,7 @@ void draw_burr_list(const OverlayContent& content) {
 
 bool has_tool_bar(const OverlayContent& content) {
     return content.requests != nullptr && content.player == nullptr && content.session != nullptr &&
-           content.session->accepts_controls && content.link.status == LinkStatus::live;
+           content.session->accepts_controls && elements_of(content.sight).controls;
 }
 
 std::vector<glm::vec2> tool_bar_sizes(const OverlayContent& content, const PanelPainter&) {

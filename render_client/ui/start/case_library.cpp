@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <functional>
 #include <system_error>
 
 #include "common/scene/phantom_names.h"
@@ -41,9 +40,8 @@ void describe(ShelvedCase& shelved, const Read& read) {
         shelved.description = scene.description;
         std::vector<std::string> names;
         for (const Tissue& tissue : scene.tissues)
-            if (tissue.is_protected) names.push_back(tissue.name);
+            if (tissue.is_protected) names.push_back(tissue_words(tissue.name));
         shelved.protected_names = fmt::format("{}", fmt::join(names, ", "));
-        std::ranges::replace(shelved.protected_names, '_', ' ');  // of label maps, for people
     } catch (const SceneError& error) {
         shelved.description = error.what();
     }
@@ -69,16 +67,6 @@ std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder) {
         describe(cases.back(), [&] { return read_scene(path / "case.toml"); });
     }
     return cases;
-}
-
-std::vector<std::filesystem::path> sessions_in(const std::filesystem::path& reports) {
-    const auto written = [](const std::filesystem::path& folder) {
-        std::error_code ignored;
-        return std::filesystem::last_write_time(folder / "session.pcap", ignored);
-    };
-    std::vector<std::filesystem::path> sessions = folders_with(reports, "session.pcap");
-    std::ranges::stable_sort(sessions, std::greater(), written);
-    return sessions;
 }
 
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder) {

@@ -30,9 +30,6 @@ std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder);
 /// dot first, no blank at its ends, none like it in `folder`.
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder);
 
-/// The folders of `reports` that hold a recorded session, the newest first.
-std::vector<std::filesystem::path> sessions_in(const std::filesystem::path& reports);
-
 /// Where a session that begins at `began` has its report: case, trainee and the local time, in `reports`.
 /// Names as as_file_name makes them.
 std::filesystem::path report_folder(const std::filesystem::path& reports, const std::string& case_name,

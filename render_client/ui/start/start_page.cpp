@@ -53,11 +53,13 @@ std::string without_program(const std::string& line) {
 }
 
 /// Of a session's program; empty where all went well.
-std::string end_in_words(const ChildProgram& server, const std::filesystem::path& report_folder) {
+std::string end_in_words(const ChildProgram& server) {
     const int status = server.status().value_or(0);
     if (status < 0)
-        return trf("haptic_server was ended by signal {}; what it had recorded is in {}", -status,
-                   report_folder.string());
+        return trf(
+            "the session was broken off (signal {}). What was recorded until then is kept: it is the first "
+            "of the sessions so far, and its report is one click away",
+            -status);
     return status == 0 ? std::string() : without_program(server.last_line());
 }
 
@@ -155,6 +157,18 @@ void StartPage::open_page(const std::filesystem::path& page) {
     }
 }
 
+void StartPage::open_report_of(const KeptSession& session) {
+    if (session.has_report) return open_page(session.folder / "report.html");
+    if (is_working()) return;
+    attempt([&] {
+        work_ = Work::report;
+        reported_ = session.folder;
+        worker_ = std::make_unique<ChildProgram>(std::vector<std::string>{
+            program("packet_replay"), session.recording.string(), "--report=" + session.folder.string()});
+        message_ = tr("the report is being made ...");
+    });
+}
+
 void StartPage::replay(const std::filesystem::path& recording) {
     attempt([&] {
         players_.push_back(std::make_unique<ChildProgram>(
@@ -165,14 +179,15 @@ void StartPage::replay(const std::filesystem::path& recording) {
 
 void StartPage::compare_sessions() {
     if (is_working()) return;
-    const auto sessions = sessions_in(places_.home / "reports");
+    auto sessions = sessions_in(places_.home / "reports", 0);
+    std::erase_if(sessions, [](const KeptSession& session) { return !session.is_whole; });
     if (sessions.empty()) {
         message_ = tr("there is no session yet in ") + (places_.home / "reports").string();
         return;
     }
     std::vector<std::string> command{program("osteomill_study"), "sessions", "--out",
                                      (places_.home / "comparison").string()};
-    for (const auto& session : sessions) command.push_back(session.string());
+    for (const auto& session : sessions) command.push_back(session.folder.string());
     attempt([&] {
         work_ = Work::compare;
         worker_ = std::make_unique<ChildProgram>(command);
@@ -214,17 +229,18 @@ void StartPage::look_at_scan(bool is_another_scan) {
     });
 }
 
+std::string StartPage::wrong_with_form() const {
+    if (std::string wrong = wrong_with_name(form.name, cases_of(places_)); !wrong.empty()) return wrong;
+    if (voxels_of(form) <= most_imported_voxels) return {};
+    return trf("the region has {:.1f} thousand million voxels; {:.1f} are the most: drag a smaller one",
+               1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
+}
+
 void StartPage::import() {
     if (is_working() || !look_) return;
-    message_ = wrong_with_name(form.name, cases_of(places_));
+    message_ = form_error_ = wrong_with_form();
     if (message_.empty()) message_ = make_folder_at_home(cases_of(places_));
     if (!message_.empty()) return;
-    if (voxels_of(form) > most_imported_voxels) {
-        message_ =
-            trf("the region has {:.1f} thousand million voxels; {:.1f} are the most: drag a smaller one",
-                1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
-        return;
-    }
     attempt([&] {
         work_ = Work::import;
         worker_ = std::make_unique<ChildProgram>(
@@ -251,6 +267,10 @@ void StartPage::end_of_work() {
         for (std::size_t i = 0; i < cases_.size(); ++i)
             if (cases_[i].name == form.name) chosen = i;
         message_ = trf("{} is there", form.name);
+    } else if (work_ == Work::report) {
+        look_at_home();
+        if (std::error_code ignored; std::filesystem::exists(reported_ / "report.html", ignored))
+            open_page(reported_ / "report.html");
     } else if (work_ == Work::compare && is_good) {
         open_page(places_.home / "comparison" / "sessions.html");
     } else if (work_ == Work::look && is_good) {
@@ -294,6 +314,11 @@ void StartPage::look_for_address() {
 
 bool StartPage::poll() {
     bool has_news = false;
+    if (!form_error_.empty() && wrong_with_form() != form_error_) {
+        if (message_ == form_error_) message_.clear();
+        form_error_.clear();
+        has_news = true;
+    }
     if (worker_ && worker_->poll()) {
         has_news = true;
         if (!worker_->is_running())
@@ -307,7 +332,7 @@ bool StartPage::poll() {
             const std::filesystem::path page = report_folder_ / "report.html";
             std::error_code ignored;
             if (std::filesystem::exists(page, ignored)) report_ = page;
-            message_ = end_in_words(*server_, report_folder_);
+            message_ = end_in_words(*server_);
             server_.reset();
             look_at_home();
             // Its port may soon be somebody else's.

@@ -18,6 +18,7 @@
 #include "render_client/ui/start/case_library.h"
 #include "render_client/ui/start/folder_listing.h"
 #include "render_client/ui/start/import_form.h"
+#include "render_client/ui/start/kept_sessions.h"
 
 namespace osteomill {
 
@@ -53,12 +54,14 @@ class StartPage {
     void show(View view);
     /// One line about what went wrong or is going on; empty: nothing.
     const std::string& message() const { return message_; }
+    std::string
+        link_line{};  ///< why the server that a person named has no session here; empty: none was named
 
     const std::vector<ShelvedCase>& cases() const { return cases_; }
     /// The sessions that were kept here, the newest first.
-    const std::vector<std::filesystem::path>& sessions() const { return sessions_; }
-    /// Its report in the user's browser; a recording in a window of its own.
-    void open_report_of(const std::filesystem::path& session) { open_page(session / "report.html"); }
+    const std::vector<KeptSession>& sessions() const { return sessions_; }
+    /// Its report in the user's browser, made before where there is none; a recording in a window of its own.
+    void open_report_of(const KeptSession& session);
     void replay(const std::filesystem::path& recording);
     std::size_t chosen = 0;  ///< of cases()
     std::string trainee{};   ///< whose session it will be
@@ -117,14 +120,17 @@ class StartPage {
     View view_ = View::cases;
     std::string message_;
     std::vector<ShelvedCase> cases_;
-    std::vector<std::filesystem::path> sessions_;
+    std::vector<KeptSession> sessions_;
     std::vector<std::unique_ptr<ChildProgram>> players_;  // close with this window
     FolderListing listing_;
 
-    enum class Work { look, import, compare };
+    enum class Work { look, import, compare, report };
     Work work_ = Work::look;
     bool is_another_scan_ = false;
     ImportForm form_before_{};  // whose files could be read
+    std::string wrong_with_form() const;
+    std::string form_error_;          ///< as message() says it, until it is corrected
+    std::filesystem::path reported_;  ///< whose report is being made
     std::unique_ptr<ChildProgram> worker_;
     std::filesystem::path scratch_;  // of the look that is under way
     std::optional<ScanPreview> look_;

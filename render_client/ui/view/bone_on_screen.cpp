@@ -19,6 +19,12 @@ void BoneOnScreen::replace(const Bone& bone, std::vector<TissueColour> tissues) 
     begin(bone);
 }
 
+BoneOnScreen::Outcome BoneOnScreen::drop_former_bone() {
+    Outcome outcome;
+    if (shows_former_bone()) drop_shown(outcome);
+    return outcome;
+}
+
 void BoneOnScreen::note(std::span<const BrickChange> changes) {
     if (shown_ && !shown_->is_of_former_bone) unshown_.add(changes);
     if (build_) unbuilt_.add(changes);

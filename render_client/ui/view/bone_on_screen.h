@@ -20,6 +20,13 @@ class BoneOnScreen {
   public:
     explicit BoneOnScreen(ShadingSettings look) : look_(std::move(look)) {}
 
+    struct Outcome {
+        bool other_textures = false;              ///< or none any more: all is to be drawn anew
+        DrawingCost cost = DrawingCost::unknown;  ///< of a picture of them
+        std::vector<VoxelBox> changed{};          ///< else: voxels of textures()->grid()
+        bool is_news() const { return other_textures || !changed.empty(); }
+    };
+
     /// Of the bones that come from now on.
     void limit(const TextureLimits& limits) { limits_ = limits; }
     /// Makes large textures' memory from now on; must outlive this, as the driver's context must.
@@ -27,6 +34,13 @@ class BoneOnScreen {
 
     /// Another bone has come: it is prepared by work(). `tissues` as they are drawn.
     void replace(const Bone& bone, std::vector<TissueColour> tissues);
+    /// What is drawn is another session's, whose bone has not come yet.
+    void expect_another() {
+        if (shown_) shown_->is_of_former_bone = true;
+    }
+    bool shows_former_bone() const { return shown_ && shown_->is_of_former_bone; }
+    /// Nothing is drawn until that of now is ready.
+    Outcome drop_former_bone();
     /// It changed there.
     void note(std::span<const BrickChange> changes);
     /// A new appearance needs new textures. Those for an earlier one are finished first, so that a user who
@@ -34,12 +48,6 @@ class BoneOnScreen {
     void set_appearance(const ShadingSettings& look) { look_ = look; }
     const ShadingSettings& look() const { return look_; }
 
-    struct Outcome {
-        bool other_textures = false;              ///< or none any more: all is to be drawn anew
-        DrawingCost cost = DrawingCost::unknown;  ///< of a picture of them
-        std::vector<VoxelBox> changed{};          ///< else: voxels of textures()->grid()
-        bool is_news() const { return other_textures || !changed.empty(); }
-    };
     /// Prepares textures and uploads changes until nothing is left to do or the time is over; at least one
     /// step. `bone` is the one that replace() had last, at the same address.
     Outcome work(const Bone& bone, const std::function<bool()>& has_time);

@@ -44,8 +44,14 @@ SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm:
 
 SessionNews SessionPicture::take_in() {
     link_ = source_.poll();
-    if (is_of_another_session()) forget_session();
-    const bool first_of_tool = link_.tool && !tool();
+    if (is_of_another_session()) {
+        if (link_.bone_replaced || link_.status == LinkStatus::receiving_snapshot) {
+            bone_.expect_another();
+            picture_.forget_structures();
+        }
+        forget_session();
+    }
+    const bool first_of_tool = link_.tool && !tool_.state();
     if (link_.tool) {
         tool_.take(*link_.tool);
         history_.add(*link_.tool);
@@ -59,19 +65,32 @@ SessionNews SessionPicture::take_in() {
 
 /// Another scene, or the same begun anew; a recording's time runs back by itself.
 bool SessionPicture::is_of_another_session() const {
-    if (source_.player() == nullptr && link_.tool && tool() && link_.tool->time_s < tool()->time_s)
+    if (source_.player() == nullptr && link_.tool && tool_.state() &&
+        link_.tool->time_s < tool_.state()->time_s)
         return true;
     const SessionInfo* session = source_.session();
+    const bool announces_another = link_.status == LinkStatus::receiving_snapshot && has_bone() &&
+                                   session != nullptr && session->scene_name != scene_name_;
+    if (announces_another) return true;
     return has_taken_bone_ && link_.bone_replaced && session != nullptr && source_.bone() &&
            (session->scene_name != scene_name_ || source_.bone()->grid() != grid_);
 }
 
-/// How a person looked at it tells nothing of the next.
+/// How a person looked at it tells nothing of the next, and nothing of it is drawn in the next.
 void SessionPicture::forget_session() {
     tool_ = {};
+    if (bone_.drop_former_bone().is_news()) {
+        show_other_textures(DrawingCost::unknown);
+        has_undrawn_bone_ = true;
+    }
     for (std::size_t cut = 0; cut < CutSettings::count; ++cut) view_.cuts.switch_off(cut);
     has_first_view_ = false;
     camera_ = first_view_;
+}
+
+SessionSight SessionPicture::sight() const {
+    const bool shows_its_bone = (has_bone() && !bone_.shows_former_bone()) || !bone_.problem().empty();
+    return sight_of(link_, shows_its_bone, source_.player() != nullptr);
 }
 
 void SessionPicture::ask_for_ct() {
@@ -79,7 +98,7 @@ void SessionPicture::ask_for_ct() {
         return;
     ct_requested_in_ = link_.connections;
     slices_.set_ct(nullptr);
-    if (tool() && !slices_.cross_mm()) slices_.cross_at(tool()->burr_position_mm);
+    if (tool_.state() && !slices_.cross_mm()) slices_.cross_at(tool_.state()->burr_position_mm);
     source_.ask_for_ct();
 }
 
@@ -115,8 +134,9 @@ void SessionPicture::take_in_structure(const Structure& structure) {
 }
 
 SessionNews SessionPicture::news() const {
-    if (has_undrawn_bone_ || has_turning_burr() || !quality().refined) return SessionNews::change;
-    return news_since(drawn_, link_, tool(), operator_command_, preparation_percent());
+    if (has_undrawn_bone_ || has_turning_burr() || !quality().refined || sight() != drawn_sight_)
+        return SessionNews::change;
+    return news_since(drawn_, link_, tool_.state(), operator_command_, preparation_percent());
 }
 
 void SessionPicture::work_on_bone() {
@@ -162,8 +182,8 @@ void SessionPicture::set_shading(const ShadingSettings& look) {
 
 void SessionPicture::find_first_view() {
     const bool is_untouched = camera_ == first_view_;
-    first_view_ =
-        first_view(*source_.bone(), *bone_.textures(), source_.session(), tool() ? &*tool() : nullptr);
+    first_view_ = first_view(*source_.bone(), *bone_.textures(), source_.session(),
+                             tool_.state() ? &*tool_.state() : nullptr);
     set_magnification(first_view_, first_magnification_);
     if (is_untouched) camera_ = first_view_;
 }
@@ -185,7 +205,8 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                                .light_field = view_.light_field};
     picture_.set_appearance(look);
     std::optional<DrawnTool> tool;
-    const std::optional<ToolState> shown = tool_.shown();
+    const SightElements elements = this->elements();
+    const std::optional<ToolState> shown = elements.tool ? tool_.shown() : std::nullopt;
     if (shown) tool = tool_.drawn(*shown, session(), operator_command_);
     picture_.draw(bone_.textures(), tool ? &*tool : nullptr, camera_);
     const gl::Framebuffer* inset = draw_inset(tool, look);
@@ -199,7 +220,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .view = &view_,
                   .render_frames_per_s = frame_s_ > 0.0 ? 1.0 / frame_s_ : 0.0,
                   .quality = picture_.quality(),
-                  .operator_command = operator_command_,
+                  .operator_command = elements.controls ? operator_command_ : std::nullopt,
                   .slices = view_.slices_shown ? &slices_ : nullptr,
                   .inset = inset,
                   .bone = source_.bone(),
@@ -209,10 +230,12 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .player = source_.player(),
                   .bone_problem = bone_.problem(),
                   .preparation_percent = preparation_percent(),
-                  .has_bone = has_bone()},
+                  .has_bone = has_bone(),
+                  .sight = sight()},
                  size_px_);
     picture_.cover(panels_.end(picture_.pictures()));
     drawn_ = {link_, tool_.state(), operator_command_, preparation_percent()};
+    drawn_sight_ = sight();
     has_undrawn_bone_ = false;
     return picture_.compose();
 }

@@ -13,6 +13,7 @@
 #include "render_client/ui/report.h"
 #include "render_client/ui/view/bone_on_screen.h"
 #include "render_client/ui/view/session_news.h"
+#include "render_client/ui/view/session_sight.h"
 #include "render_client/ui/view/shown_tool.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/passes/renderer_choice.h"
@@ -58,6 +59,7 @@ class SessionPicture {
     const glm::ivec2& size_px() const { return size_px_; }
 
     Camera& camera() { return camera_; }
+    const Camera& camera() const { return camera_; }
     /// The first view again (first_view.h).
     void reset_camera() { camera_ = first_view_; }
     /// Of the first view.
@@ -66,6 +68,7 @@ class SessionPicture {
     /// they are ready. Throws std::invalid_argument for an invalid transfer function.
     void set_shading(const ShadingSettings& look);
     ViewSettings& view() { return view_; }
+    const ViewSettings& view() const { return view_; }
     /// Panels take what a person asks of the session, from now on.
     void offer_controls() { takes_requests_ = true; }
     /// Where there is no session, one can be started with this, which outlives the picture.
@@ -87,7 +90,10 @@ class SessionPicture {
     const LinkUpdate& link() const { return link_; }
     /// Null until a server has said hello.
     const SessionInfo* session() const { return source_.session(); }
-    const std::optional<ToolState>& tool() const { return tool_.state(); }
+    /// Nothing where it is not known how the tool is now.
+    std::optional<ToolState> tool() const { return elements().tool ? tool_.state() : std::nullopt; }
+    SessionSight sight() const;
+    SightElements elements() const { return elements_of(sight()); }
 
     /// What was measured so far, with the bone's checksum of now. Frame times are the caller's to add.
     RenderReport report() const;
@@ -125,6 +131,7 @@ class SessionPicture {
     LinkUpdate link_;
     ShownTool tool_;
     DrawnSession drawn_;  ///< as the last frame showed it
+    SessionSight drawn_sight_ = SessionSight::none;
     bool has_undrawn_bone_ = true;
     ToolHistory history_;
     std::optional<OperatorCommand> operator_command_;

@@ -26,6 +26,7 @@ struct ViewSettings {
     ThemeName theme = ThemeName::dark;
     float scale = 1.0f;  ///< of panels and letters: 2 on a display twice as dense
     bool panels_shown = true;
+    bool playback_shown = true;  ///< the bar of a recording; in a film nobody can press it
     bool help_shown = false;
     bool details_shown = false;  ///< of link, delay, picture and solver
     bool is_fullscreen = false;

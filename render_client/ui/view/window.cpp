@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <stdexcept>
 
+#include "render_client/ui/input/key_meaning.h"
 #include "render_client/volume/gl/offscreen_context.h"
 
 namespace osteomill {
@@ -70,10 +71,18 @@ void Window::watch_input() {
         return input;
     };
     // Asking for a key's state now and then would miss a press in between.
-    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int held) {
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int held) {
         WindowInput& input = input_of(window);
+        auto* const self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+        HeldKeys& keys = self->keys_;
+        if (action == GLFW_PRESS) {
+            const char* const printed = glfwGetKeyName(key, scancode);
+            self->meant_keys_[scancode] = meant_key(key, printed != nullptr ? printed : "");
+        }
+        // The layout may change while a key is held.
+        if (const auto meant = self->meant_keys_.find(scancode); meant != self->meant_keys_.end())
+            key = meant->second;
         if (key < 0 || static_cast<std::size_t>(key) >= WindowInput::most_keys) return;
-        HeldKeys& keys = static_cast<Window*>(glfwGetWindowUserPointer(window))->keys_;
         const auto index = static_cast<std::size_t>(key);
         if (action == GLFW_RELEASE)
             keys.release(index, glfwGetTime());
@@ -141,7 +150,7 @@ WindowInput Window::take_input() {
     input_.framebuffer_size_px = size_px;
     if (keys_.settle(glfwGetTime())) input_.has_news = true;
     input_.keys_down = keys_.down();
-    input_.content_scale = std::clamp(static_cast<double>(std::max(scale_x, scale_y)), 0.5, 4.0);
+    input_.content_scale = std::clamp(static_cast<double>(std::max(scale_x, scale_y)), 1.0, 4.0);
     const auto is_either_down = [this](int left, int right) {
         return input_.keys_down[static_cast<std::size_t>(left)] ||
                input_.keys_down[static_cast<std::size_t>(right)];

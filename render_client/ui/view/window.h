@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -65,6 +66,7 @@ class Window {
     WindowInput input_;
     glm::ivec2 place_before_{0}, size_before_{0};  ///< it filled the screen
     HeldKeys keys_;
+    std::map<int, int> meant_keys_;  ///< by scancode, as each was pressed last
 };
 
 }  // namespace osteomill

@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 constexpr std::array situations{Situation::drilling, Situation::playing, Situation::looking_on,
-                                Situation::starting};
+                                Situation::starting, Situation::waiting};
 
 std::string text_of(const KeyBinding& binding) {
     return std::string(binding.name) + ": " + binding.meaning;

@@ -17,6 +17,7 @@ class ToldSession final : public SessionSource {
         LinkUpdate update;
         if (carvings_left_-- > 0) update = session_->poll();
         update.status = status;
+        update.silent_s = silent_s;
         if (replaces) update.bone_replaced = std::exchange(replaces, false);
         return update;
     }
@@ -31,6 +32,7 @@ class ToldSession final : public SessionSource {
 
     LinkStatus status = LinkStatus::live;
     bool replaces = false;
+    double silent_s = 0.0;
 
   private:
     int carvings_left_ = 20;
@@ -103,6 +105,39 @@ TEST_F(SessionPictureTest, KeepsViewAndPictureWhileABoneComesAgain) {
     prepare();
     EXPECT_TRUE(picture_->has_bone());
     EXPECT_EQ(picture_->camera(), turned);
+}
+
+TEST_F(SessionPictureTest, DrawsNothingOfTheSessionBeforeInTheNext) {
+    picture_->take_in();
+    prepare();
+    ASSERT_TRUE(picture_->has_bone());
+    for (int poll = 0; poll < 10; ++poll) picture_->take_in();
+    session_.begin_anew();
+    picture_->take_in();
+    EXPECT_FALSE(picture_->has_bone()) << "the bone that the one before left";
+    EXPECT_EQ(picture_->sight(), SessionSight::preparing);
+    EXPECT_FALSE(picture_->tool().has_value());
+    prepare();
+    EXPECT_TRUE(picture_->has_bone());
+    EXPECT_EQ(picture_->sight(), SessionSight::now);
+}
+
+TEST_F(SessionPictureTest, ShowsNoToolWhereNobodyKnowsHowItIs) {
+    picture_->take_in();
+    prepare();
+    picture_->take_in();
+    ASSERT_TRUE(picture_->tool().has_value());
+    draw();
+    const Picture before = draw();
+    session_.silent_s = 0.3;
+    EXPECT_EQ(picture_->take_in(), SessionNews::change);
+    EXPECT_EQ(picture_->sight(), SessionSight::silent);
+    EXPECT_FALSE(picture_->tool().has_value());
+    draw();
+    EXPECT_NE(draw(), before) << "grey, with words in the middle";
+    session_.silent_s = 0.0;
+    EXPECT_EQ(picture_->take_in(), SessionNews::change);
+    EXPECT_TRUE(picture_->tool().has_value());
 }
 
 TEST_F(SessionPictureTest, ForgetsTheViewOfTheSessionBefore) {

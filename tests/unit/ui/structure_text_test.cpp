@@ -37,7 +37,8 @@ TEST_F(StructureTexts, NameTheNearestWithItsDistance) {
 
 TEST_F(StructureTexts, WarnWithinTheDistanceOfEachStructure) {
     content_.link.distances = {{.tissue = 1, .distance_mm = 0.93}, {.tissue = 2, .distance_mm = 0.83}};
-    EXPECT_THAT(lines_of(structure_warnings(content_)), ElementsAre("CAREFUL: facial nerve is 0.9 mm away"));
+    EXPECT_THAT(lines_of(structure_warnings(content_)),
+                ElementsAre("CAREFUL: facial nerve is 0.9 mm away: go slowly"));
     EXPECT_EQ(structure_warnings(content_)[0][0].tone, Tone::warning);
 }
 
@@ -47,7 +48,7 @@ TEST_F(StructureTexts, KeepATouchOnTheScreen) {
     EXPECT_THAT(lines_of(structure_text(content_)),
                 ElementsAre("facial nerve: touching", "touched: facial nerve", "at 3.1 s, for 0.0 s"));
     EXPECT_THAT(lines_of(structure_warnings(content_)),
-                ElementsAre("PROTECTED: the burr touches facial nerve"));
+                ElementsAre("PROTECTED: the burr touches facial nerve: pull back"));
     content_.link.distances = {
         {.tissue = 1, .touches_so_far = 2, .first_touch_s = 3.14, .touched_s = 1.5, .entered_mm3 = 0.25}};
     EXPECT_THAT(lines_of(structure_text(content_)),
@@ -62,7 +63,8 @@ TEST_F(StructureTexts, AreNoneWhereNothingIsProtected) {
     EXPECT_THAT(structure_warnings(content_), IsEmpty());
     // An older server says no more than that.
     content_.tool->touches_protected = true;
-    EXPECT_THAT(lines_of(structure_warnings(content_)), ElementsAre("PROTECTED TISSUE: the burr touches it"));
+    EXPECT_THAT(lines_of(structure_warnings(content_)),
+                ElementsAre("PROTECTED TISSUE: the burr touches it: pull back"));
 }
 
 }  // namespace

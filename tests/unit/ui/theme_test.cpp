@@ -59,7 +59,9 @@ TEST_P(EveryTheme, KeepsTextAndLinesApartFromThePanel) {
         const bool is_line = tone >= static_cast<std::size_t>(Tone::left);
         EXPECT_GE(contrast(theme.tones[tone], theme.panel), is_line ? 3.0 : 4.5) << "tone " << tone;
     }
-    EXPECT_GE(contrast(theme[Tone::plain], theme.control), 4.5) << "letters on buttons";
+    for (const Tone tone : {Tone::plain, Tone::dim})
+        for (const Rgba& behind : {theme.control, theme.control_hovered, theme.control_active})
+            EXPECT_GE(contrast(theme[tone], behind), 4.5) << "letters on buttons, cards and sliders";
     EXPECT_GE(contrast(theme.on_picture, theme.behind_letter), 4.5);
 }
 

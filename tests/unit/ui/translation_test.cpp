@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -12,8 +13,11 @@
 #include <vector>
 
 #include "common/scene/burr_head.h"
+#include "common/scene/scene_file.h"
 #include "common/scene/session_control.h"
+#include "common/scene/shipped_scenes.h"
 #include "render_client/ui/input/key_bindings.h"
+#include "render_client/ui/panels/fault_remedy.h"
 #include "render_client/ui/start/case_library.h"
 #include "simulation/loop/burr_change.h"
 #include "simulation/safety/fault.h"
@@ -114,7 +118,11 @@ std::vector<HelpLine> all_help() {
 /// All that the window's sources translate, and what it needs in every session of what a server says.
 std::set<std::string> english_words() {
     std::set<std::string> words{"left", "back", "up"};  // axes of the plot
-    for (const Fault fault : all_faults) words.insert(describe(fault));
+    for (const Fault fault : all_faults) {
+        words.insert(describe(fault));
+        words.insert(remedy_of(describe(fault)));
+    }
+    words.insert(remedy_of("another"));
     for (const BurrChange waits : {BurrChange::spindle, BurrChange::bone}) words.insert(describe(waits));
     for (auto action = SessionAction::mark; action <= SessionAction::speed;
          action = static_cast<SessionAction>(static_cast<int>(action) + 1))
@@ -125,7 +133,14 @@ std::set<std::string> english_words() {
         for (const char* function : {"tr", "trf"})
             for (std::size_t arguments : calls_of(source, function))
                 words.insert(literal_at(source, arguments));
-    for (const ShelvedCase& built_in : cases_in("/nowhere")) words.insert(built_in.description);
+    for (const ShelvedCase& built_in : cases_in("/nowhere"))
+        words.insert({built_in.name, built_in.description});
+    for (const ShippedScene& shipped : shipped_scenes)
+        for (const Tissue& tissue : parse_scene(shipped.text, std::string(shipped.name)).tissues) {
+            std::string as_written = tissue.name;
+            std::ranges::replace(as_written, '_', ' ');
+            words.insert(as_written);
+        }
     // Of the help, what is no name of a key.
     for (const HelpLine& line : all_help()) {
         words.insert(line.meaning);
@@ -198,6 +213,13 @@ TEST(Translation, HaveTheSamePlacesForValues) {
             EXPECT_EQ(places_in(translated), places_in(english)) << language << ": " << english;
             EXPECT_FALSE(translated.empty()) << language << ": " << english;
         }
+}
+
+TEST(FaultRemedies, AreOfEachFaultThatTheServerWords) {
+    for (const Fault fault : all_faults) {
+        if (fault == Fault::paused) continue;  // which is shown as what it is
+        EXPECT_NE(std::string(remedy_of(describe(fault))), remedy_of("another")) << describe(fault);
+    }
 }
 
 TEST(Translation, AreEnglishUntilAnotherLanguageIsSpoken) {

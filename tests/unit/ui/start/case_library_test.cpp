@@ -65,20 +65,6 @@ TEST(CaseLibrary, HasAPictureOfEveryBuiltInCase) {
     EXPECT_THROW((void)read_png(std::span<const std::uint8_t>()), std::runtime_error);
 }
 
-TEST(CaseLibrary, KnowsTheSessionsThatWereRecordedTheNewestFirst) {
-    const testing::TemporaryFolder folder;
-    for (const char* name : {"b", "a", "torn"}) std::filesystem::create_directories(folder / name);
-    for (const char* file : {"a/session.pcap", "b/session.pcap", "torn/session.part.pcap"})
-        std::ofstream(folder / file) << "x";
-    const auto sessions = sessions_in(folder / ".");
-    ASSERT_EQ(sessions.size(), 2U);
-    std::filesystem::last_write_time(
-        folder / "a/session.pcap",
-        std::filesystem::last_write_time(folder / "b/session.pcap") - std::chrono::hours(1));
-    EXPECT_EQ(sessions_in(folder / ".").front().filename(), "b");
-    EXPECT_TRUE(sessions_in(folder / "nowhere").empty());
-}
-
 TEST(CaseLibrary, NamesAReportByCaseTraineeAndTime) {
     ::setenv("TZ", "UTC", 1);
     EXPECT_EQ(report_folder("/r", "a jaw", "Anna O'Hara/../x", 0),

@@ -1,0 +1,98 @@
+#include "render_client/ui/panels/sight_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "render_client/ui/panels/input_panel.h"
+#include "render_client/words/translation.h"
+
+namespace osteomill {
+
+namespace {
+
+constexpr float widest_letters = 34.0f;
+
+std::string percent_received(const LinkUpdate& link) {
+    if (link.snapshot_bricks_total == 0) return tr("The bone is on its way");
+    return trf("The bone is on its way: {} %",
+               std::uint64_t{100} * link.snapshot_bricks / link.snapshot_bricks_total);
+}
+
+bool has_buttons(const OverlayContent& content) {
+    return content.sight == SessionSight::none && content.requests != nullptr;
+}
+
+/// So that a line may be as long as a status line is.
+float height_of(const std::string& text, float width) {
+    return text.empty()
+               ? 0.0f
+               : ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y + ImGui::GetStyle().ItemSpacing.y;
+}
+
+}  // namespace
+
+SightWords words_of_sight(const OverlayContent& content) {
+    const LinkUpdate& link = content.link;
+    switch (content.sight) {
+        case SessionSight::none:
+            return {
+                tr("No server has answered yet"), link.status_line,
+                tr("This window joins as soon as it answers. See whether the server runs, and whether the "
+                   "address is right.")};
+        case SessionSight::coming:
+            return {percent_received(link), link.status_line, {}};
+        case SessionSight::preparing:
+            return {content.preparation_percent
+                        ? trf("Preparing the bone: {} %", *content.preparation_percent)
+                        : tr("Preparing the bone"),
+                    {},
+                    tr("Nothing acts before it is there.")};
+        case SessionSight::silent:
+            return {
+                tr("The server is silent"),
+                tr("What you see is of before: how the tool is now is not known."),
+                tr("Hold still: it goes on by itself. If it does not, see whether the server's machine runs "
+                   "and the network cable is in.")};
+        case SessionSight::lost:
+            if (link.status == LinkStatus::refused)
+                return {tr("The server does not take this window"), link.status_line,
+                        tr("Show this to whoever looks after the simulator.")};
+            return {tr("The link to the server is lost"), link.status_line,
+                    tr("What you see is of before. This window joins again by itself. If it does not, see "
+                       "whether "
+                       "the server runs and the network cable is in. What was recorded until now is kept.")};
+        case SessionSight::now:
+        case SessionSight::over:
+            break;
+    }
+    return {};
+}
+
+glm::vec2 sight_panel_size(const OverlayContent& content, const glm::vec2& available) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const SightWords words = words_of_sight(content);
+    const glm::vec2 padding(2.0f * style.WindowPadding.x, 2.0f * style.WindowPadding.y);
+    const float width = std::min(widest_letters * ImGui::GetFontSize(), available.x - padding.x);
+    float height = 0.0f;
+    for (const std::string& text : {words.title, words.cause, words.advice}) height += height_of(text, width);
+    if (has_buttons(content)) height += ImGui::GetFrameHeightWithSpacing();
+    return {width + padding.x, height + padding.y};
+}
+
+void draw_sight_panel(const OverlayContent& content, const PanelPlace& place) {
+    const InputPanel window("sight", place);
+    const SightWords words = words_of_sight(content);
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_NavHighlight));
+    ImGui::TextUnformatted(words.title.c_str());
+    ImGui::PopStyleColor();
+    for (const std::string& text : {words.cause, words.advice})
+        if (!text.empty()) ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    if (!has_buttons(content)) return;
+    if (ImGui::Button(tr("End"))) content.requests->ends_program = true;
+}
+
+}  // namespace osteomill

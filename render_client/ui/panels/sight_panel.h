@@ -1,0 +1,26 @@
+// What stands in the middle where the picture is not the session's of now: the cause, and what to do, in
+// words for a trainee. Drawn with Dear ImGui; needs an ImGui frame to be open.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+
+#include "render_client/ui/panels/layout.h"
+#include "render_client/ui/panels/overlay.h"
+
+namespace osteomill {
+
+struct SightWords {
+    std::string title;
+    std::string cause;   ///< may be empty
+    std::string advice;  ///< may be empty
+};
+
+/// Of a sight that has words.
+SightWords words_of_sight(const OverlayContent& content);
+
+glm::vec2 sight_panel_size(const OverlayContent& content, const glm::vec2& available);
+/// With a button to end while no server has answered.
+void draw_sight_panel(const OverlayContent& content, const PanelPlace& place);
+
+}  // namespace osteomill

@@ -1,0 +1,114 @@
+#include "render_client/ui/start/kept_sessions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "common/files/input_file.h"
+#include "common/text/foreign_json.h"
+#include "common/text/plain_text.h"
+#include "render_client/words/translation.h"
+
+namespace osteomill {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string month(int number) {
+    const std::array names{tr("January"),   tr("February"), tr("March"),    tr("April"),
+                           tr("May"),       tr("June"),     tr("July"),     tr("August"),
+                           tr("September"), tr("October"),  tr("November"), tr("December")};
+    return names[static_cast<std::size_t>(number - 1)];
+}
+
+/// Of a folder's name: "CASE-TRAINEE", and the local time in words.
+struct NamedFolder {
+    std::string whose;
+    std::string when;
+};
+
+std::optional<NamedFolder> parts_of(const std::string& name) {
+    constexpr std::string_view pattern = "-YYYYmmdd-HHMMSS";
+    if (name.size() <= pattern.size()) return std::nullopt;
+    const std::string stamp = name.substr(name.size() - pattern.size());
+    for (std::size_t i = 0; i < pattern.size(); ++i)
+        if ((pattern[i] == '-') != (stamp[i] == '-') ||
+            (pattern[i] != '-' && (stamp[i] < '0' || stamp[i] > '9')))
+            return std::nullopt;
+    const int month_number = std::stoi(stamp.substr(5, 2));
+    if (month_number < 1 || month_number > 12) return std::nullopt;
+    return NamedFolder{name.substr(0, name.size() - pattern.size()),
+                       trf("{} {} {}:{}", std::stoi(stamp.substr(7, 2)), month(month_number),
+                           stamp.substr(10, 2), stamp.substr(12, 2))};
+}
+
+/// "Anna, jaw" and the verdict, of a report; empty where there is none of ours.
+std::pair<std::string, std::string> said_by_report(const fs::path& folder) {
+    try {
+        const auto json = parse_foreign_json(read_text(folder / "metrics.json", json_kind), "");
+        const auto& session = json.at("session");
+        std::string trainee = session.at("trainee").get<std::string>();
+        std::string of = session.at("case").get<std::string>();
+        if (of.empty()) of = session.at("scene").get<std::string>();
+        const auto& metrics = json.at("metrics");
+        std::string verdict;
+        if (const auto passed = metrics.find("passed"); passed != metrics.end() && passed->is_number())
+            verdict = passed->get<double>() != 0.0 ? tr("passed") : tr("not passed");
+        if (trainee.empty()) trainee = tr("nobody");
+        return {one_line(trainee + ", " + tr(of)), verdict};
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
+std::optional<fs::path> recording_in(const fs::path& folder) {
+    std::error_code ignored;
+    for (const char* name : {"session.pcap", "session.part.pcap", "session.torn-1.pcap"})
+        if (fs::is_regular_file(folder / name, ignored)) return folder / name;
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::string title_of_session(const fs::path& folder) {
+    const std::string name = folder.filename().string();
+    const auto named = parts_of(name);
+    const auto [whose, verdict] = said_by_report(folder);
+    std::string title = !whose.empty() ? whose : one_line(named ? named->whose : name);
+    if (named) title += ", " + named->when;
+    if (!verdict.empty()) title += ", " + verdict;
+    return title;
+}
+
+std::vector<KeptSession> sessions_in(const fs::path& reports, std::size_t most_titled) {
+    std::vector<std::pair<fs::file_time_type, KeptSession>> found;
+    std::error_code error;
+    for (fs::directory_iterator entry(reports, error), end; !error && entry != end; entry.increment(error)) {
+        const auto recording = recording_in(entry->path());
+        if (!recording) continue;
+        std::error_code ignored;
+        found.push_back({fs::last_write_time(*recording, ignored),
+                         {.folder = entry->path(),
+                          .recording = *recording,
+                          .is_whole = recording->filename() == "session.pcap",
+                          .has_report = fs::exists(entry->path() / "report.html", ignored)}});
+    }
+    std::ranges::sort(found, [](const auto& a, const auto& b) {
+        return std::pair(b.first, a.second.folder) < std::pair(a.first, b.second.folder);
+    });
+    std::vector<KeptSession> sessions;
+    for (auto& [written, session] : found) {
+        if (sessions.size() < most_titled) session.title = title_of_session(session.folder);
+        sessions.push_back(std::move(session));
+    }
+    return sessions;
+}
+
+}  // namespace osteomill

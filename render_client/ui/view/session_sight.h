@@ -1,0 +1,65 @@
+// What a picture may say of a session: which of its elements are so, and which would be of another time, of
+// another bone, or of nobody.
+#pragma once
+
+#include "render_client/link/session_source.h"
+
+namespace osteomill {
+
+/// A server speaks 30 times a second: after so long without a word nothing of it is of now.
+inline constexpr double longest_fresh_s = 0.25;
+
+enum class SessionSight {
+    none,       ///< no server has been reached yet
+    coming,     ///< its bone is on the way
+    preparing,  ///< and not drawn yet
+    now,        ///< the picture is the session's, or the recording's
+    silent,     ///< the server says nothing
+    lost,       ///< the link broke, or is refused
+    over        ///< the picture is what the session left
+};
+
+/// `has_bone`: that of this session is drawn, or cannot be drawn.
+constexpr SessionSight sight_of(const LinkUpdate& link, bool has_bone, bool is_recording) {
+    switch (link.status) {
+        case LinkStatus::connecting:
+            return SessionSight::none;
+        case LinkStatus::receiving_snapshot:
+            return SessionSight::coming;
+        case LinkStatus::lost:
+        case LinkStatus::refused:
+            return SessionSight::lost;
+        case LinkStatus::finished:
+            return SessionSight::over;
+        case LinkStatus::live:
+            break;
+    }
+    if (!is_recording && link.silent_s > longest_fresh_s) return SessionSight::silent;
+    return has_bone ? SessionSight::now : SessionSight::preparing;
+}
+
+struct SightElements {
+    bool tool = false;       ///< burr, spindle, force, distances, warnings, sound
+    bool controls = false;   ///< buttons, keys and mouse act on the session
+    bool is_grey = false;    ///< what is drawn is not of now
+    bool has_words = false;  ///< in the middle: the cause, and what to do
+};
+
+constexpr SightElements elements_of(SessionSight sight) {
+    switch (sight) {
+        case SessionSight::none:
+            return {.has_words = true};
+        case SessionSight::coming:
+        case SessionSight::preparing:
+        case SessionSight::silent:
+        case SessionSight::lost:
+            return {.is_grey = true, .has_words = true};
+        case SessionSight::now:
+            return {.tool = true, .controls = true};
+        case SessionSight::over:
+            return {.tool = true};
+    }
+    return {};
+}
+
+}  // namespace osteomill
