@@ -116,6 +116,11 @@ class MapTest(unittest.TestCase):
         self.assertTrue(all(bars[i]["is_met"] for i in (5, 8, 9, 10)))
         self.assertEqual(stability_map.bars_of(whole_map("--quick", "--methods", "hold")), [])
 
+    def test_a_bar_of_points_that_a_part_of_the_map_lacks_is_no_miss(self):
+        said = "\n".join(stability_map.lines_of(whole_map("--quick", "--methods", "implicit", "--milling-rates-hz", "1000")))
+        self.assertIn("-      bone carved, 100 Hz against 1000 Hz, %: this part of the map has no such point", said)
+        self.assertNotIn("nan", said)
+
     def test_a_fallback_anywhere_misses_the_bar(self):
         def fell_back(point):
             of_walls = {"max_residual_n": 0.002, "fallbacks": 3.0, "energy_faults": 1.0}

@@ -175,7 +175,11 @@ def lines_of(whole: pd.DataFrame) -> list[str]:
                          *(percent(walls.get(method), number) for number in ("share", "median_rms_error", "common_rms_error"))))
     lines.append("cutting, wall: share that is stable; rms: median error there; rms, all: where every method is stable; real: "
                  "share of cutting on a real device")
-    for bar in bars_of(whole):
-        lines.append(f"{'met   ' if bar['is_met'] else 'MISSED'} {bar['what']}: {bar['worst']:.3g}, at most {bar['bar']:.3g}"
-                     + (f" ({bar['where']})" if bar["where"] else ""))
-    return lines
+    return lines + [_said_of(bar) for bar in bars_of(whole)]
+
+
+def _said_of(bar: dict[str, Any]) -> str:
+    if np.isnan(bar["worst"]):  # as of a map of some grips or rates alone
+        return f"-      {bar['what']}: this part of the map has no such point"
+    where = f" ({bar['where']})" if bar["where"] else ""
+    return f"{'met   ' if bar['is_met'] else 'MISSED'} {bar['what']}: {bar['worst']:.3g}, at most {bar['bar']:.3g}{where}"
