@@ -11,15 +11,14 @@ namespace osteomill::python {
 using study::PolishingSlide;
 
 void bind_polishing(py::module_& module) {
-    py::class_<PolishingSlide>(module, "PolishingSlide",
-                               "The polishing experiment of a 5 mm burr at 80 000 rpm.")
-        .def(py::init([](const py::handle& edges) {
-                 return PolishingSlide(vector_of(edges, "edge_coefficients_n_per_mm"));
+    py::class_<PolishingSlide>(module, "PolishingSlide", "The polishing experiment of a 5 mm burr.")
+        .def(py::init([](const py::handle& edges, double rpm, double stroke_mm) {
+                 return PolishingSlide(vector_of(edges, "edge_coefficients_n_per_mm"), rpm, stroke_mm);
              }),
-             py::arg("edge_coefficients_n_per_mm"))
+             py::arg("edge_coefficients_n_per_mm"), py::arg("rpm") = 80'000.0, py::arg("stroke_mm") = 8.0)
         .def_property_readonly(
             "start_mm", [](const PolishingSlide& slide) { return array_of(slide.start_mm()); },
-            "Of the burr's centre (3,); the bone's surface is a radius of the burr below.")
+            "Where it begins, on the bone's surface: (3,).")
         .def_property_readonly("burr_radius_mm", &PolishingSlide::burr_radius_mm)
         .def_property_readonly("meant_s", &PolishingSlide::meant_s, "Of the motion that the hand means.")
         .def(

@@ -18,12 +18,10 @@ namespace osteomill::study {
 
 namespace {
 
-constexpr double spindle_rpm = 80'000.0;
-constexpr double stroke_mm = 8.0;
 /// The slide is broken off then: a hand that waits for its tool may wait for minutes.
 constexpr double longest_s = 45.0;
 
-Scene polishing_scene(const glm::dvec3& edge_coefficients_n_per_mm) {
+Scene polishing_scene(const glm::dvec3& edge_coefficients_n_per_mm, double spindle_rpm, double stroke_mm) {
     Scene scene = phantom_scene("cube");
     Burr& burr = scene.burrs.at(scene.start_burr);
     burr.spindle_rev_per_s = spindle_rpm / 60.0;
@@ -49,8 +47,9 @@ Trajectory down_to_deepest(const Scene& scene) {
 
 }  // namespace
 
-PolishingSlide::PolishingSlide(const glm::dvec3& edge_coefficients_n_per_mm)
-    : scene_(polishing_scene(edge_coefficients_n_per_mm)),
+PolishingSlide::PolishingSlide(const glm::dvec3& edge_coefficients_n_per_mm, double spindle_rpm,
+                               double stroke_mm)
+    : scene_(polishing_scene(edge_coefficients_n_per_mm, spindle_rpm, stroke_mm)),
       cube_(polished_cube()),
       meant_(down_to_deepest(scene_)) {}
 

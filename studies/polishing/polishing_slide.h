@@ -28,10 +28,10 @@ struct SlideEnd {
 
 class PolishingSlide {
   public:
-    /// The scene "cube", its burr with these edges at 80 000 rpm, strokes of 8 mm.
-    explicit PolishingSlide(const glm::dvec3& edge_coefficients_n_per_mm);
+    /// The scene "cube", its burr with these edges and this speed; the slide in strokes of that length.
+    PolishingSlide(const glm::dvec3& edge_coefficients_n_per_mm, double spindle_rpm, double stroke_mm);
 
-    /// Of the burr's centre; its lowest point is a radius below. The bone's surface is a radius below this.
+    /// Where it begins, on the bone's surface.
     const glm::dvec3& start_mm() const { return scene_.trajectory.start_mm; }
     double burr_radius_mm() const { return scene_.burrs.at(scene_.start_burr).radius_mm(); }
 

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from study_files import DATA, run_of
 
-from osteomill.studies import polishing
+from osteomill.studies import polishing, polishing_claims
 from osteomill.studies.tables import csv_of
 
 KEPT = DATA / "polishing_study"
@@ -20,7 +20,7 @@ class GoldenTest(unittest.TestCase):
         with run_of("polishing", polishing, "--quick") as (out, said):
             for name in ("figures", "as_meant", "milling_implicit"):
                 self.assertEqual((out / f"{name}.csv").read_text(), (KEPT / f"{name}.csv").read_text(), name)
-            self.assertIn("milling,interpolate,100,1,", said)
+            self.assertIn("\nmilling,interpolate,100,1,", said)
             for chart in ("depth", "milling", "point_spring"):
                 self.assertIn("</svg>", (out / f"polishing_{chart}.svg").read_text())
             self.assertTrue((out / "runs" / "point-spring_interpolate.csv").exists())
@@ -73,6 +73,35 @@ class ForceMeasuresTest(unittest.TestCase):
         [setup, *_] = polishing.cases(True, False)
         self.assertEqual(csv_of(polishing.table_of([setup], [record])).splitlines()[1], "milling,interpolate,100,0,0,0,0,0,0,,1")
         self.assertEqual(len(polishing.series_of(json.loads(json.dumps(record)))), 0)
+
+class ClaimsTest(unittest.TestCase):
+    def test_components_on_one_line_are_proportional(self):
+        pull = np.sin(np.arange(1000) * 0.1)
+        self.assertAlmostEqual(polishing_claims.share_off_line(np.outer(pull, (3.0, 0.2, 1.0))), 0.0)
+        apart = np.eye(3)[np.arange(999) % 3]
+        self.assertAlmostEqual(polishing_claims.share_off_line(apart), 2.0 / 3.0)
+        self.assertEqual(polishing_claims.share_off_line(np.zeros((4, 3))), 0.0)
+
+    def test_ranks_tell_what_rises(self):
+        depths = np.arange(20.0)
+        self.assertAlmostEqual(polishing_claims.rank_correlation(depths, depths**3), 1.0)
+        self.assertAlmostEqual(polishing_claims.rank_correlation(depths, -depths), -1.0)
+        self.assertEqual(polishing_claims.rank_correlation(depths, np.ones(20)), 0.0)
+
+    def test_the_mean_force_does_not_know_the_number_of_edges(self):
+        one, four = (polishing_claims.measure_edges(edges, (0.0, 0.0, 0.0)) for edges in (1, 4))
+        self.assertAlmostEqual(four["mean_n"] / one["mean_n"], 1.0, delta=0.05)
+        self.assertAlmostEqual(four["one_tooth_n"], four["mean_n"] / 4)
+        self.assertLess(four["peak_n"], 0.8 * one["peak_n"])
+
+    def test_a_claim_is_decided_by_its_number(self):
+        t_s = np.arange(4000) * 0.001
+        record = {"t_s": t_s, "depth_mm": t_s, "force_n": np.column_stack([t_s, 0.1 * t_s, 1.0 - 0.2 * t_s])}
+        edges = pd.DataFrame({"edges": [1, 12], "mean_n": [9.4, 9.5], "one_tooth_n": [9.4, 0.8], "peak_n": [25.0, 11.0]})
+        claims = polishing_claims.claims_of({"milling, on rails": record, "rpm over: 10000": record},
+                                            {"milling, interpolate": 0.24, "milling, implicit": 0.19}, edges, 0.2)
+        self.assertEqual(claims["holds"].tolist(), [True, True, False, True, True, True, False, True, True, False])
+        self.assertEqual(claims["where"].tolist()[-1], "milling, on rails, 80000 rpm over 10000")
 
 
 if __name__ == "__main__":

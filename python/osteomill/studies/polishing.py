@@ -23,6 +23,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from osteomill import _studies
+from osteomill.studies import polishing_claims
 from osteomill.studies.study_run import StudyRun
 from osteomill.studies.tables import csv_of
 
@@ -52,7 +53,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def cases(quick: bool, edge_forces: bool) -> list[dict[str, Any]]:
-    """`quick` leaves `hold` out."""
+    """The slides of the figures; `quick` leaves `hold` out."""
     couplings = PUBLISHED_COUPLINGS if quick else (*PUBLISHED_COUPLINGS, "hold")
     made = [{"force_model": model, "coupling": coupling, "milling_rate_hz": PUBLISHED_RATE_HZ}
             for model in ("milling", "point-spring") for coupling in couplings]
@@ -61,12 +62,20 @@ def cases(quick: bool, edge_forces: bool) -> list[dict[str, Any]]:
 
 
 def name_of(case: dict[str, Any]) -> str:
+    if case.get("part") == "edges":
+        return f"on rails, edges: {case['edges']}"
+    if case.get("part") == "rails":
+        return f"on rails at {case['rpm']:g} rpm, strokes of {case['stroke_mm']:g} mm"
     return f"{case['force_model']}_{case['coupling']}"
 
 
 @functools.cache
-def slide_of(edge_forces: bool) -> _studies.PolishingSlide:
-    return _studies.PolishingSlide(EDGES_N_PER_MM if edge_forces else (0.0, 0.0, 0.0))
+def slide_of(edge_forces: bool, stroke_mm: float = 8.0) -> _studies.PolishingSlide:
+    return _studies.PolishingSlide(edges_of(edge_forces), stroke_mm=stroke_mm)
+
+
+def edges_of(edge_forces: bool) -> tuple[float, float, float]:
+    return EDGES_N_PER_MM if edge_forces else (0.0, 0.0, 0.0)
 
 
 def depth_mm(slide: _studies.PolishingSlide, burr_z_mm: Any) -> Any:
@@ -75,6 +84,15 @@ def depth_mm(slide: _studies.PolishingSlide, burr_z_mm: Any) -> Any:
 
 
 def measure(logs: pathlib.Path, case: dict[str, Any]) -> dict[str, Any]:
+    edges = edges_of(case["edge_forces"])
+    if case.get("part") == "edges":
+        return polishing_claims.measure_edges(case["edges"], edges)
+    if case.get("part") == "rails":
+        return polishing_claims.measure_on_rails(slide_of(case["edge_forces"], case["stroke_mm"]), case["rpm"], edges)
+    return measure_by_hand(logs, case)
+
+
+def measure_by_hand(logs: pathlib.Path, case: dict[str, Any]) -> dict[str, Any]:
     """The record of a slide, a sample a millisecond from the first bone removed on, and how it ended. The session's
     own log is left in the folder `logs`."""
     slide = slide_of(case["edge_forces"])
@@ -94,7 +112,9 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
     logs = study.file("runs")
     make_folder(logs)
     setups = cases(options.quick, options.edge_forces)
-    found = study.sweep(functools.partial(measure, logs), setups, name_of)
+    of_claims = [] if options.quick else polishing_claims.cases(options.edge_forces)
+    outcomes = study.sweep(functools.partial(measure, logs), setups + of_claims, name_of)
+    found, asked = outcomes[: len(setups)], outcomes[len(setups) :]
     series = {name_of(setup): series_of(record) for setup, record in zip(setups, found)}
     for name, table in series.items():
         study.table(name, table)
@@ -102,13 +122,30 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
     study.table("as_meant", meant)
     figures = table_of(setups, found)
     study.table("figures", figures)
-    study.say(csv_of(figures))
+    for line in csv_of(figures).splitlines():
+        study.say(line)
     from osteomill.studies import polishing_charts
 
     study.chart("polishing_depth", polishing_charts.depth(series, meant))
     study.chart("polishing_milling", polishing_charts.milling(series))
     study.chart("polishing_point_spring", polishing_charts.point_spring(series))
+    if asked:
+        rails, by_edges = asked[: -len(polishing_claims.EDGES)], asked[-len(polishing_claims.EDGES) :]
+        edges = polishing_claims.edge_table_of(by_edges)
+        claims = _claims_of(figures, dict(zip(series, found)), rails, edges)
+        study.table("claims", claims)
+        for _, claim in claims.iterrows():
+            study.say(f"{'holds' if claim['holds'] else 'FAILS'} {claim['claim']} ({claim['where']}): {claim['measured']:.3f} "
+                      f"{claim['must_be']} {claim['bar']:g}, {claim['measure']}")
     study.say(f"figures.csv, the runs (CSV) and charts (SVG) are in {study.out}")
+
+
+def _claims_of(figures: pd.DataFrame, by_hand: dict[str, Any], rails: list[Any], edges: pd.DataFrame) -> pd.DataFrame:
+    strokes, single, slow = rails
+    records = {"milling, on rails": strokes, "milling, on rails, one stroke": single, "milling, implicit": by_hand["milling_implicit"],
+               "point-spring, interpolate": by_hand["point-spring_interpolate"], f"rpm over: {polishing_claims.SLOW_RPM:g}": slow}
+    limit_cycles_n = {f"{row['force_model']}, {row['coupling']}": row["limit_cycle_n"] for _, row in figures.iterrows()}
+    return polishing_claims.claims_of(records, limit_cycles_n, edges, CHATTER_N)
 
 
 def make_folder(folder: pathlib.Path) -> None:
@@ -162,13 +199,18 @@ def windows_of(t_s: Array, depths_mm: Array, force_n: Array, window_s: float) ->
     """The record in windows; the last, if shorter, is left out: their mean depth, and the rms of the force about its
     own slow part. Samples are taken to be evenly spaced. Within half of SLOW_PART_S from either end the slow part is
     the mean of what there is."""
-    period_s = (t_s[-1] - t_s[0]) / (len(t_s) - 1) if len(t_s) > 1 else math.inf
-    length, width = (max(1, math.floor(span_s / period_s + 0.5)) for span_s in (window_s, SLOW_PART_S))
+    length, width = samples_in(t_s, window_s), samples_in(t_s, SLOW_PART_S)
     count = len(t_s) // length
     fast = force_n - moving_mean(force_n, width)
     squares = (fast**2).sum(axis=1)[: count * length].reshape(count, length)
     depths = depths_mm[: count * length].reshape(count, length)
     return pd.DataFrame({"depth_mm": depths.mean(axis=1), "fast_rms_n": np.sqrt(squares.mean(axis=1))})
+
+
+def samples_in(t_s: Array, span_s: float) -> int:
+    """At least one."""
+    period_s = (t_s[-1] - t_s[0]) / (len(t_s) - 1) if len(t_s) > 1 else math.inf
+    return max(1, math.floor(span_s / period_s + 0.5))
 
 
 def moving_mean(values: Array, width: int) -> Array:
