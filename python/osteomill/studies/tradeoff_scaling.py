@@ -60,20 +60,22 @@ def table_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> p
 
 def chart_of(table: pd.DataFrame) -> "Figure":
     from osteomill.studies import charts
+    from osteomill.studies.tradeoff_marks import plain_decades
 
     looks = {"rays": (charts.BLUE, "o"), "surface voxels": (charts.GREEN, "^"), "slices": (charts.AMBER, "s")}
     figure = charts.figure(10.0, 4.8)
     figure.suptitle("A whole frame at full quality, against what it shows and where")
     for axes, column, label in zip(figure.subplots(1, 2), ("edge_voxels", "thousand_px"),
-                                   ("edge of a cube of bone, voxels", "pixels of the window, thousands (the tooth)")):
+                                   ("a cube of bone: voxels an edge", "the tooth: thousands of pixels")):
         for drawn, (_, _, title) in DRAWN.items():
             colour, marker = looks[drawn]
             rows = table[(table["drawn"] == drawn) & table[column].notna()]
-            axes.plot(rows[column], rows["frame_ms"], color=colour, marker=marker, label=title)
+            if len(rows):
+                axes.plot(rows[column], rows["frame_ms"], color=colour, marker=marker, label=title)
         axes.set(xscale="log", yscale="log", xlabel=label, ylabel="time of a frame (median), ms")
         at = sorted(set(table[column].dropna()))
         axes.set_xticks(at, [f"{value:.3g}" if value < 1000 else f"{value:.0f}" for value in at])
         axes.set_xticks([], minor=True)
-        axes.yaxis.set_major_formatter("{x:g}")
+        plain_decades(axes.yaxis)
     axes.legend()
     return figure
