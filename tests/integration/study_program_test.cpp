@@ -305,9 +305,10 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     std::ofstream(folder_ / "file") << "in the way";
     expect_refused(std::string("force --cases ") + case_file + " --out " + (folder_ / "file/out").string(), 1,
                    "file/out: cannot be made a folder");
-    expect_refused("", 2,
-                   "a study to run: force, tradeoff, choose, stability, arms, polishing, render, realtime, bridge, "
-                   "calibrate, sessions or repeat");
+    expect_refused(
+        "", 2,
+        "a study to run: force, tradeoff, choose, stability, arms, polishing, render, realtime, bridge, "
+        "calibrate, sessions or repeat");
     expect_refused("farce", 2, "farce");
     expect_refused("realtime --quick --duration-s 60", 2, "--duration-s");
     expect_refused(std::string("force --cases ") + case_file + " --voxel-mm 0", 2, "--voxel-mm");
