@@ -45,7 +45,7 @@ ShadingSettings look_of(const std::string& shading, const std::string& transfer)
     return look;
 }
 
-glm::ivec2 size_of(const std::pair<int, int>& size_px) {
+glm::ivec2 frame_size_of(const std::pair<int, int>& size_px) {
     if (std::min(size_px.first, size_px.second) < 1 || std::max(size_px.first, size_px.second) > 16384)
         throw std::invalid_argument("size_px: takes 1 to 16384 pixels either way");
     return {size_px.first, size_px.second};
@@ -57,7 +57,7 @@ std::unique_ptr<PictureTrial> picture_of(const TrialBone& trial, const std::stri
     if (view != "overview" && view != "close-up")
         throw std::invalid_argument("view: takes overview or close-up, not " + view);
     const ShadingSettings look = look_of(shading, transfer);
-    const glm::ivec2 size = size_of(size_px);
+    const glm::ivec2 size = frame_size_of(size_px);
     const py::gil_scoped_release released;
     return std::make_unique<PictureTrial>(trial.bone, trial.tissues, look,
                                           view == "overview" ? trial.overview : trial.close_up, size, true,
@@ -93,7 +93,7 @@ py::dict draw_window(const std::string& phantom, const std::pair<int, int>& size
     {
         const py::gil_scoped_release released;
         const gl::OffscreenContext context(gpu);
-        drawn = study::draw_window(phantom, size_of(size_px), frames, picture);
+        drawn = study::draw_window(phantom, frame_size_of(size_px), frames, picture);
     }
     using py::literals::operator""_a;
     return py::dict("orbit"_a = dict_of(drawn.orbit), "carve"_a = dict_of(drawn.carve),
