@@ -6,7 +6,7 @@
 
 #include "studies/render/made_bone.h"
 
-namespace osteomill {
+namespace osteomill::bone_ahead_test {
 namespace {
 
 const glm::dvec3 centre_mm(10.0, -4.0, 20.0);
@@ -38,4 +38,4 @@ TEST(BoneAhead, HidesWhatLiesBehindIt) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::bone_ahead_test
