@@ -50,7 +50,7 @@ def regions(table: pd.DataFrame, rows: pd.DataFrame, scene: str) -> Figure:
     figure = charts.figure(13.0, 1.6 + 2.4 * lines)
     figure.suptitle(title)
     grid = figure.subplots(lines, columns, sharex=True, sharey=True, squeeze=False).flat
-    for axes, method in zip(grid, methods):
+    for method, axes in zip(methods, grid):  # in this order, so that the rest of the grid stays in it
         for _, box in table[table["method"] == method].iterrows():
             if box["stable"]:
                 axes.barh(box["y"], box["x_high"] - box["x_low"], 0.26, box["x_low"], color=SHADES[box["grip"] - 1], linewidth=0)
@@ -69,8 +69,8 @@ def regions(table: pd.DataFrame, rows: pd.DataFrame, scene: str) -> Figure:
         first.set_ylim(rows["y"].min() - 0.6, rows["y"].max() + 0.6)
     figure.supxlabel(x_label, fontsize=11)
     figure.supylabel("rate of milling, delay in ticks of 1 ms", fontsize=11)
-    first.legend(handles=[Patch(color=shade, label=name) for shade, name in zip(SHADES, GRIP_NAMES)], fontsize=8,
-                 loc="upper right", frameon=True)
+    figure.legend(handles=[Patch(color=shade, label=name) for shade, name in zip(SHADES, GRIP_NAMES)], fontsize=10, ncol=3,
+                  loc="lower right")
     return figure
 
 

@@ -13,6 +13,7 @@ and the burr is pressed on the bone. Three grips: the bare arm under a steady pu
 Always the same list in the same order; its length times the CPU time of a point (0.1 s) is what the study takes.
 """
 
+import functools
 import itertools
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -85,10 +86,14 @@ def _every(part: str, method: str, scenes: Iterable[Point], rates: Sequence[floa
 
 def hand_gets_on(point: Point) -> bool:
     """Whether edges alone take no more than two thirds of the force that the scene's hand gives."""
+    return bool(point["relative_stiffness"] * _force_of_edges_n(point["edge_n_per_mm"], point["depth_mm"]) <= GETS_ON_WITH_N)
+
+
+@functools.cache
+def _force_of_edges_n(edge_n_per_mm: float, depth_mm: float) -> float:
     burr = Burr(diameter_mm=5.0, cutting_coefficients_n_per_mm2=(0.0, 0.0, 0.0),
-                edge_coefficients_n_per_mm=(point["edge_n_per_mm"], point["edge_n_per_mm"], 0.0))
-    force_n = _studies.reference_force(burr, (0.0, 0.0, 2.5 - point["depth_mm"]), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
-    return bool(point["relative_stiffness"] * np.linalg.norm(force_n) <= GETS_ON_WITH_N)
+                edge_coefficients_n_per_mm=(edge_n_per_mm, edge_n_per_mm, 0.0))
+    return float(np.linalg.norm(_studies.reference_force(burr, (0.0, 0.0, 2.5 - depth_mm), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))))
 
 
 def text_of(point: Point) -> str:

@@ -20,7 +20,7 @@ def chart_of(sites: pd.DataFrame) -> Figure:
     figure = charts.figure(3.4 * columns + 0.4, 3.0 * lines + 0.6)
     figure.suptitle("Where bone ends: each case as a share of its bar; below the line it is met")
     grid = figure.subplots(lines, columns, sharex=True, sharey=True, squeeze=False).flat
-    for axes, kind in zip(grid, kinds):
+    for kind, axes in zip(kinds, grid):  # in this order, so that the rest of the grid stays in it
         of_kind = sites[sites["kind"] == kind]
         beside = 0.5 * (np.arange(len(of_kind)) * GOLDEN % 1.0) - 0.25  # points of a column lie beside one another
         for place, column in enumerate(NUMBERS.values()):
