@@ -39,7 +39,7 @@ TEST(RecordingSummary, CountsWhatWasRemovedByTissue) {
 
     const nlohmann::ordered_json json = to_json(summary);
     EXPECT_EQ(json.at("frames"), summary.frames);
-    EXPECT_EQ(json.at("protocol"), "2.2");
+    EXPECT_EQ(json.at("protocol"), "2.3");
     EXPECT_EQ(json.at("bone_checksum").get<std::string>().size(), 16U);
     EXPECT_EQ(json.at("removed_mm3").at("total"), summary.removed_mm3);
     EXPECT_EQ(json.at("removed_mm3").at("nerve"), summary.by_tissue_mm3.at("nerve"));
