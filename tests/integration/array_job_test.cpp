@@ -79,11 +79,11 @@ TEST_F(ArrayJob, OfWhichATaskWasKilledJoinsToTheBytesOfOneProcess) {
     EXPECT_THAT(cluster.tasks(job), ElementsAre(job + "_2"));
     cluster.cancel(job + "_2");
     ASSERT_TRUE(testing::eventually([&] { return cluster.tasks(job).empty(); }));
-    EXPECT_THAT(refusal_to_join({parts_}), HasSubstr("cases-2-of-4.jsonl: has done 1 of its 3 cases"));
+    EXPECT_THAT(refusal_to_join({parts_}), HasSubstr("cases-2-of-4.jsonl: has done 1 of its 2 cases"));
 
     const std::string again = submit(cluster, {"STUDY=" STUDY, "PARTS=4"}, "2");
     ASSERT_TRUE(testing::eventually([&] { return cluster.tasks(again).empty(); }));
-    EXPECT_THAT(text_of(folder_ / "2.log"), HasSubstr("1 of 3 cases are done in "))
+    EXPECT_THAT(text_of(folder_ / "2.log"), HasSubstr("1 of 2 cases are done in "))
         << "it goes on where it was";
 
     const testing::Finished joined =
