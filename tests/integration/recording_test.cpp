@@ -88,7 +88,7 @@ TEST_F(Recording, LeavesEveryoneWithTheServersBone) {
 
     const auto read = info("a.pcap");
     EXPECT_EQ(read.at("bone_checksum"), served.at("bone_checksum"));
-    EXPECT_EQ(read.at("protocol"), "2.2");
+    EXPECT_EQ(read.at("protocol"), "2.3");
     EXPECT_EQ(read.at("frames"), served.at("recording").at("frames"));
     EXPECT_NEAR(read.at("duration_s").get<double>(), served.at("duration_s").get<double>(), 1e-6);
     EXPECT_GT(read.at("removed_mm3").at("total"), 0.1);

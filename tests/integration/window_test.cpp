@@ -274,6 +274,11 @@ TEST_F(WindowTest, UndoesMarksAndFinishesASessionByKeys) {
     press("u");
     EXPECT_TRUE(comes_true([&] { return server_told_of("paused: force and spindle off"); }));
     ASSERT_TRUE(stands_still());
+    // A slice of 3 s is given back at a time, and a machine with much to do cut for longer.
+    for (int slice = 0; slice < 5; ++slice) {
+        press("u");
+        ASSERT_TRUE(stands_still());
+    }
     press_and_see("m");
     ASSERT_TRUE(display_->xdotool({"type", "by the pulp, u r"}));
     press_and_see("Return");
@@ -292,10 +297,12 @@ TEST_F(WindowTest, UndoesMarksAndFinishesASessionByKeys) {
     EXPECT_EQ(events[0].action, SessionAction::undo);
     EXPECT_FALSE(events[0].is_refused) << events[0].text;
     // The tool is lifted out of the bone that came back, if it was in it.
-    std::erase_if(events, [](const ControlEvent& event) { return event.action == SessionAction::place; });
-    ASSERT_EQ(events.size(), 3U);
-    EXPECT_EQ(events[1].text, "by the pulp, u r") << "letters of a note are no commands";
-    EXPECT_EQ(events[2].action, SessionAction::finish);
+    std::erase_if(events, [](const ControlEvent& event) {
+        return event.action == SessionAction::place || event.action == SessionAction::undo;
+    });
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_EQ(events[0].text, "by the pulp, u r") << "letters of a note are no commands";
+    EXPECT_EQ(events[1].action, SessionAction::finish);
     EXPECT_EQ(last, Playhead(folder("session.pcap")).bone_checksum()) << "the bone is whole again";
     press("Escape");
     EXPECT_EQ(window_->wait(), 0) << "after the session nobody is asked: " << window_->err();

@@ -158,10 +158,14 @@ class SessionTest(unittest.TestCase):
             kept = [pathlib.Path(file).read_bytes() for file in (bone, scene)]
             os.symlink(folder, os.path.join(folder, "link"))
             os.symlink("nowhere.pcap", os.path.join(folder, "dangling.pcap"))
+            os.symlink("bone.nrrd", os.path.join(folder, "bone.pcap"))
+            os.link(scene, os.path.join(folder, "scene.pcap"))
             case = om.Case(folder)
-            for record in (bone, scene, os.path.join(folder, "link", "bone.nrrd")):
+            for record in ("bone.pcap", "scene.pcap", os.path.join("link", "bone.pcap")):
                 with self.assertRaisesRegex(ValueError, "the recording are the same file"):
-                    om.Session(case, record=record)
+                    om.Session(case, record=os.path.join(folder, record))
+            with self.assertRaisesRegex(om.BadInput, "takes the name of a pcap file"):
+                om.Session(case, record=bone)
             with self.assertRaisesRegex(ValueError, "is a link to .*nowhere.pcap"):
                 om.Session(case, record=os.path.join(folder, "dangling.pcap"))
             self.assertEqual(kept, [pathlib.Path(file).read_bytes() for file in (bone, scene)])
