@@ -142,7 +142,8 @@ class Measured:
 
     def _mean_and_peak_n(self, hand: str, rate_hz: float, model: str, coupling: str) -> tuple[Any, float]:
         """Of the force on the hand; the peak infinite where the monitor let go."""
-        with Session(self.case, hand=hand, coupling=coupling, force_model=model, milling_rate_hz=rate_hz) as session:
+        names: dict[str, Any] = {"hand": hand, "coupling": coupling, "force_model": model}
+        with Session(self.case, milling_rate_hz=rate_hz, **names) as session:
             ran = session.run(3000 if self.quick else 8000)
         force_n = np.asarray(ran["force_n"])
         windows = force_n[: len(force_n) // 10 * 10].reshape(-1, 10, 3).mean(axis=1)

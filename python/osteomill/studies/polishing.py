@@ -209,7 +209,7 @@ def windows_of(t_s: Array, depths_mm: Array, force_n: Array, window_s: float) ->
 
 def samples_in(t_s: Array, span_s: float) -> int:
     """At least one."""
-    period_s = (t_s[-1] - t_s[0]) / (len(t_s) - 1) if len(t_s) > 1 else math.inf
+    period_s = float(t_s[-1] - t_s[0]) / (len(t_s) - 1) if len(t_s) > 1 else math.inf
     return max(1, math.floor(span_s / period_s + 0.5))
 
 
