@@ -51,6 +51,18 @@ std::optional<Grip> grip_of(const std::string& hand) {
         fmt::format("hand: \"{}\" is none; choose \"prescribed\", \"light\" or \"firm\"", hand));
 }
 
+/// The interpreter ends without the sessions that a daemon thread still refers to: their recordings would
+/// stay unfinished. One that a thread is at work on, or of another process, is left as it is.
+void end_at_exit(const SharedSession& session) {
+    const auto end = [weak = std::weak_ptr(session)] {
+        const SharedSession left = weak.lock();
+        if (!left || !left->is_of_this_process()) return;
+        const std::unique_lock<std::mutex> held(left->busy(), std::try_to_lock);
+        if (held) left->end();
+    };
+    py::module_::import("atexit").attr("register")(py::cpp_function(end));
+}
+
 SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std::string& hand,
                            const std::optional<std::string>& coupling,
                            const std::optional<std::string>& force_model,
@@ -75,12 +87,16 @@ SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std:
         if (!start_axis.is_none())
             options.start->spindle_axis = unit(vector_of(start_axis, "start_axis"), "start_axis");
     }
-    const ReleasedLock released;
     // A forked process has the session's memory and none of its threads: there it is let go as it is.
-    const auto end = [](SteppedSession* session) {
+    const auto let_go = [](SteppedSession* session) {
         if (session->is_of_this_process()) delete session;
     };
-    return {new SteppedSession(loaded, std::move(options)), end};
+    const SharedSession session = [&] {
+        const ReleasedLock released;
+        return SharedSession(new SteppedSession(loaded, std::move(options)), let_go);
+    }();
+    if (record) end_at_exit(session);
+    return session;
 }
 
 constexpr std::uint64_t ticks_between_signals = 1000;
