@@ -33,7 +33,8 @@ const std::vector<Room>& rooms() {
         {"slicer/", {"common/", "render_client/link/"}},
         // The pictures of the module of Python are a library of their own: its core knows no OpenGL.
         {"python/render/",
-         {"common/", "python/module/arrays.h", "render_client/dataset/", "render_client/volume/"}},
+         {"common/", "python/module/arrays.h", "python/module/exceptions.h", "python/module/released_lock.h",
+          "render_client/dataset/", "render_client/volume/"}},
         // Kernels of the package's studies.
         {"python/studies/",
          {"common/", "python/module/arrays.h", "python/module/loaded_case.h", "bridge/", "simulation/",
