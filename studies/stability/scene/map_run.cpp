@@ -135,7 +135,8 @@ void measure_window(const RunRecord& run, const std::vector<TruthTick>& truth, c
     outcome.rms_error_n = std::sqrt(squares / count);
     outcome.mean_error_n = glm::distance(sum_n, truth_sum_n) / count;
     outcome.depth_error_mm = std::sqrt(depth_squares / count);
-    outcome.removed_mm3 = run.removed_mm3[end - 1] - run.removed_mm3[begin];
+    // A tick's is that at its end.
+    outcome.removed_mm3 = run.removed_mm3[end - 1] - (begin > 0 ? run.removed_mm3[begin - 1] : 0.0);
 }
 
 }  // namespace
