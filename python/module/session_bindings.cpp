@@ -55,6 +55,9 @@ std::optional<Grip> grip_of(const std::string& hand) {
 /// stay unfinished. One that a thread is at work on, or of another process, is left as it is.
 void end_at_exit(const SharedSession& session) {
     const auto end = [weak = std::weak_ptr(session)] {
+        ends_interpreter.store(
+            std::this_thread::get_id());  // from now on no other thread comes back for the lock
+        const ReleasedLock released;
         const SharedSession left = weak.lock();
         if (!left || !left->is_of_this_process()) return;
         const std::unique_lock<std::mutex> held(left->busy(), std::try_to_lock);

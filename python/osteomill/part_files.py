@@ -17,7 +17,6 @@ from collections.abc import Iterable
 from types import TracebackType
 from typing import Any
 
-from osteomill import _studies
 
 Header = dict[str, Any]  # of the sweep and its cases, and by "shard" and "of" of the part
 Outcomes = dict[int, Any]  # by index into the list of all cases
@@ -169,6 +168,8 @@ class JoinedParts:
 def whole_lines(file: pathlib.Path) -> str:
     """Up to the last end of a line: what follows was torn off by a kill."""
     try:
+        from osteomill import _studies  # which draws, too: who reads no part loads no OpenGL
+
         text = _studies.read_file(file)
         return text[: text.rfind(b"\n") + 1].decode()
     except UnicodeDecodeError:

@@ -84,7 +84,7 @@ class Fleet(unittest.TestCase):
         # What the table of a station says is what the database says.
         said = {}
         for station in ("a", "b"):
-            with open(self.folder / f"out_{station}" / "sessions.csv", newline="", encoding="utf-8") as file:
+            with open(self.folder / f"out_{station}" / "sessions.csv", newline="", encoding="utf-8-sig") as file:
                 for row in csv.DictReader(file):
                     if row["metric"] == "removed_mm3" and not row.get("of"):
                         said[pathlib.Path(row["session"]).name + station] = float(row["value"])
