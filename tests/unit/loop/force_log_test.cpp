@@ -45,8 +45,9 @@ TEST(ForceLog, WritesALineForEachSampleInOrder) {
     EXPECT_THAT(line, StartsWith("t_s,hand_x_mm,"));
     EXPECT_THAT(line, HasSubstr(",force_x_n,force_y_n,force_z_n,depth_mm,removed_mm3,spindle,fault"));
     std::getline(lines, line);
-    EXPECT_EQ(line,
-              "0.0010,1.000000,2.000000,3.000000,0.0000,0.0000,0.0000,0.50000,0.00000,0.00000,0.0000,0.00000,1,0");
+    EXPECT_EQ(
+        line,
+        "0.0010,1.000000,2.000000,3.000000,0.0000,0.0000,0.0000,0.50000,0.00000,0.00000,0.0000,0.00000,1,0");
     std::getline(lines, line);
     EXPECT_THAT(line, HasSubstr(",0.2500,1.50000,0,4"));
     EXPECT_FALSE(std::getline(lines, line));
