@@ -64,7 +64,7 @@ IgtlMessage transform_message(const std::string& name, const glm::dvec3& origin_
     return packed(*message, name);
 }
 
-IgtlMessage image_message(const std::string& name, const Grid& grid, const VoxelBox& box,
+IgtlMessage image_message(const std::string& name, const Grid& grid, const ReducedBox& box,
                           std::span<const std::uint8_t> values) {
     // The position of an image is that of its centre.
     const glm::dvec3 centre_mm =

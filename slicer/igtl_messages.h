@@ -38,7 +38,7 @@ IgtlMessage transform_message(const std::string& name, const glm::dvec3& origin_
 glm::dmat3 axes_about(const glm::dvec3& axis);
 
 /// Part of an image of bytes on `grid`: `values` of the voxels of `box`, x fastest.
-IgtlMessage image_message(const std::string& name, const Grid& grid, const VoxelBox& box,
+IgtlMessage image_message(const std::string& name, const Grid& grid, const ReducedBox& box,
                           std::span<const std::uint8_t> values);
 
 /// Text of at most 65 535 bytes; a longer one is cut.

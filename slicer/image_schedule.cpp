@@ -2,12 +2,12 @@
 
 namespace osteomill {
 
-void ImageSchedule::restart(const VoxelBox& whole) {
+void ImageSchedule::restart(const ReducedBox& whole) {
     *this = {};
     whole_ = whole;
 }
 
-void ImageSchedule::changed(const VoxelBox& box, double now_s) {
+void ImageSchedule::changed(const ReducedBox& box, double now_s) {
     last_change_s_ = now_s;
     has_changed_since_whole_ = true;
     // Those that were not sent yet are one.
@@ -17,7 +17,7 @@ void ImageSchedule::changed(const VoxelBox& box, double now_s) {
         changes_.push_back({box});
 }
 
-VoxelBox ImageSchedule::send_whole(double now_s) {
+ReducedBox ImageSchedule::send_whole(double now_s) {
     whole_sent_s_ = last_sent_s_ = now_s;
     has_changed_since_whole_ = false;
     // A part that follows may take the place of the whole before that is imported.
@@ -26,7 +26,7 @@ VoxelBox ImageSchedule::send_whole(double now_s) {
     return *whole_;
 }
 
-std::optional<VoxelBox> ImageSchedule::next(double now_s) {
+std::optional<ReducedBox> ImageSchedule::next(double now_s) {
     if (!whole_) return std::nullopt;
     if (!whole_sent_s_) {
         begun_s_ = now_s;
@@ -43,7 +43,7 @@ std::optional<VoxelBox> ImageSchedule::next(double now_s) {
     // A part that took the place of the first whole would leave the receiver's image without the rest.
     if (now_s - begun_s_ < covered_s) return send_whole(now_s);
     last_sent_s_ = now_s;
-    VoxelBox box = changes_.front().box;
+    ReducedBox box = changes_.front().box;
     for (Change& change : changes_) {
         box = around(box, change.box);
         if (!change.first_sent_s) change.first_sent_s = now_s;

@@ -21,20 +21,20 @@ class ImageSchedule {
     static constexpr double between_wholes_s = 10.0;
 
     /// Somebody else receives, or the image is another one: what was sent is forgotten.
-    void restart(const VoxelBox& whole);
-    void changed(const VoxelBox& box, double now_s);
+    void restart(const ReducedBox& whole);
+    void changed(const ReducedBox& box, double now_s);
 
     /// What to send now; nothing where nothing is due. It counts as sent. Times ascend.
-    std::optional<VoxelBox> next(double now_s);
+    std::optional<ReducedBox> next(double now_s);
 
   private:
     struct Change {
-        VoxelBox box;
+        ReducedBox box;
         std::optional<double> first_sent_s{};
     };
-    VoxelBox send_whole(double now_s);
+    ReducedBox send_whole(double now_s);
 
-    std::optional<VoxelBox> whole_{};  // nothing: there is no image yet
+    std::optional<ReducedBox> whole_{};  // nothing: there is no image yet
     std::optional<double> whole_sent_s_{};
     double begun_s_ = 0.0;  // the first whole was sent
     double last_sent_s_ = 0.0;

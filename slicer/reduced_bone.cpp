@@ -27,7 +27,7 @@ std::size_t index_of(const Grid& grid, const glm::ivec3& voxel) {
 
 /// Calls `visit(voxel)` in the order in which values are stored.
 template <typename Visit>
-void for_each_voxel(const VoxelBox& box, const Visit& visit) {
+void for_each_voxel(const ReducedBox& box, const Visit& visit) {
     for (int z = box.first.z; z < box.end.z; ++z)
         for (int y = box.first.y; y < box.end.y; ++y)
             for (int x = box.first.x; x < box.end.x; ++x) visit(glm::ivec3(x, y, z));
@@ -43,7 +43,7 @@ std::uint8_t mean_fraction(const Bone& bone, const glm::ivec3& first, int factor
 
 }  // namespace
 
-VoxelBox around(const VoxelBox& a, const VoxelBox& b) {
+ReducedBox around(const ReducedBox& a, const ReducedBox& b) {
     return {glm::min(a.first, b.first), glm::max(a.end, b.end)};
 }
 
@@ -54,19 +54,19 @@ ReducedBone::ReducedBone(const Bone& bone)
         fill(bone, voxels_of(brick_position(bone.content().size_bricks, brick)));
 }
 
-VoxelBox ReducedBone::voxels_of(const glm::ivec3& brick) const {
+ReducedBox ReducedBone::voxels_of(const glm::ivec3& brick) const {
     const glm::ivec3 first = brick * brick_edge_voxels;
     return {first / factor_,
             glm::min((first + (brick_edge_voxels + factor_ - 1)) / factor_, grid_.size_voxels)};
 }
 
-void ReducedBone::fill(const Bone& bone, const VoxelBox& box) {
+void ReducedBone::fill(const Bone& bone, const ReducedBox& box) {
     for_each_voxel(box, [&](const glm::ivec3& voxel) {
         values_[index_of(grid_, voxel)] = mean_fraction(bone, voxel * factor_, factor_);
     });
 }
 
-std::vector<std::uint8_t> ReducedBone::values(const VoxelBox& box) const {
+std::vector<std::uint8_t> ReducedBone::values(const ReducedBox& box) const {
     const glm::ivec3 size = box.size();
     std::vector<std::uint8_t> found;
     found.reserve(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
@@ -75,10 +75,10 @@ std::vector<std::uint8_t> ReducedBone::values(const VoxelBox& box) const {
     return found;
 }
 
-std::optional<VoxelBox> ReducedBone::update(const Bone& bone, std::span<const BrickChange> changes) {
-    std::optional<VoxelBox> changed;
+std::optional<ReducedBox> ReducedBone::update(const Bone& bone, std::span<const BrickChange> changes) {
+    std::optional<ReducedBox> changed;
     for (const BrickChange& change : changes) {
-        const VoxelBox box = voxels_of(brick_position(bone.content().size_bricks, change.brick));
+        const ReducedBox box = voxels_of(brick_position(bone.content().size_bricks, change.brick));
         fill(bone, box);
         changed = changed ? around(*changed, box) : box;
     }

@@ -16,16 +16,16 @@
 namespace osteomill {
 
 /// Voxels `first` to `end`, without `end`.
-struct VoxelBox {
+struct ReducedBox {
     glm::ivec3 first{0};
     glm::ivec3 end{0};
 
     glm::ivec3 size() const { return end - first; }
-    bool operator==(const VoxelBox&) const = default;
+    bool operator==(const ReducedBox&) const = default;
 };
 
 /// The smallest box around both.
-VoxelBox around(const VoxelBox& a, const VoxelBox& b);
+ReducedBox around(const ReducedBox& a, const ReducedBox& b);
 
 class ReducedBone {
   public:
@@ -36,18 +36,18 @@ class ReducedBone {
     /// Of the reduced voxels.
     const Grid& grid() const { return grid_; }
     int voxels_a_voxel() const { return factor_; }
-    VoxelBox whole() const { return {glm::ivec3(0), grid_.size_voxels}; }
+    ReducedBox whole() const { return {glm::ivec3(0), grid_.size_voxels}; }
     /// What is left, 0 to 255; x runs fastest, then y, then z.
     std::span<const std::uint8_t> values() const { return values_; }
     /// Those of a box within the grid, in the same order.
-    std::vector<std::uint8_t> values(const VoxelBox& box) const;
+    std::vector<std::uint8_t> values(const ReducedBox& box) const;
 
     /// Takes over what has changed of the same bone, and returns where; nothing where `changes` is empty.
-    std::optional<VoxelBox> update(const Bone& bone, std::span<const BrickChange> changes);
+    std::optional<ReducedBox> update(const Bone& bone, std::span<const BrickChange> changes);
 
   private:
-    VoxelBox voxels_of(const glm::ivec3& brick) const;
-    void fill(const Bone& bone, const VoxelBox& box);
+    ReducedBox voxels_of(const glm::ivec3& brick) const;
+    void fill(const Bone& bone, const ReducedBox& box);
 
     int factor_;
     Grid grid_;

@@ -81,7 +81,7 @@ std::string verdict(const SessionTrace& trace, const std::vector<JudgedMark>& ma
 }
 
 /// Value, reference band and pass mark on one line, from zero (or the least of them) to the greatest.
-std::string gauge(double value, const std::optional<Interval>& band, const JudgedMark* mark) {
+std::string gauge(double value, const std::optional<ValueRange>& band, const JudgedMark* mark) {
     double low = std::min(0.0, value);
     double high = std::max(0.0, value);
     const auto hold = [&](double other) { low = std::min(low, other), high = std::max(high, other); };
@@ -111,7 +111,7 @@ std::string tile(const Headline& what, double value, const std::string& words,
     const auto mark = std::ranges::find_if(
         marks, [&](const JudgedMark& judged) { return judged.kind->metric == std::string_view(what.key); });
     const bool is_judged = mark != marks.end();
-    std::optional<Interval> band;
+    std::optional<ValueRange> band;
     if (const auto others = references.values.find(what.key); others != references.values.end())
         band = middle_half(others->second);
     std::string html = fmt::format("<div class='tile {}'><span>{}</span><b>{}</b>{}",
@@ -169,9 +169,9 @@ std::string legend(const SessionTrace& trace) {
 
 }  // namespace
 
-std::string figures(const std::vector<SessionPicture>& pictures, const char* kind) {
+std::string figures(const std::vector<ReportPicture>& pictures, const char* kind) {
     std::string html = fmt::format("<div class='pictures {}'>", kind);
-    for (const SessionPicture& picture : pictures)
+    for (const ReportPicture& picture : pictures)
         html += fmt::format(
             "<figure><div class='seen'><img alt='{0}' "
             "src='{1}'>{2}</div><figcaption>{0}</figcaption></figure>",

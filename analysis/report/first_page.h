@@ -16,6 +16,6 @@ std::string first_page(const SessionTrace& trace, const SessionMetrics& metrics,
                        const ReferenceSessions& references);
 
 /// Pictures with their overlays, side by side. `kind`: of .pictures in page_style.
-std::string figures(const std::vector<SessionPicture>& pictures, const char* kind = "");
+std::string figures(const std::vector<ReportPicture>& pictures, const char* kind = "");
 
 }  // namespace osteomill

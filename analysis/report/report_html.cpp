@@ -14,7 +14,7 @@ namespace {
 
 std::string pictures_of(const SessionPictures& pictures) {
     std::string html;
-    const auto add = [&](const char* heading, const std::vector<SessionPicture>& some) {
+    const auto add = [&](const char* heading, const std::vector<ReportPicture>& some) {
         if (!some.empty()) html += fmt::format("<h3>{}</h3>{}", heading, figures(some));
     };
     add("Before", pictures.before);

@@ -25,7 +25,7 @@ class Pictures {
   public:
     Pictures(const SessionTrace& trace, const PlannedRegion* region) : trace_(trace), region_(region) {}
 
-    SessionPicture of(const Bone& bone, const NamedView& view, int size_px,
+    ReportPicture of(const Bone& bone, const NamedView& view, int size_px,
                       const std::optional<SeenBurr>& burr = {}) const {
         SectionMarks marks{.structures = trace_.where};
         if (region_ != nullptr) marks.is_outlined = [&](const glm::dvec3& at) { return region_->holds(at); };
@@ -33,7 +33,7 @@ class Pictures {
                 picture_overlay(view.view, burr)};
     }
     /// At once: a session's end waits for them. The bone outlives it.
-    std::future<SessionPicture> begin(const Bone& bone, const NamedView& view, int size_px,
+    std::future<ReportPicture> begin(const Bone& bone, const NamedView& view, int size_px,
                                       const std::optional<SeenBurr>& burr = {}) const {
         return std::async(std::launch::async, [=, this, &bone] { return of(bone, view, size_px, burr); });
     }
@@ -59,7 +59,7 @@ void add_marks(const std::filesystem::path& file, const Pictures& make, const Na
                 ++pictures.marks_left_out;
                 continue;
             }
-            SessionPicture picture = make.of(playhead.bone(), view, picture_px);
+            ReportPicture picture = make.of(playhead.bone(), view, picture_px);
             picture.title = fmt::format("{}: {:.1f} s {}", number, event.time_s, event.text);
             pictures.marks.push_back(std::move(picture));
         }
@@ -68,10 +68,10 @@ void add_marks(const std::filesystem::path& file, const Pictures& make, const Na
 
 /// Through the target, and through the nearest approach; through the work from two sides where the burr came
 /// near nothing.
-std::vector<std::future<SessionPicture>> begin_first(const SessionTrace& trace, const Pictures& make,
+std::vector<std::future<ReportPicture>> begin_first(const SessionTrace& trace, const Pictures& make,
                                                      const PlannedRegion* region,
                                                      const NamedView& otherwise) {
-    std::vector<std::future<SessionPicture>> pictures;
+    std::vector<std::future<ReportPicture>> pictures;
     if (const auto target = view_of_target(trace, region))
         pictures.push_back(make.begin(trace.at_end, *target, first_picture_px));
     if (const auto approach = nearest_approach(trace)) {
@@ -99,8 +99,8 @@ SessionPictures session_pictures(const std::filesystem::path& file, const Sessio
     on_frame(0.0);
     const Pictures make(trace, region);
     auto first = begin_first(trace, make, region, views.back());
-    std::vector<std::future<SessionPicture>> before;
-    std::vector<std::future<SessionPicture>> after;
+    std::vector<std::future<ReportPicture>> before;
+    std::vector<std::future<ReportPicture>> after;
     for (const NamedView& view : views) {
         before.push_back(make.begin(trace.at_start, view, picture_px));
         after.push_back(make.begin(trace.at_end, view, picture_px));

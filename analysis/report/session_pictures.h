@@ -11,17 +11,17 @@
 
 namespace osteomill {
 
-struct SessionPicture {
+struct ReportPicture {
     std::string title{};
     std::string png_uri{};
     std::string overlay{};  ///< SVG, to lie over it
 };
 
 struct SessionPictures {
-    std::vector<SessionPicture> first{};   ///< two, at the end, larger than the others
-    std::vector<SessionPicture> before{};  ///< from each view
-    std::vector<SessionPicture> after{};   ///< from the same
-    std::vector<SessionPicture> marks{};   ///< from the first view
+    std::vector<ReportPicture> first{};   ///< two, at the end, larger than the others
+    std::vector<ReportPicture> before{};  ///< from each view
+    std::vector<ReportPicture> after{};   ///< from the same
+    std::vector<ReportPicture> marks{};   ///< from the first view
     std::size_t marks_left_out = 0;
 };
 

@@ -19,7 +19,7 @@ using testing::tick_s;
 class Bench {
   public:
     testing::ScriptedDevice device;
-    testing::ScriptedCoupling coupling;
+    testing::ForcefulCoupling coupling;
     std::unique_ptr<TripleBuffer<MillingResult>> results = std::make_unique<TripleBuffer<MillingResult>>();
     TripleBuffer<BurrCommand> commands;
     TripleBuffer<ToolState> tool;
@@ -284,7 +284,7 @@ TEST(HapticLoop, MeasuresDepthFromWhereTheBurrFirstMetBone) {
     const auto file = std::filesystem::path(::testing::TempDir()) / "depth.csv";
     ForceLog log(file);
     testing::ScriptedDevice device;
-    testing::ScriptedCoupling coupling;
+    testing::ForcefulCoupling coupling;
     HapticLoop loop({device, coupling, *bench.results, bench.commands, bench.tool, bench.status, &log}, {});
     const auto tick_at = [&](double z_mm, double force_n) {
         device.script = [z_mm](double) { return DeviceState{.position_mm = {0, 0, z_mm}}; };

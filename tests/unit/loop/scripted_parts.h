@@ -42,7 +42,7 @@ class ScriptedDevice final : public HapticDevice {
 };
 
 /// Wants what `force` says; the burr is rigidly the hand.
-class ScriptedCoupling final : public Coupling {
+class ForcefulCoupling final : public Coupling {
   public:
     std::function<glm::dvec3(const HandState&)> force = [](const HandState&) { return glm::dvec3(0.0); };
     std::vector<HandState> hands;

@@ -50,7 +50,7 @@ TEST(IgtlMessages, HaveNoTimeUntilTheyAreSentAndThenThatOne) {
 
 TEST(IgtlMessages, AnImageLiesInRasWithItsCentreAsPosition) {
     const Grid grid{.size_voxels = {10, 20, 31}, .spacing_mm = 0.5, .origin_mm = {-3.0, 7.0, 100.0}};
-    const VoxelBox box{{2, 3, 4}, {5, 5, 6}};
+    const ReducedBox box{{2, 3, 4}, {5, 5, 6}};
     std::vector<std::uint8_t> values(3 * 2 * 2);
     std::iota(values.begin(), values.end(), std::uint8_t{1});
     const auto image = unpacked<igtl::ImageMessage>(image_message("Bone", grid, box, values));

@@ -9,9 +9,9 @@
 namespace osteomill {
 namespace {
 
-constexpr VoxelBox whole{{0, 0, 0}, {64, 64, 64}};
+constexpr ReducedBox whole{{0, 0, 0}, {64, 64, 64}};
 
-bool holds(const VoxelBox& outer, const VoxelBox& inner) {
+bool holds(const ReducedBox& outer, const ReducedBox& inner) {
     return around(outer, inner) == outer;
 }
 
@@ -29,7 +29,7 @@ TEST(ImageSchedule, SendsTheWholeAgainAtRest) {
     schedule.restart(whole);
     EXPECT_TRUE(schedule.next(0.0));
     schedule.changed({{1, 1, 1}, {2, 2, 2}}, 8.0);
-    EXPECT_EQ(schedule.next(8.0), (VoxelBox{{1, 1, 1}, {2, 2, 2}}));
+    EXPECT_EQ(schedule.next(8.0), (ReducedBox{{1, 1, 1}, {2, 2, 2}}));
     EXPECT_FALSE(schedule.next(8.9));
     EXPECT_EQ(schedule.next(9.0), whole);
     EXPECT_FALSE(schedule.next(20.0));
@@ -45,11 +45,11 @@ TEST(ImageSchedule, LeavesNoReceiverBehindThatImportsWithinFiveSeconds) {
         ImageSchedule schedule;
         schedule.restart(whole);
         struct Change {
-            VoxelBox box;
+            ReducedBox box;
             double at_s;
         };
         std::vector<Change> missing;  // in the receiver's image
-        std::optional<VoxelBox> newest;
+        std::optional<ReducedBox> newest;
         double newest_s = 0.0;
         bool has_image = false;
         double import_s = between_imports_s;
@@ -60,7 +60,7 @@ TEST(ImageSchedule, LeavesNoReceiverBehindThatImportsWithinFiveSeconds) {
             const bool mills = static_cast<int>(now_s) % 20 < 15;
             if (mills && chance(random) < 0.7) {
                 const glm::ivec3 first(place(random), place(random), place(random));
-                const VoxelBox box{first, first + 2};
+                const ReducedBox box{first, first + 2};
                 schedule.changed(box, now_s);
                 missing.push_back({box, now_s});
             }
