@@ -26,7 +26,7 @@ class Pictures {
     Pictures(const SessionTrace& trace, const PlannedRegion* region) : trace_(trace), region_(region) {}
 
     ReportPicture of(const Bone& bone, const NamedView& view, int size_px,
-                      const std::optional<SeenBurr>& burr = {}) const {
+                     const std::optional<SeenBurr>& burr = {}) const {
         SectionMarks marks{.structures = trace_.where};
         if (region_ != nullptr) marks.is_outlined = [&](const glm::dvec3& at) { return region_->holds(at); };
         return {view.title, png_data_uri(picture_of(bone, trace_.session.tissues, view.view, size_px, marks)),
@@ -34,7 +34,7 @@ class Pictures {
     }
     /// At once: a session's end waits for them. The bone outlives it.
     std::future<ReportPicture> begin(const Bone& bone, const NamedView& view, int size_px,
-                                      const std::optional<SeenBurr>& burr = {}) const {
+                                     const std::optional<SeenBurr>& burr = {}) const {
         return std::async(std::launch::async, [=, this, &bone] { return of(bone, view, size_px, burr); });
     }
 
@@ -69,8 +69,7 @@ void add_marks(const std::filesystem::path& file, const Pictures& make, const Na
 /// Through the target, and through the nearest approach; through the work from two sides where the burr came
 /// near nothing.
 std::vector<std::future<ReportPicture>> begin_first(const SessionTrace& trace, const Pictures& make,
-                                                     const PlannedRegion* region,
-                                                     const NamedView& otherwise) {
+                                                    const PlannedRegion* region, const NamedView& otherwise) {
     std::vector<std::future<ReportPicture>> pictures;
     if (const auto target = view_of_target(trace, region))
         pictures.push_back(make.begin(trace.at_end, *target, first_picture_px));

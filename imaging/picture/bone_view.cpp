@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <optional>
+#include <vector>
 
 #include "common/bone/bone_ray.h"
 #include "imaging/picture/voxel_share.h"
@@ -13,7 +15,10 @@ namespace osteomill {
 
 namespace {
 
-constexpr int rays_per_pixel_edge = 2;
+/// A pixel of one colour takes one ray; where it differs from a neighbour's by more than an eye passes over,
+/// several: adaptive antialiasing after Whitted (1980), a third of the time of several everywhere.
+constexpr int rays_per_edge_pixel_side = 3;
+constexpr double edge_step = 10.0;  // of 255
 const glm::dvec3 bone_colour(226.0, 216.0, 198.0);
 
 class View {
@@ -114,6 +119,34 @@ double offset_mm(const BoneView& view, double pixel, int size_px) {
     return view.half_width_mm * (2.0 * pixel / size_px - 1.0);
 }
 
+/// A colour a pixel, 0 to 255.
+class Colours {
+  public:
+    explicit Colours(int size_px)
+        : size_px_(size_px),
+          colours_(static_cast<std::size_t>(size_px) * static_cast<std::size_t>(size_px)) {}
+
+    glm::dvec3& at(int row, int column) { return colours_[place(row, column)]; }
+
+    bool is_at_an_edge(int row, int column) const {
+        const glm::dvec3& here = colours_[place(row, column)];
+        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, size_px_ - 1); ++y)
+            for (int x = std::max(column - 1, 0); x <= std::min(column + 1, size_px_ - 1); ++x)
+                if (glm::any(glm::greaterThan(glm::abs(colours_[place(y, x)] - here), glm::dvec3(edge_step))))
+                    return true;
+        return false;
+    }
+
+  private:
+    std::size_t place(int row, int column) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(size_px_) +
+               static_cast<std::size_t>(column);
+    }
+
+    int size_px_;
+    std::vector<glm::dvec3> colours_;
+};
+
 /// Pixels of the region beside one outside of it.
 void draw_outline(RgbPicture& picture, const BoneView& view, const glm::dvec3& right,
                   const SectionMarks& marks) {
@@ -141,28 +174,36 @@ void draw_outline(RgbPicture& picture, const BoneView& view, const glm::dvec3& r
 RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, int size_px,
                       const SectionMarks& marks) {
     View seen(bone, tissues, view, marks);
+    const glm::dvec3 right = seen.right();
+    /// The mean of rays^2 rays of a pixel.
+    const auto colour = [&](int row, int column, int rays) {
+        const glm::dvec3 background = glm::mix(view.background[0], view.background[1], (row + 0.5) / size_px);
+        const auto offset = [&](int pixel, int ray) {
+            return offset_mm(view, pixel + (ray + 0.5) / rays, size_px);
+        };
+        glm::dvec3 sum(0.0);
+        for (int j = 0; j < rays; ++j)
+            for (int i = 0; i < rays; ++i)
+                sum += seen.colour(view.centre_mm + offset(column, i) * right - offset(row, j) * view.up,
+                                   background);
+        return sum / static_cast<double>(rays * rays);
+    };
+    Colours once(size_px);
+    for (int row = 0; row < size_px; ++row)
+        for (int column = 0; column < size_px; ++column) once.at(row, column) = colour(row, column, 1);
     RgbPicture picture{.size_px = size_px, .rgb = {}};
     picture.rgb.reserve(static_cast<std::size_t>(size_px) * static_cast<std::size_t>(size_px) * 3);
-    const int rays = rays_per_pixel_edge;
-    const auto offset = [&](int pixel, int ray) {
-        return offset_mm(view, pixel + (ray + 0.5) / rays, size_px);
-    };
     for (int row = 0; row < size_px; ++row) {
-        const glm::dvec3 background = glm::mix(view.background[0], view.background[1], (row + 0.5) / size_px);
         for (int column = 0; column < size_px; ++column) {
-            glm::dvec3 sum(0.0);
-            for (int j = 0; j < rays; ++j)
-                for (int i = 0; i < rays; ++i)
-                    sum += seen.colour(
-                        view.centre_mm + offset(column, i) * seen.right() - offset(row, j) * view.up,
-                        background);
-            sum /= rays * rays;
+            const glm::dvec3 drawn = once.is_at_an_edge(row, column)
+                                         ? colour(row, column, rays_per_edge_pixel_side)
+                                         : once.at(row, column);
             for (int channel = 0; channel < 3; ++channel)
                 picture.rgb.push_back(
-                    static_cast<std::uint8_t>(std::lround(std::clamp(sum[channel], 0.0, 255.0))));
+                    static_cast<std::uint8_t>(std::lround(std::clamp(drawn[channel], 0.0, 255.0))));
         }
     }
-    if (view.is_section && marks.is_outlined) draw_outline(picture, view, seen.right(), marks);
+    if (view.is_section && marks.is_outlined) draw_outline(picture, view, right, marks);
     return picture;
 }
 
