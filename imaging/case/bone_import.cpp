@@ -1,5 +1,6 @@
 // bone_import: a scan in, a bone file out.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <atomic>
@@ -53,6 +54,7 @@ struct Texts {
     std::vector<std::string> segmentations;
     std::vector<std::string> materials;
     std::vector<std::string> protect;
+    std::vector<std::string> pass;
     std::string stack_spacing;
     std::string rescale;
     std::string intensity_window;
@@ -165,6 +167,14 @@ void add_options(CLI::App& app, ImportCommand& command, Texts& texts) {
         ->capture_default_str();
     app.add_option("--target", command.parts.target, "with --segmentation: the segment that is to be removed")
         ->type_name("NAME");
+    app.add_option("--description", command.parts.description,
+                   "with --case: a sentence about it for the start page; one about its bone unless given")
+        ->type_name("TEXT");
+    add_texts(app, "--pass", texts.pass,
+              "with --case: a mark that a session must reach to pass: time_s, plan_excess_mm3, "
+              "structure_touches or peak_force_n at most, plan_removed_share (0 to 1) at least; again for "
+              "each further one")
+        ->type_name("METRIC=NUMBER");
     app.add_option("--spacing-mm", options.spacing_mm,
                    "edge of a voxel of the result; a case of a large region that says nothing is coarser")
         ->capture_default_str()
@@ -254,6 +264,34 @@ void parse_protected(const Texts& texts, CaseParts& parts) {
     }
 }
 
+/// "METRIC=NUMBER", with what a mark of this metric needs to be missed by anybody.
+void parse_pass_marks(const Texts& texts, CaseParts& parts) {
+    for (const std::string& text : texts.pass) {
+        const std::string metric = text.substr(0, text.find('='));
+        const PassMarkKind* const kind = pass_mark_kind(metric);
+        if (kind == nullptr) {
+            std::vector<std::string> metrics;
+            for (const PassMarkKind& one : pass_mark_kinds) metrics.emplace_back(one.metric);
+            throw std::invalid_argument(fmt::format("--pass '{}': give METRIC=NUMBER; metrics are {}", text,
+                                                    fmt::join(metrics, ", ")));
+        }
+        double mark = 0.0;
+        const char* const end = text.data() + text.size();
+        const bool is_number = metric.size() < text.size() &&
+                               std::from_chars(text.data() + metric.size() + 1, end, mark).ptr == end;
+        if (!is_number || !(mark >= kind->low && mark <= kind->high))
+            throw std::invalid_argument(
+                fmt::format("--pass '{}': give a number from {} to {}", text, kind->low, kind->high));
+        if (metric.starts_with("plan_") && !parts.target)
+            throw std::invalid_argument(
+                fmt::format("--pass '{}': needs a --target to measure against", text));
+        if (metric == "structure_touches" && parts.is_protected.empty())
+            throw std::invalid_argument(
+                fmt::format("--pass '{}': needs a segment that is to --protect", text));
+        parts.pass[metric] = mark;
+    }
+}
+
 void parse_texts(const CLI::App& app, const Texts& texts, ImportCommand& command) {
     ImportOptions& options = command.options;
     if (options.keeps_soft_tissue && !options.threshold_hu)
@@ -274,6 +312,11 @@ void parse_texts(const CLI::App& app, const Texts& texts, ImportCommand& command
         throw std::invalid_argument("give INPUT, or --labels FILE (see --help)");
     parse_materials(texts, command.parts);
     parse_protected(texts, command.parts);
+    for (const char* option : {"--description", "--pass"})
+        if (!command.case_folder && app.count(option) > 0)
+            throw std::invalid_argument(std::string(option) + ": goes with --case");
+    require_plain("--description", command.parts.description);
+    parse_pass_marks(texts, command.parts);
     if (!texts.stack_spacing.empty())
         options.choice.stack_spacing_mm = command.parts.stack_spacing_mm =
             parse_stack_spacing(texts.stack_spacing);

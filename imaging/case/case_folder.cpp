@@ -310,7 +310,9 @@ void finish_case(const std::filesystem::path& folder, const BegunCase& begun, st
     const Bone bone = load_bone(loaded).bone;
     place_on_bone(scene, bone);
     go_on();
-    scene.description = sentence_about(scene, bone);
+    scene.description =
+        begun.parts.description.empty() ? sentence_about(scene, bone) : begun.parts.description;
+    scene.pass = begun.parts.pass;
     write_card_picture(scene, bone, folder / picture_name);
     scene.bone =
         FileSource{.path = bone_of_case("").filename(), .threshold_hu = {}, .segmentation = segmentation};

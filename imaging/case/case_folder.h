@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/pass_marks.h"
 #include "imaging/formats/image_reader.h"
 #include "imaging/segmentation/segmentation.h"
 
@@ -37,6 +38,8 @@ struct CaseParts {
     /// What tissues are made of, by name, or soft_material (material.h). Of labels that bone is made of,
     /// others are what their names say; of a scan, what its CT numbers say.
     std::map<std::string, std::string> materials{};
+    std::string description{};  ///< a sentence for people; empty: one about its bone
+    PassMarks pass{};           ///< what a session has to reach
 };
 
 /// A case for which bone is yet to be made.

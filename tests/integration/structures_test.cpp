@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "common/recording/playhead.h"
 #include "tests/support/block_file.h"
@@ -18,6 +19,8 @@
 namespace osteomill::testing {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -202,6 +205,39 @@ TEST_F(StructuresProgram, OfACaseThatWasImportedWithItsSegmentationAreGuarded) {
     EXPECT_EQ(structure.at("touches"), 1);
     EXPECT_LT(structure.at("nearest_mm").get<double>(), -0.2);
     EXPECT_THAT(text("case_report/report.html"), HasSubstr("nerve"));
+}
+
+TEST_F(StructuresProgram, OfACaseAreJudgedByTheMarksThatItsImportSet) {
+    const auto import = [&](const std::string& folder, const std::vector<std::string>& more) {
+        std::vector<std::string> command{BONE_IMPORT,      file("bone.nrrd"),     "--case",
+                                         file(folder),     "--threshold-hu",      "300",
+                                         "--segmentation", file("nerve.seg.nrrd")};
+        command.insert(command.end(), more.begin(), more.end());
+        return run_program(command);
+    };
+    const std::vector<std::vector<std::string>> refused{
+        {"--pass", "speed=1"},           {"--pass", "time_s"},        {"--pass", "time_s=0"},
+        {"--pass", "time_s=nan"},        {"--pass", "time_s=300s"},   {"--pass", "structure_touches=0"},
+        {"--pass", "plan_excess_mm3=1"}, {"--description", "\033[2J"}};
+    for (const auto& options : refused) {
+        const Finished finished = import("refused", options);
+        EXPECT_EQ(finished.status, 2) << options.back();
+        EXPECT_THAT(finished.err, AllOf(HasSubstr(options.front()), EndsWith("\n"))) << options.back();
+        EXPECT_EQ(std::ranges::count(finished.err, '\n'), 1) << finished.err;
+        EXPECT_FALSE(std::filesystem::exists(file("refused")));
+    }
+
+    const Finished imported = import("judged", {"--protect", "nerve", "--pass", "structure_touches=0",
+                                                "--pass", "time_s=300", "--description", "Left, 54 years"});
+    ASSERT_EQ(imported.status, 0) << imported.err;
+    EXPECT_THAT(text("judged/case.toml"), HasSubstr("description = \"Left, 54 years\""));
+    const Finished served =
+        run_program({HAPTIC_SERVER, "--clock", "virtual", "--case", file("judged"), "--trajectory",
+                     file("motion.csv"), "--report", file("judged_report")});
+    ASSERT_EQ(served.status, 0) << served.err;
+    const auto metrics = nlohmann::json::parse(text("judged_report/metrics.json")).at("metrics");
+    EXPECT_EQ(metrics.at("passed"), 0.0) << "the burr touched the nerve";
+    EXPECT_THAT(text("judged_report/report.html"), HasSubstr("Not passed"));
 }
 
 TEST_F(StructuresProgram, CostNothingWhereNothingIsProtected) {

@@ -159,6 +159,44 @@ void draw_segments(ImportForm& form) {
     }
 }
 
+/// A mark as a person sets it; a share in percent.
+struct MarkField {
+    const char* metric;
+    const char* label;
+    double first;  ///< once it is ticked
+    double unit = 1.0;
+};
+
+/// What a session has to reach; a mark that nobody could miss is not offered.
+void draw_marks(ImportForm& form) {
+    const std::array<MarkField, pass_mark_kinds.size()> fields{
+        {{"time_s", tr("s at most"), 600.0},
+         {"plan_removed_share", tr("% of the target at least"), 0.9, 0.01},
+         {"plan_excess_mm3", tr("mm3 beside the target at most"), 10.0},
+         {"structure_touches", tr("touches of what is protected at most"), 0.0},
+         {"peak_force_n", tr("N at most"), 5.0}}};
+    ImGui::TextUnformatted(tr("A session passes with:"));
+    for (const MarkField& field : fields) {
+        const PassMarkKind& kind = *pass_mark_kind(field.metric);
+        if (!takes_mark(form, kind)) continue;
+        ImGui::PushID(field.metric);
+        bool is_set = form.pass.contains(field.metric);
+        if (ImGui::Checkbox("##set", &is_set)) {
+            if (is_set)
+                form.pass[field.metric] = field.first;
+            else
+                form.pass.erase(field.metric);
+        }
+        ImGui::SameLine();
+        ImGui::BeginDisabled(!is_set);
+        double shown = (is_set ? form.pass[field.metric] : field.first) / field.unit;
+        if (number_field(field.label, shown, "%g") && is_set)
+            form.pass[field.metric] = std::clamp(shown * field.unit, kind.low, kind.high);
+        ImGui::EndDisabled();
+        ImGui::PopID();
+    }
+}
+
 void draw_region(ImportForm& form) {
     constexpr std::array<const char*, 3> axes{"##x", "##y", "##z"};
     for (const bool is_low : {true, false}) {
@@ -217,8 +255,11 @@ void draw_import(StartPage& page, StartPicture& picture) {
                                       std::ceil(estimated_s(form, *page.look())))
                                       .c_str());
         draw_segments(form);
+        draw_marks(form);
         ImGui::EndChild();
         text_field(tr("name of the case"), form.name, 14.0f * ImGui::GetFontSize());
+        ImGui::SameLine();
+        text_field<256>(tr("description"), form.description, 18.0f * ImGui::GetFontSize());
     }
     if (!page.look() && !page.is_working()) {
         text_field(tr("mm between pixels and slices of a stack of pictures: x,y,z"), form.stack_spacing,

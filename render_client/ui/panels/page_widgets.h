@@ -4,14 +4,17 @@
 #include <imgui.h>
 
 #include <array>
+#include <cstddef>
 #include <string>
 
 #include "render_client/ui/start/start_page.h"
 
 namespace osteomill {
 
-inline void text_field(const char* label, std::string& text, float width) {
-    std::array<char, 64> buffer{};
+/// Of `most` bytes at most.
+template <std::size_t most = 64>
+void text_field(const char* label, std::string& text, float width) {
+    std::array<char, most> buffer{};
     text.copy(buffer.data(), buffer.size() - 1);
     ImGui::SetNextItemWidth(width);
     if (ImGui::InputText(label, buffer.data(), buffer.size())) text = buffer.data();

@@ -97,7 +97,7 @@ std::string make_folder_at_home(const std::filesystem::path& folder) {
     // A folder may be there on a disk that takes nothing.
     if (!error && ::access(folder.c_str(), W_OK) != 0) error.assign(errno, std::generic_category());
     if (!error) return {};
-    return trf("nothing can be kept in {} ({}): start render_client with --home DIR, a folder of yours",
+    return trf("nothing can be kept in {} ({}): whoever set this program up can name another folder for it",
                folder.string(), error.message());
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "common/bone/usual_spacing.h"
 
@@ -28,6 +29,14 @@ std::vector<std::string> command_with_files(const std::string& bone_import, cons
 }
 
 }  // namespace
+
+bool takes_mark(const ImportForm& form, const PassMarkKind& kind) {
+    const std::string_view metric = kind.metric;
+    if (metric.starts_with("plan_")) return std::ranges::any_of(form.segments, &SegmentChoice::is_target);
+    if (metric == "structure_touches")
+        return std::ranges::any_of(form.segments, &SegmentChoice::is_protected);
+    return true;
+}
 
 double voxels_of(const ImportForm& form) {
     const glm::dvec3 edges = (form.region.high_mm - form.region.low_mm) / form.spacing_mm + 1.0;
@@ -65,6 +74,10 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
         if (!segment.material.empty())
             command.push_back("--material=" + segment.name + "=" + segment.material);
     }
+    if (!form.description.empty()) command.push_back("--description=" + form.description);
+    for (const PassMarkKind& kind : pass_mark_kinds)
+        if (const auto mark = form.pass.find(kind.metric); mark != form.pass.end() && takes_mark(form, kind))
+            command.push_back(fmt::format("--pass={}={}", kind.metric, mark->second));
     return command;
 }
 

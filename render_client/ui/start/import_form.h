@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/pass_marks.h"
 #include "common/scene/tissue_tables.h"
 #include "render_client/ui/start/scan_preview.h"
 
@@ -34,7 +35,13 @@ struct ImportForm {
     std::uint64_t available_bytes = 0;  ///< of this machine's memory; 0: not known
     bool keeps_soft_tissue = true;      ///< for people who look at the CT in the window
     std::string name{};
+    std::string description{};  ///< empty: a sentence about its bone
+    PassMarks pass{};           ///< as chosen; kept while no segment is a target or protected
 };
+
+/// Whether a mark of the metric could be missed: those of the plan need a target, touches a protected
+/// segment.
+bool takes_mark(const ImportForm& form, const PassMarkKind& kind);
 
 /// A bone of more voxels is refused, before an hour is spent on it.
 inline constexpr double most_imported_voxels = 1.5e9;

@@ -7,8 +7,11 @@
 namespace osteomill {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
+using ::testing::Not;
 
 TEST(ImportForm, OfLabelsInPicturesNamesTheirColoursSpacingAndMaterials) {
     const ImportForm form{.scan = "[fivrs]",
@@ -34,6 +37,20 @@ TEST(ImportForm, OfAScanLeavesMaterialsToItsNumbers) {
     EXPECT_THAT(
         import_command("bone_import", form, "case"),
         IsSupersetOf({"ct", "--segmentation=s.seg.nrrd", "--threshold-hu=300", "--keep-soft-tissue"}));
+}
+
+TEST(ImportForm, SetsWhatASessionHasToReachWhereItCanBeMissed) {
+    ImportForm form{.scan = "ct", .segments = {{.name = "Nerve"}}};
+    form.description = "Left ear, 54 years.";
+    form.pass = {{"time_s", 300.0}, {"plan_removed_share", 0.9}, {"structure_touches", 0.0}};
+    const auto command = [&] { return import_command("bone_import", form, "case"); };
+    EXPECT_THAT(command(), IsSupersetOf({"--description=Left ear, 54 years.", "--pass=time_s=300"}));
+    EXPECT_THAT(command(), Not(Contains(HasSubstr("plan_removed_share")))) << "there is no target";
+    EXPECT_THAT(command(), Not(Contains(HasSubstr("structure_touches")))) << "nothing is protected";
+    form.segments.front().is_target = true;
+    EXPECT_THAT(command(), Contains("--pass=plan_removed_share=0.9"));
+    form.segments.front().is_protected = true;
+    EXPECT_THAT(command(), Contains("--pass=structure_touches=0"));
 }
 
 TEST(ImportForm, OfAWholeHeadBeginsWithAsManyVoxelsAsAMachineHolds) {
