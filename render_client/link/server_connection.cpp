@@ -357,7 +357,7 @@ std::string ServerConnection::describe_loss(error_code error) const {
     if (has_heard_ || (error != asio::error::eof && !is_refusal(error)))
         return trf("lost {}: {}", where_, tr(describe_stream_error(error)));
     if (tls_) return trf("{} turned this client away: {}", where_, tr(describe_stream_error(error)));
-    return trf("{} hung up at once: it is full, or wants TLS (--tls-cert, --tls-key, --tls-ca)", where_);
+    return trf("{} hung up at once: it is full, or wants certificates (TLS) from this program", where_);
 }
 
 void ServerConnection::retry_later() {

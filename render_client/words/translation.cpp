@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <regex>
 #include <string_view>
 
 #include "render_client/words/embedded_words.h"
@@ -54,6 +55,21 @@ std::string language_of_environment() {
 
 void speak(const std::string& language) {
     spoken() = &tables().at(language);
+}
+
+std::string tr_with_numbers(const std::string& english) {
+    static const std::regex number(R"(-?\d+(\.\d+)?)");
+    const auto found = spoken()->find(std::regex_replace(english, number, "{}"));
+    if (found == spoken()->end()) return tr(english);
+    std::string translated = found->second;
+    std::size_t from = 0;
+    for (std::sregex_iterator at(english.begin(), english.end(), number), end; at != end; ++at) {
+        from = translated.find("{}", from);
+        if (from == std::string::npos) break;
+        translated.replace(from, 2, at->str());
+        from += at->str().size();
+    }
+    return translated;
 }
 
 std::string tissue_words(std::string name) {

@@ -1,7 +1,8 @@
 // Words of the window in a person's language, found by the English ones as gettext does. English is in the
 // sources; every other language is a file beside this one: LANGUAGE.toml, "English" = "translated".
 //
-// What a server says (faults, notices) comes in English, and is translated as a whole where the file has it.
+// A server speaks English (faults, notices); a text of its is translated as a whole, numbers aside, if the
+// file has it.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,6 +31,8 @@ const char* tr(const char* english);
 inline std::string tr(const std::string& english) {
     return tr(english.c_str());
 }
+/// A text that the server says, as a whole; numbers in it stand in the file as {}, in the same order.
+std::string tr_with_numbers(const std::string& english);
 /// Of a tissue's name, as a person writes it: files write "Facial_Nerve".
 std::string tissue_words(std::string name);
 /// Of a text with places for values, as fmt::format.

@@ -240,7 +240,8 @@ void Commands::tell(const std::vector<ControlEvent>& events, double now_s) {
         if (event.action == SessionAction::place && std::exchange(waits_for_place_, false) &&
             !clutch_.is_held())
             session_.show_tool_at(std::nullopt);
-        const std::string text = event.action == SessionAction::mark ? event.text : tr(event.text);
+        const std::string text =
+            event.action == SessionAction::mark ? event.text : tr_with_numbers(event.text);
         say(event.is_refused ? trf("no {}: {}", tr(name_of(event.action)), text)
                              : fmt::format("{} {}", words_for(event.action), text),
             now_s);

@@ -197,7 +197,7 @@ std::vector<HelpLine> help_lines(Situation situation) {
             break;
         case Situation::looking_on:
             lines.push_back({"", "This server has its own device: to drill with the mouse,"});
-            lines.push_back({"", "start haptic_server with --device client."});
+            lines.push_back({"", "end this window and start a case from the page of cases."});
             break;
         default:
             break;

@@ -107,8 +107,8 @@ class PlotColumn {
         const auto write_at = [&](double age_s, float part_left, const std::string& text) {
             const float x = left_ + axis_width +
                             (width_ - axis_width) * static_cast<float>(1.0 - age_s / ToolHistory::kept_s);
-            painter_.draw_text({x - part_left * small * painter_.width_of(text), pen_y_},
-                               painter_.theme()[Tone::dim], text, small);
+            painter_.draw_text({x - part_left * small_print * painter_.width_of(text), pen_y_},
+                               painter_.theme()[Tone::dim], text, small_print);
         };
         write_at(ToolHistory::kept_s, 0.0f, fmt::format("-{:.0f} s", ToolHistory::kept_s));
         write_at(0.5 * ToolHistory::kept_s, 0.5f, fmt::format("-{:.0f} s", 0.5 * ToolHistory::kept_s));
@@ -117,15 +117,13 @@ class PlotColumn {
     }
 
   private:
-    static constexpr float small = 0.8f;
-
     /// Of a line of the grid, left of the plot and within its height.
     void label(double value, const glm::vec2& at, const PlotRange& range) const {
         const std::string text = fmt::format("{:g}", value);
-        const float height = small * ImGui::GetFontSize();
+        const float height = small_print * ImGui::GetFontSize();
         const float up = value == range.low ? height : value == range.high ? 0.0f : 0.5f * height;
-        painter_.draw_text({at.x - small * painter_.width_of(text) - 4.0f * painter_.scale(), at.y - up},
-                           painter_.theme()[Tone::dim], text, small);
+        painter_.draw_text({at.x - small_print * painter_.width_of(text) - 4.0f * painter_.scale(), at.y - up},
+                           painter_.theme()[Tone::dim], text, small_print);
     }
 
     const PanelPainter& painter_;

@@ -12,6 +12,11 @@
 
 namespace osteomill {
 
+/// Height of a letter, px of the screen at scale 1.
+inline constexpr float letter_px = 14.0f;
+/// Numbers at axes, in share of it: smaller than 12 px nobody reads them in a small window.
+inline constexpr float small_print = 12.0f / letter_px;
+
 inline ImU32 colour_of(const Rgba& colour) {
     return IM_COL32(colour.r, colour.g, colour.b, colour.a);
 }

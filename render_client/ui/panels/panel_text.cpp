@@ -100,7 +100,7 @@ PanelText warning_text(const OverlayContent& content) {
     else if (content.tool && !content.tool->fault.empty())
         add_fault(std::string(content.tool->fault.text()), text);
     if (content.tool && !content.tool->notice.empty())
-        text.push_back(line(Tone::plain, tr(std::string(content.tool->notice.text()))));
+        text.push_back(line(Tone::plain, tr_with_numbers(std::string(content.tool->notice.text()))));
     if (content.tool && content.tool->driver == ToolDriver::others_only)
         text.push_back(
             line(Tone::plain, tr("you watch: the server does not list this client as an operator")));

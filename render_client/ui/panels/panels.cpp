@@ -22,7 +22,6 @@ namespace {
 
 /// Of Debian's fonts-dejavu-core. Where it is missing, Dear ImGui's own letters do: coarser, but there.
 constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-constexpr float letter_px = 14.0f;
 constexpr float built_in_letter_px = 13.0f;
 
 /// Latin letters, and the signs on the tool bar.

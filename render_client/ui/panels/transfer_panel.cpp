@@ -16,7 +16,6 @@ namespace {
 
 constexpr float field_height = 7.0f;  // in letters
 constexpr double point_reach_px = 10.0;
-constexpr float tick_letters = 0.8f;  // of the others' size
 
 /// The field of points: from its pixels to values and back.
 class Field {
@@ -91,22 +90,22 @@ void draw_field(const PanelPainter& painter, const TransferEditor& editor, const
 void draw_axes(const PanelPainter& painter, const Field& field) {
     ImDrawList& canvas = *ImGui::GetWindowDrawList();
     const ImU32 ink = colour_of(painter.theme()[Tone::dim]);
-    const float letter = tick_letters * ImGui::GetFontSize();
+    const float letter = small_print * ImGui::GetFontSize();
     const float tick = 3.0f * painter.scale();
     const auto write = [&](const glm::vec2& middle_or_end, float part, const std::string& text) {
-        const float width = tick_letters * painter.width_of(text);
+        const float width = small_print * painter.width_of(text);
         canvas.AddText(ImGui::GetFont(), letter, {middle_or_end.x - part * width, middle_or_end.y}, ink,
                        text.c_str());
     };
     // As far apart as their numbers need.
-    const float room = field.size().x / (1.4f * tick_letters * painter.width_of("2000"));
+    const float room = field.size().x / (1.4f * small_print * painter.width_of("2000"));
     const double step_hu = room * 500.0f > static_cast<float>(Field::highest_hu()) ? 500.0 : 1000.0;
     for (double hu = 0.0; hu <= Field::highest_hu(); hu += step_hu) {
         const glm::vec2 at = field.pixel_of_hu(hu, 0.0);
         canvas.AddLine(to_imgui(at), {at.x, at.y + tick}, ink, painter.scale());
         const std::string text = fmt::format("{:.0f}", hu);
         // The unit stands at the end.
-        if (at.x + 0.5f * tick_letters * painter.width_of(text) >
+        if (at.x + 0.5f * small_print * painter.width_of(text) >
             field.first().x + field.size().x - painter.width_of("HU"))
             continue;
         write({at.x, at.y + tick}, hu == 0.0 ? 0.0f : 0.5f, text);

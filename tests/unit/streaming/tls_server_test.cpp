@@ -47,7 +47,7 @@ TEST_F(TlsServer, ServesTheLabAndTurnsAwayTheRestWhileTheLabNoticesNothing) {
     const auto stranger = link(lab_->impostor(other.client("stranger")));
     EXPECT_TRUE(says(*stranger, "turned this client away: it refuses this program: unknown CA"));
     const auto plain = link(std::nullopt);
-    EXPECT_TRUE(says(*plain, "wants TLS (--tls-cert"));
+    EXPECT_TRUE(says(*plain, "wants certificates (TLS)"));
 
     boost::asio::io_context io;
     std::vector<tcp::socket> silent;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -150,13 +151,21 @@ std::set<std::string> english_words() {
     return words;
 }
 
+/// "{}" for each place for a value: as texts of the server with numbers are translated.
+std::string with_plain_places(const std::string& text) {
+    return std::regex_replace(text, std::regex(R"(\{[^}]*\})"), "{}");
+}
+
 /// Every text in the sources of the server that may come over the link.
 std::set<std::string> server_words() {
     std::set<std::string> words;
-    for (const char* folder : {"simulation/loop", "haptic_server/streaming", "common/net"})
+    for (const char* folder :
+         {"simulation/loop", "haptic_server/streaming", "haptic_server/session", "common/net"})
         for (const auto& [file, source] : sources_in(folder))
-            for (std::size_t at = source.find('"'); at != std::string::npos; at = source.find('"', at))
-                words.insert(literal_at(source, at));
+            for (std::size_t at = source.find('"'); at != std::string::npos; at = source.find('"', at)) {
+                const std::string text = literal_at(source, at);
+                words.insert({text, with_plain_places(text)});
+            }
     return words;
 }
 
@@ -213,6 +222,23 @@ TEST(Translation, HaveTheSamePlacesForValues) {
             EXPECT_EQ(places_in(translated), places_in(english)) << language << ": " << english;
             EXPECT_FALSE(translated.empty()) << language << ": " << english;
         }
+}
+
+TEST(Translation, KeepTheNumbersOfWhatTheServerSays) {
+    speak("de");
+    EXPECT_EQ(tr_with_numbers("that is 12 mm away from the bone; choose a place within 100 mm of it"),
+              "das ist 12 mm vom Knochen entfernt; wählen Sie eine Stelle höchstens 100 mm davon");
+    EXPECT_EQ(tr_with_numbers("nothing was milled"), "nichts wurde gefräst");
+    EXPECT_EQ(tr_with_numbers("no such text of -1.5 mm"), "no such text of -1.5 mm");
+    speak("en");
+    EXPECT_EQ(tr_with_numbers("that is 12 mm away"), "that is 12 mm away");
+}
+
+TEST(Translation, NameNoOptionOfAProgram) {
+    for (const std::string& english : english_words())
+        EXPECT_FALSE(english.find("--") != std::string::npos ||
+                     english.find("haptic_server") != std::string::npos)
+            << "a trainee at the window has no command line: " << english;
 }
 
 TEST(FaultRemedies, AreOfEachFaultThatTheServerWords) {
