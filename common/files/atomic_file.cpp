@@ -31,8 +31,8 @@ constexpr std::chrono::seconds longest_wait_for_reader{2};
     throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(reason));
 }
 
-/// What is no regular file is held open to the end: then no other opening of it waits. A pipe that nobody
-/// reads would hold it up for ever, and with it the signals that end a program.
+/// A path that is no regular file is held open to the end, so that no later opening of it waits. A pipe that
+/// nobody reads would block for ever, and with it the signals that end a program.
 int open_direct(const fs::path& path, const fs::path& named) {
     const auto until = std::chrono::steady_clock::now() + longest_wait_for_reader;
     int descriptor = -1;

@@ -1,5 +1,5 @@
-// Files of a run that must differ: of two outputs at one path one would be lost, and so would an input at the
-// path of an output. Every program, and the module of Python, asks here before it writes.
+// Files of a run that must differ: two outputs at one path would lose one of them, and an output at the path
+// of an input would overwrite it. Every program, and the Python module, checks this before it writes.
 #pragma once
 
 #include <filesystem>

@@ -14,13 +14,13 @@
 
 namespace osteomill {
 
-/// What a file should be, for messages ("a trajectory in CSV"), and its most bytes.
+/// The kind that a file should be, for messages ("a trajectory in CSV"), and its most bytes.
 struct InputKind {
     const char* what = "a file";
     std::uint64_t most_bytes = UINT64_MAX;
 };
 
-// Of what is read whole. An hour at 1 kHz is a trajectory of 250 MB.
+// Files that are read whole. A trajectory of an hour at 1 kHz has 250 MB.
 inline constexpr InputKind trajectory_kind{"a trajectory in CSV", 256U << 20U};
 inline constexpr InputKind controls_kind{"a script of controls in CSV", 16U << 20U};
 inline constexpr InputKind table_kind{"a table in CSV", 64U << 20U};
@@ -28,7 +28,7 @@ inline constexpr InputKind json_kind{"a JSON file", 256U << 20U};
 inline constexpr InputKind operators_kind{"a list of the subjects of certificates", 1U << 20U};
 inline constexpr InputKind private_key_kind{"a private key", 1U << 20U};
 inline constexpr InputKind pem_kind{"a PEM file", 1U << 20U};
-/// Of a hundred thousand certificates.
+/// Enough for a hundred thousand certificates.
 inline constexpr InputKind revoked_kind{"a list of revoked certificates", 16U << 20U};
 inline constexpr InputKind bridge_key_kind{"a key of the bridge", 4095};
 

@@ -15,17 +15,18 @@ namespace osteomill {
 class OutputPlace {
   public:
     /// Links are followed. Throws std::runtime_error in one line where another session has reserved it, and
-    /// where nothing can be written there. What is no regular file (/dev/null, a pipe) is not reserved.
+    /// where nothing can be written there. A path that is no regular file (/dev/null, a pipe) is not
+    /// reserved.
     explicit OutputPlace(std::filesystem::path file);
     ~OutputPlace();
     OutputPlace(const OutputPlace&) = delete;
     OutputPlace& operator=(const OutputPlace&) = delete;
 
-    /// As it was requested.
+    /// The path as requested.
     const std::filesystem::path& file() const { return file_; }
-    /// Where to write now: where it was requested while that folder is there; else in the folder where it was
-    /// moved to; of one that was removed, in FOLDER.rescued beside it, or in the user's folder of data, which
-    /// is made. Any thread.
+    /// The path to write to now: the requested one while its folder is there. If the folder was moved, the
+    /// file goes to its new place; if it was removed, to FOLDER.rescued beside it or, failing that, to the
+    /// user's data folder, which is made. Any thread.
     std::filesystem::path now() const;
     /// One line for people, once each time that the folder has gone. Any thread.
     std::string news();

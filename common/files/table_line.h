@@ -49,7 +49,7 @@ class TableLines {
         return false;
     }
     const std::string& line() const { return line_; }
-    /// Of the line, from 1.
+    /// The line's number, from 1.
     int number() const { return number_; }
 
     /// Throws std::runtime_error, "NAME:LINE: WHY".

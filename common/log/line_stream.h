@@ -30,7 +30,7 @@ class LineStream {
 
     // Any thread; none of these waits for the descriptor but finish().
 
-    /// `text`: one or more whole lines, or one that is to be overwritten; of this program's own words.
+    /// `text`: one or more whole lines, or one that is to be overwritten; text of this program only.
     void write(std::string text);
     /// One line, whatever is in it: printable (plain_text.h), and a line break behind it. `level`, as of a
     /// log, is for JSON.

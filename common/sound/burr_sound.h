@@ -49,10 +49,10 @@ class BurrSound {
         double b_ = 0.0;
     };
 
-    /// What an ear makes of a cue; all on their way to what the newest says.
+    /// The quantities of a cue that an ear hears; all move towards the newest cue's.
     struct Heard {
         double load = 0.0;   // loudness of the force, 0 to 1
-        double tooth = 0.0;  // of the tooth note: an even force has less of it
+        double tooth = 0.0;  // loudness of the tooth note: an even force has less of it
         double fall = 0.0;   // r, from harmonic to harmonic
         double strain = 0.0;
         double grain_hz = 1000.0;

@@ -30,7 +30,7 @@ inline bool holds_password(const std::string& address) {
             plain += address[i];
         }
     }
-    // What follows a host is a port, up to the path.
+    // Digits behind a host are a port, up to the path.
     static const std::regex password(R"(://[^/@:?]*:(?!\d{0,5}([/?,]|$))[^@]*@|password\s*=)",
                                      std::regex::icase);
     return std::regex_search(address, password) || std::regex_search(plain, password);

@@ -14,7 +14,7 @@ namespace osteomill {
 /// Many times what any file of this project has.
 inline constexpr std::size_t deepest_json = 100;
 
-/// How deep lists and objects lie in one another; of a text that is no JSON, some upper bound.
+/// How deep lists and objects are nested; some upper bound if the text is no JSON.
 inline std::size_t depth_of_json(std::string_view text) {
     std::size_t depth = 0;
     std::size_t deepest = 0;

@@ -40,7 +40,7 @@ inline std::vector<std::string> words_of(const std::string& text) {
     return {std::istream_iterator<std::string>(line), {}};
 }
 
-/// What stands between commas, without blanks around it; one empty cell of an empty line.
+/// The texts between commas, without blanks around them; an empty line has one empty cell.
 inline std::vector<std::string> cells_of(std::string_view line) {
     std::vector<std::string> cells;
     for (std::size_t from = 0;;) {

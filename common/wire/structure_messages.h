@@ -16,8 +16,8 @@ namespace osteomill {
 
 /// In one message; even where nothing compresses it fits a frame.
 inline constexpr std::size_t most_bricks_of_structure_piece = 128;
-/// Of all structures together: 128 MiB of masks, 1 dm^3 at 0.1 mm. A mask's own size on the wire bounds
-/// nothing.
+/// The most bricks of all structures together: 128 MiB of masks, 1 dm^3 at 0.1 mm. A mask's size on the wire
+/// bounds nothing.
 inline constexpr std::size_t most_structure_bricks = std::size_t{1} << 18U;
 
 /// All messages of these structures. Throws std::invalid_argument for more bricks than are sent.
@@ -45,8 +45,8 @@ class StructureAssembler {
     Grid grid_{};
     std::uint64_t grid_bricks_ = 0;
     std::optional<std::size_t> under_way_;
-    std::vector<StructureBrick> bricks_;  // of that
-    std::size_t taken_bricks_ = 0;        // of complete ones
+    std::vector<StructureBrick> bricks_;  // of the structure that is coming
+    std::size_t taken_bricks_ = 0;        // of complete structures
 };
 
 v2::StructureDistance to_message(const StructureDistance& distance);
