@@ -113,7 +113,8 @@ void BridgeArm::take_pose(std::uint64_t now_ns) {
                                   : sensor_->velocity_mm_per_s();
     state.pedal = {.is_down = (pose.buttons & OMB_PEDAL) != 0, .speaker = host_.session()};
     const bool next_pressed = (pose.buttons & OMB_NEXT_BURR) != 0;
-    // Of another arm nothing is known before its first pose: a key that it holds already asks for nothing.
+    // Before another arm's first pose nothing is known of its keys: one that is held down already asks for
+    // nothing.
     if (std::exchange(session_, host_.session()) != host_.session()) was_next_pressed_ = next_pressed;
     if (next_pressed && !was_next_pressed_) burr_ = (burr_ + 1) % parts_.burr_count;
     was_next_pressed_ = next_pressed;

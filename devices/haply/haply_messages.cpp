@@ -54,7 +54,7 @@ std::optional<glm::dquat> rotation(const json& value) {
     return size > 0.9 && size < 1.1 ? std::optional(result / size) : std::nullopt;
 }
 
-/// What can stand in a message of ours without more ado.
+/// A name that our messages can contain as it is.
 std::optional<std::string> identity(const json& value) {
     if (!value.is_string()) return std::nullopt;
     const auto& text = value.get_ref<const std::string&>();

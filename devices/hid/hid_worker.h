@@ -62,7 +62,7 @@ class HidWorker {
     void run();
 
     HidWorkerParts parts_;
-    std::unique_ptr<HidConversation> conversation_;  // of the thread, while it runs
+    std::unique_ptr<HidConversation> conversation_;  // the thread's own, while it runs
     std::atomic<const char*> notice_{""};
     std::atomic<bool> stops_{false};
     std::thread thread_;

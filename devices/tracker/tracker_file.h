@@ -23,7 +23,7 @@
 
 namespace osteomill {
 
-/// Of a tracked handpiece, in the frame of its marker.
+/// A tracked handpiece, in its marker's frame.
 struct TrackedHandpiece {
     glm::dvec3 burr_centre_mm{0.0};
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit vector from tip to shank

@@ -32,7 +32,7 @@ class TrackerReceiver {
     void start();
     void stop() noexcept;
 
-    /// What came: a sample, or what the pedal's owner says.
+    /// An arrived item: a sample, or a state of the pedal.
     struct Item {
         TrackerSample sample{};
         bool is_pedal = false;
