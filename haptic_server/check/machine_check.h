@@ -32,8 +32,8 @@ struct CheckedMachine {
 CheckedMachine this_machine();
 
 /// Real-time priority and its share, page locking, wake-ups, preemption, frequency and idle states, the clock
-/// source, the GPU; in this order. What the kernel does not say (a virtual machine has no frequencies) is
-/// left out.
+/// source, the GPU; in this order. Facts that the kernel does not state (a virtual machine has no
+/// frequencies) are left out.
 std::vector<CheckRow> check_machine(const CheckedMachine& machine);
 
 /// A row for the arms and 3D mice that are plugged in. Tries to open each.

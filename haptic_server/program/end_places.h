@@ -18,7 +18,7 @@ class EndPlaces {
 
     /// Null: no bone is saved.
     const OutputPlace* save_bone() const { return save_bone_ ? &*save_bone_ : nullptr; }
-    /// Where they are to be written now.
+    /// The paths to write them to now.
     OutputFiles now() const;
 
     /// Twice a second.

@@ -5,7 +5,7 @@
 
 namespace osteomill {
 
-/// Where the session that is reported in `folder` is recorded.
+/// The path of the recording of the session that is reported in `folder`.
 std::filesystem::path recording_in(const std::filesystem::path& folder);
 
 /// Makes the folder. Throws std::runtime_error with one line where it cannot be made, or holds a session

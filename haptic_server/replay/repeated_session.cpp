@@ -87,7 +87,7 @@ MillingSessionOptions options_of(const SessionInfo& session) {
     return options;
 }
 
-/// What changes a session beside its hand.
+/// Whether the event changes a session in another way than the hand does.
 bool acts_on_session(const ControlEvent& event) {
     switch (event.action) {
         case SessionAction::none:

@@ -68,7 +68,7 @@ class SessionAssembly {
     std::uint64_t advance(std::uint64_t ticks);
     void end();
 
-    /// Of a session on the virtual clock, 0 to 1.
+    /// The completed share of a session on the virtual clock, 0 to 1.
     double done(double time_s) const;
 
   private:

@@ -29,8 +29,8 @@ class SessionKeeper {
     /// left of the bone until it is written; one at a time.
     SessionControls::Requests requests();
 
-    /// Any thread: in the log, and to clients, as the answer to a save. What has gone wrong with saving
-    /// or recording is said when it happens.
+    /// Any thread: in the log, and to clients, as the answer to a save. A failure to save or record is
+    /// reported when it happens.
     void tell(const std::string& line);
     /// Any thread.
     bool finish_requested() const { return wants_end_.load(); }

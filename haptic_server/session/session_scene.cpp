@@ -22,7 +22,7 @@ namespace osteomill {
 
 namespace {
 
-/// Of a choice that names only a bone, one without a place for the tool yet.
+/// Loads the chosen scene; if the choice names only a bone, the scene has no place for the tool yet.
 Scene load_scene(const SceneChoice& choice) {
     Scene scene;
     if (choice.bone && !choice.name) {

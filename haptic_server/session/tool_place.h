@@ -22,12 +22,12 @@ inline constexpr double least_gap_mm = 0.5;
 inline constexpr double longest_lift_mm = 100.0;
 
 /// `wanted`, or where the burr is clear of bone when it is drawn back along its handpiece; else one line on
-/// why it cannot be there: bone all the way, or none near. `hull`: of the burr with its shank.
+/// why it cannot be there: bone all the way, or none near. `hull`: the hull of the burr with its shank.
 std::variant<ToolPose, std::string> clear_place(const Bone& bone, const std::vector<HullBall>& hull,
                                                 const ToolPose& wanted);
 
-/// Where the burr is clear of bone when it is drawn back along its handpiece; nothing where it is clear
-/// already, or bone is all the way.
+/// The pose at which the burr is clear of bone when it is drawn back along its handpiece; nothing if it is
+/// clear already, or bone is all the way.
 std::optional<ToolPose> lifted_out(const Bone& bone, const std::vector<HullBall>& hull, const ToolPose& at);
 
 }  // namespace osteomill

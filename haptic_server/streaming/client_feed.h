@@ -95,7 +95,7 @@ class ClientFeed {
     /// Whether that frame contains everything that was new when a state was last requested.
     bool has_sent_all() const { return newest_state_ > 0 && !wants_state_; }
 
-    /// What it remembers for the client.
+    /// The changes that wait for the client.
     const PendingChanges& pending() const { return pending_; }
 
   private:

@@ -62,7 +62,7 @@ class Handshakes {
     Callbacks callbacks_;
     Id last_id_ = 0;
     std::map<Id, Handshake> under_way_;
-    ConnectionQuota quota_;  // of these
+    ConnectionQuota quota_;  // for connections that have not shaken hands yet
 };
 
 }  // namespace osteomill

@@ -29,7 +29,7 @@ class LeaseHistory {
 
   private:
     std::optional<ToolLease::ClientId> holder_;
-    std::string peer_;  // of that client, which may have gone
+    std::string peer_;  // that client's address; it may have gone
 };
 
 }  // namespace osteomill

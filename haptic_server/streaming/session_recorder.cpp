@@ -110,7 +110,7 @@ void SessionRecorder::take_ticks(Wait wait) {
         if (feed_.waiting_ticks() > 0) return;
         feed_.note_missed_ticks(std::exchange(missed_ticks_, 0));
     }
-    // What was dropped found the queue full: it comes behind all that is in there.
+    // Dropped ticks found the queue full, so they come behind all that are in it.
     const std::uint64_t dropped = ticks_->dropped();
     ticks_->consume_all([this](const TickSample& tick) { feed_.note_tick(tick); });
     missed_ticks_ = dropped - std::exchange(dropped_ticks_, dropped);

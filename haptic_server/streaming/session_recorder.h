@@ -26,7 +26,7 @@ class SessionRecorder {
     SessionRecorder(const RecordTo& to, v2::Hello hello, const BoneReplica& mirror,
                     std::span<const v2::StructureBricks> structures = {});
 
-    /// As for a client: see ClientFeed.
+    /// These do what they do for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
     /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Nothing where it says no
     /// more than the one before, of the same time.
@@ -53,13 +53,14 @@ class SessionRecorder {
     std::uint64_t missed_ticks_ = 0;  // that ticks_ dropped and the recording has yet to tell of
     std::uint64_t dropped_ticks_ = 0;
     std::atomic<bool> is_under_way_{false};
-    // Of its own: the recording ends on another thread while clients are still sent the end.
+    // The recorder has packers of its own: the recording ends on another thread while clients are still sent
+    // the end.
     FeedPackers packers_{};
     ClientFeed feed_;
     RecordingWriter writer_;
     double time_s_ = 0.0;
     std::optional<SessionState> last_;  // that was handed over
-    Stamp stamp_{};                     // of the last state
+    Stamp stamp_{};                     // the last state's
 };
 
 }  // namespace osteomill

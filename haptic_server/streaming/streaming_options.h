@@ -24,7 +24,7 @@ struct RecordTo {
     std::filesystem::path file;
     Stamp began;  ///< when the session's time is zero
     bool with_ticks = true;
-    /// Where the haptic loop leaves them, for the recording alone; null: nowhere.
+    /// The queue in which the haptic loop leaves them, for the recording alone; null: none.
     SampleQueue<TickSample>* ticks = nullptr;
     /// For people, when the recording can no longer be written; any thread. Empty: into the log.
     std::function<void(const std::string& line)> tell{};
