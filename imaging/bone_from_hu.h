@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// What a voxel of nothing holds.
+/// The HU of an empty voxel.
 inline constexpr std::int16_t air_hu = -1000;
 
 /// Bone is where HU reaches the threshold. A voxel that the surface HU = threshold passes through is filled

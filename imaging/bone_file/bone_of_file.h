@@ -15,8 +15,8 @@
 
 namespace osteomill {
 
-/// Where neither scene nor file says from which HU on a voxel is bone: about what separates trabecular bone
-/// from soft tissue in CT.
+/// The threshold if neither scene nor file says from which HU on a voxel is bone: about the value that
+/// separates trabecular bone from soft tissue in CT.
 inline constexpr double default_threshold_hu = 300.0;
 
 /// Fills `labels` with the tissues of as many voxels (whole slices, x fastest) from slice `z` on; all are 0
@@ -26,7 +26,7 @@ using FillLabels = std::function<void(int z, std::span<std::uint8_t> labels)>;
 struct BoneOfFile {
     Bone bone;
     std::shared_ptr<const BoneFile> file;  ///< stays open, so that another under its name is not taken for it
-    std::string hu_digest;                 ///< of the file's CT numbers
+    std::string hu_digest;                 ///< digest of the file's CT numbers
     double threshold_hu = default_threshold_hu;
     /// A line for people on what may be wrong with its CT numbers; empty where nothing is: that a file which
     /// this project did not write does not look like HU (hu_histogram.h), that all of it is bone.

@@ -47,7 +47,7 @@ void save_carved_bone(
 
 struct RestoredBone {
     Bone bone;
-    std::string hu_digest;  ///< of the CT numbers beside it
+    std::string hu_digest;  ///< digest of the CT numbers beside it
 };
 
 /// Whether a bone file holds a carved bone.

@@ -1,8 +1,8 @@
 // A bone file: CT numbers on the bone's own grid, as bone_import writes and haptic_server loads.
 //
-// Its header holds a digest of the CT numbers, and one of itself: of sizes, spacing, origin and all keys that
-// begin with osteomill_. So one flipped bit is refused, even where gzip's CRC was made after it flipped.
-// Files from elsewhere have none and are taken as they are.
+// Its header holds two digests: one of the CT numbers, and one of itself, which covers sizes, spacing, origin
+// and all keys that begin with osteomill_. So one flipped bit is refused, even if gzip's CRC was made after
+// it flipped. Files from elsewhere have no digests and are accepted as they are.
 #pragma once
 
 #include <filesystem>
@@ -53,7 +53,7 @@ class BoneFile {
     const Grid& grid() const { return form_.grid; }
     const NrrdForm& form() const { return form_; }
     const std::map<std::string, std::string>& key_values() const { return form_.key_values; }
-    /// Of threshold_key; absent where the file has none.
+    /// The value of threshold_key; absent if the file has none.
     const std::optional<double>& threshold_hu() const { return threshold_hu_; }
     /// Throws ImagingError, naming the key, where it is missing.
     const std::string& value(const char* key) const;
@@ -90,7 +90,7 @@ class HuReader {
     /// CRC and the digest. Throws ImagingError.
     void read(std::span<std::int16_t> hu);
     void read_to_end();
-    /// Of what has been read.
+    /// The digest of the CT numbers read so far.
     std::string digest() const { return digest_.text(); }
 
   private:

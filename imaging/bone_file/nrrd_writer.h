@@ -14,7 +14,7 @@
 
 namespace osteomill {
 
-/// What is not committed is gone.
+/// A file that is not committed is deleted.
 class NrrdWriter {
   public:
     /// Writes the header beside the target, and removes what one that was killed has left there. Throws

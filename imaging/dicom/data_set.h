@@ -81,7 +81,7 @@ struct Places {
     }
 };
 
-/// What a multi-frame file says of its frames.
+/// The functional groups of a multi-frame file: statements about its frames.
 class FrameGroups {
   public:
     explicit FrameGroups(const gdcm::DataSet& data)

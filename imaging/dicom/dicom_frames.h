@@ -23,7 +23,7 @@ class DicomFrames {
     /// Throws ImagingError where the pixels cannot be decoded or are not of the size that the header says.
     std::span<float> frame(unsigned index);
 
-    /// What reading takes of memory at most: a frame, or the whole file where it is compressed as a whole.
+    /// The most memory that reading takes: a frame, or the whole file if it is compressed as a whole.
     static std::uint64_t bytes_to_read(const DicomFile& file);
 
   private:

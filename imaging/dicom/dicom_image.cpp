@@ -18,7 +18,7 @@ namespace osteomill {
 
 namespace {
 
-/// What a user should know of files that are read nevertheless.
+/// Notes the doubts about files that are read nevertheless.
 void note_doubts(const std::filesystem::path& folder, const DicomSeries& series, SourceImage& image) {
     const auto is_wrong = [](const DicomFile& file) { return file.header.sign_of_codestream.has_value(); };
     if (const auto wrong = std::ranges::count_if(series.files, is_wrong); wrong > 0) {

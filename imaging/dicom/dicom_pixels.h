@@ -19,8 +19,9 @@ void require_sound_pixels(const DicomScan& scan);
 /// up to 65536.
 std::size_t frame_count(const DicomScan& scan);
 
-/// Of each frame of compressed pixels, in turn: which fragments hold it; never an empty one. Throws
-/// std::invalid_argument where that is not clear by their number, their table or the marks of their ends.
+/// The fragments that hold each frame of compressed pixels, frame by frame; no list is empty. Throws
+/// std::invalid_argument if neither their number, nor their table, nor the marks of their ends make that
+/// clear.
 std::vector<std::vector<std::size_t>> fragments_of_frames(const DicomScan& scan);
 
 /// Whether an object is labels that are read: a segmentation (SEG), or one as a label map.

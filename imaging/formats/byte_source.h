@@ -47,7 +47,7 @@ class ByteSource {
     std::shared_ptr<const InputFile> file_;
     std::uint64_t offset_;
     Encoding encoding_;
-    std::unique_ptr<Inflater> inflater_;  // of compressed data
+    std::unique_ptr<Inflater> inflater_;  // for compressed data
     std::uint64_t given_ = 0;             // bytes, decoded
 };
 

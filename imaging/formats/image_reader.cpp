@@ -26,8 +26,8 @@ namespace osteomill {
 
 namespace {
 
-/// What an image is recognised by: that it is a folder, or the first bytes of a file, inflated where they are
-/// gzip's.
+/// The facts by which an image is recognised: it is a folder, or a file with these first bytes, inflated if
+/// they are gzip's.
 struct ImageStart {
     std::filesystem::path path;
     ImageChoice choice;
@@ -112,7 +112,7 @@ OpenedImage opened(const std::filesystem::path& path, ImageHeader header, ImageP
 
 struct ImageFormat {
     const char* name;
-    std::array<std::string_view, 2> endings;  ///< of its files' names; empty: none to go by
+    std::array<std::string_view, 2> endings;  ///< of its files' names; empty: no rule
     bool (*is)(const ImageStart&);
     OpenedImage (*open)(const ImageStart&, ImagePurpose);
 };

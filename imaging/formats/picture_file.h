@@ -8,7 +8,7 @@
 
 #include "imaging/formats/opened_image.h"
 
-struct tiff;  // of libtiff
+struct tiff;  // libtiff's
 
 namespace osteomill {
 
@@ -31,14 +31,14 @@ class TiffPages {
 
     /// Throws ImagingError where ImageJ or OME say that not each of them is a slice.
     int count() const;
-    /// Grey of 8, 16 or 32 bits or floats; colours of 8 bits. Of a scan white may be 0, and the straight line
-    /// is applied by which ImageJ calibrates levels; labels are as they are stored. Throws ImagingError.
+    /// Grey of 8, 16 or 32 bits or floats; colours of 8 bits. A scan's white may be 0, and ImageJ's linear
+    /// calibration of levels is applied to it; labels are read as stored. Throws ImagingError.
     SlicePicture read(int page, ImagePurpose purpose);
 
   private:
     std::filesystem::path path_;
     std::unique_ptr<::tiff, void (*)(::tiff*)> file_;
-    std::string description_;  // of the first page
+    std::string description_;  // the first page's
 };
 
 }  // namespace osteomill

@@ -18,7 +18,7 @@ namespace osteomill {
 struct VoxelPart {
     std::filesystem::path file;
     std::uint64_t begin = 0;
-    std::uint64_t bytes = 0;          ///< when decoded; of text, the least that its numbers take
+    std::uint64_t bytes = 0;          ///< when decoded; for text, the least that its numbers take
     std::uint64_t skipped_bytes = 0;  ///< decoded bytes before them
 };
 
@@ -42,12 +42,12 @@ std::vector<std::string> numbered_names(const std::vector<std::string>& words, s
 /// (is_there false), and for what is no regular file.
 std::filesystem::path data_file_beside(const std::filesystem::path& header, const std::string& name);
 
-/// What is read and decoded, a piece after the other, in order.
+/// Receives the bytes that are read and decoded, piece by piece, in order.
 using TakeBytes = std::function<void(std::span<const std::byte>)>;
 
-/// Reads all parts, decoded, and hands them on; of text all that the files hold, with a blank behind each.
-/// Throws ImagingError, naming the file, where one is missing, cut off or damaged (checksums of gzip and zlib
-/// included), or where compressed voxels are followed by more.
+/// Reads all parts, decoded, and hands them on; for text, all that the files hold, with a blank behind each
+/// file. Throws ImagingError, naming the file, where one is missing, cut off or damaged (checksums of gzip
+/// and zlib included), or where compressed voxels are followed by more.
 void read_voxel_data(const VoxelData& data, const TakeBytes& take);
 
 /// Looks at the files' sizes alone: throws ImagingError where one is missing, too short for its voxels, or

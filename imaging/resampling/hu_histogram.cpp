@@ -22,7 +22,7 @@ constexpr int lowest_of_air_cut_off = -5;
 constexpr int highest_of_stored_air = 100;
 /// Brain and muscle lie near 0, too: at 25 to 60 HU.
 constexpr int most_of_median_of_air = 15;
-/// What lies outside a scanner's round field of view often has one value of its own, far below all others.
+/// The area outside a scanner's round field of view often has one value of its own, far below all others.
 constexpr int least_gap_above_padding = 64;
 /// Air has noise around -1000; what is measured lies above this.
 constexpr float lowest_air_hu = -1100.0F;
@@ -131,7 +131,7 @@ std::string HuHistogram::doubt() const {
         below += count;
         return 2 * below >= near_zero;
     });
-    // Where air was not cut off, its middle is 0; where it was, much of it is at the lowest value.
+    // If air was not cut off, its middle is 0; if it was, much of it is at the lowest value.
     const auto cut_off =
         std::accumulate(begin, begin + (highest_of_cut_off_air + 1 - lowest_of_stored_air), std::uint64_t{0});
     const bool is_cut_off =

@@ -18,7 +18,7 @@ class HuHistogram {
   public:
     HuHistogram();
 
-    /// Values beyond -4096 to 8191 count as these. What is not a number does not count.
+    /// Values beyond -4096 to 8191 count as these. Values that are not a number do not count.
     void add(std::span<const float> values);
     void add(std::span<const std::int16_t> values);
 

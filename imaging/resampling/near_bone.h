@@ -33,7 +33,7 @@ class NearBone {
 
     Grid grid_;
     double threshold_hu_;
-    std::vector<Mask> masks_;  // of the bone of a slice, widened within it
+    std::vector<Mask> masks_;  // each slice's bone, widened within the slice
     std::atomic<std::uint64_t> bone_voxels_{0};
 };
 

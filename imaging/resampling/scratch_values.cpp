@@ -58,7 +58,7 @@ ScratchValues::~ScratchValues() {
 }
 
 void ScratchValues::let_go() const {
-    // Of a shared mapping nothing is lost: what was written is the file's.
+    // A shared mapping loses nothing: the file keeps what was written.
     if (mapped_ != nullptr) ::madvise(mapped_, mapped_bytes_, MADV_DONTNEED);
 }
 

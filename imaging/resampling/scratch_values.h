@@ -20,8 +20,8 @@ class ScratchValues {
     ScratchValues& operator=(const ScratchValues&) = delete;
 
     std::span<float> values() const { return values_; }
-    /// Of a file, keeps nothing in this program's memory until it is touched again; else does nothing. From
-    /// any thread, also while others use the values.
+    /// If the values are in a file, frees this program's memory of them until they are used again; else does
+    /// nothing. From any thread, also while others use the values.
     void let_go() const;
 
   private:

@@ -126,7 +126,7 @@ std::string labels_left_out(const Segmentation& segmentation) {
                        left_out);
 }
 
-/// Of a label map without names.
+/// The segments of a label map without names.
 std::vector<Segment> numbered_segments(const LabelRows& labels) {
     std::vector<Segment> segments;
     for (const std::uint16_t label : labels.labels_in(0))
@@ -151,7 +151,7 @@ void require_distinct_names(const Segmentation& segmentation) {
                                fmt::format("has two segments called \"{}\"", segment.name));
 }
 
-/// Of coloured pictures: numbers in place of colours, in the order in which they come.
+/// Coloured pictures with numbers in place of colours, in the order in which the colours come.
 OpenedImage numbered(const OpenedImage& coloured, const std::filesystem::path& path,
                      std::map<std::uint32_t, std::uint16_t>& label_of_colour) {
     OpenedImage labels = coloured;
@@ -205,7 +205,7 @@ Segmentation read_segmentation(const std::filesystem::path& path,
     if (segmentation.is_plain_map)
         segmentation.segments =
             found.is_coloured ? coloured_segments(label_of_colour) : numbered_segments(segmentation.labels);
-    // As TotalSegmentator writes them, a file a structure.
+    // TotalSegmentator writes a file for each structure.
     if (segmentation.is_plain_map && !found.is_coloured && segmentation.segments.size() == 1)
         segmentation.segments.front().name = name_without_ending(path);
     require_plain_names(segmentation);
