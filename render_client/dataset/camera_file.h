@@ -44,7 +44,7 @@ struct DatasetCamera {
 
     /// `trainee`: from where they look then, if that is recorded.
     Pose pose_at(double time_s, const Pose& first_view, const std::optional<Viewpoint>& trainee = {}) const;
-    /// What `pinhole` is then.
+    /// The value of `pinhole` for that viewpoint.
     Pinhole pinhole_at(const std::optional<Viewpoint>& trainee) const;
 };
 

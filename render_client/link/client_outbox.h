@@ -37,7 +37,7 @@ class ClientOutbox {
     std::optional<v2::ClientFrame> next();
 
   private:
-    // What the session accepts.
+    // The inputs that the session accepts.
     bool accepts_operator_ = false;
     bool accepts_controls_ = false;
     bool has_ct_ = false;
@@ -51,8 +51,8 @@ class ClientOutbox {
     std::optional<v2::OperatorInput> input_;
     std::optional<v2::CompareBone> request_;
     std::deque<v2::SessionControl> controls_;
-    std::uint64_t input_number_ = 0;    // of the connection
-    std::uint64_t frame_sequence_ = 0;  // likewise
+    std::uint64_t input_number_ = 0;    // within the connection
+    std::uint64_t frame_sequence_ = 0;  // within the connection
 };
 
 }  // namespace osteomill

@@ -58,7 +58,7 @@ void ServerConnection::send(const OperatorCommand& command) {
     v2::OperatorInput input = to_message(command);
     std::uint64_t connection = 0;
     {
-        // What it answers is what was before the operator now, however late it is written.
+        // The input answers the state that the operator sees now, however late it is written.
         const std::scoped_lock lock(seen_mutex_);
         if (seen_state_ == 0) return;
         input.set_answers_state(seen_state_);

@@ -12,7 +12,7 @@ namespace osteomill {
 /// Time that a run without a display waits for its first bone. A window waits without limit, since it shows a
 /// person the reason.
 inline constexpr double longest_wait_for_bone_s = 60.0;
-/// Of a picture without a window.
+/// The size of a picture without a window.
 inline constexpr glm::ivec2 default_offscreen_size_px(960, 600);
 
 /// Frames are counted from the first that shows bone. Ends after options.frames of them, when the session is

@@ -38,7 +38,7 @@ std::optional<int> whole_number(std::string_view text, int low, int high) {
 struct Side {
     const char* name;
     std::size_t axis;
-    double sign;  // of the axis, patient LPS
+    double sign;  // along the axis, patient LPS
 };
 constexpr std::array sides{Side{"left", 0, 1.0},   Side{"right", 0, -1.0}, Side{"back", 1, 1.0},
                            Side{"front", 1, -1.0}, Side{"above", 2, 1.0},  Side{"below", 2, -1.0}};
@@ -150,7 +150,7 @@ void add_microscope(CLI::App& app, RenderOptions& options) {
                "A second, small view: along the handpiece, or an axial section through the burr (off)");
 }
 
-/// What the options together get wrong; empty where they agree.
+/// A message on options that contradict one another; empty if they agree.
 std::string contradiction(const RenderOptions& options) {
     if (options.dataset && !options.replay) return "--dataset needs --replay FILE";
     if (options.film && !options.replay) return "--film needs --replay FILE";

@@ -16,9 +16,9 @@ using Translation = std::map<std::string, std::string>;
 
 /// Codes of ISO 639-1; "en" is the first.
 std::vector<std::string> languages();
-/// Of one of them; none for English. Throws std::out_of_range for another.
+/// The translation into one of them; none for English. Throws std::out_of_range for another language.
 const Translation& translation_into(const std::string& language);
-/// As the environment asks for (LC_ALL, LC_MESSAGES, LANG; the first that is set), or English.
+/// The language that the environment asks for (LC_ALL, LC_MESSAGES, LANG; the first that is set), or English.
 std::string language_of_environment();
 
 /// From now on; one of languages(). Like the C library's locale it holds for the whole program: call it
@@ -30,9 +30,9 @@ const char* tr(const char* english);
 inline std::string tr(const std::string& english) {
     return tr(english.c_str());
 }
-/// Of a tissue's name, as a person writes it: files write "Facial_Nerve".
+/// A tissue's name as a person writes it: files write "Facial_Nerve".
 std::string tissue_words(std::string name);
-/// Of a text with places for values, as fmt::format.
+/// The translation of a text with places for values, filled in as fmt::format does.
 template <typename... Values>
 std::string trf(const char* english, const Values&... values) {
     return fmt::format(fmt::runtime(tr(english)), values...);

@@ -51,7 +51,7 @@ class Commands {
 
   private:
     void ask(SessionAction action);
-    /// Of the spindle.
+    /// Changes the spindle's speed.
     void change_speed(double factor);
 
     SessionPicture& session_;

@@ -119,7 +119,7 @@ class PlotColumn {
   private:
     static constexpr float small = 0.8f;
 
-    /// Of a line of the grid, left of the plot and within its height.
+    /// Writes the label of a grid line, left of the plot and within its height.
     void label(double value, const glm::vec2& at, const PlotRange& range) const {
         const std::string text = fmt::format("{:g}", value);
         const float height = small * ImGui::GetFontSize();

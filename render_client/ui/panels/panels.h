@@ -40,7 +40,7 @@ class Panels {
     /// Draws what was put into the frame into each of these pictures; returns where that is in them.
     std::vector<PixelBox> end(std::span<const gl::Framebuffer* const> pictures);
 
-    /// Where the panels that take the mouse were in the last frame, pixels, y down.
+    /// The boxes of the panels that caught the mouse in the last frame, pixels, y down.
     std::vector<PixelBox> input_boxes() const;
 
     /// Notches that the wheel was turned by in this frame: Dear ImGui forgets them when the frame ends.

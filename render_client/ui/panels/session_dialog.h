@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-/// Of content.view->question, which is one.
+/// The size of the dialog for content.view->question, which must be set.
 glm::vec2 session_dialog_size(const OverlayContent& content, const PanelPainter& painter);
 /// An answer goes into content.requests and ends the question.
 void draw_session_dialog(const OverlayContent& content, const PanelPlace& place);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float field_height = 7.0f;  // in letters
 constexpr double point_reach_px = 10.0;
-constexpr float tick_letters = 0.8f;  // of the others' size
+constexpr float tick_letters = 0.8f;  // relative to the others' size
 
 /// The field of points: from its pixels to values and back.
 class Field {
@@ -98,7 +98,7 @@ void draw_axes(const PanelPainter& painter, const Field& field) {
         canvas.AddText(ImGui::GetFont(), letter, {middle_or_end.x - part * width, middle_or_end.y}, ink,
                        text.c_str());
     };
-    // As far apart as their numbers need.
+    // Ticks are as far apart as their numbers need.
     const float room = field.size().x / (1.4f * tick_letters * painter.width_of("2000"));
     const double step_hu = room * 500.0f > static_cast<float>(Field::highest_hu()) ? 500.0 : 1000.0;
     for (double hu = 0.0; hu <= Field::highest_hu(); hu += step_hu) {

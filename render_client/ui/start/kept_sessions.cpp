@@ -28,7 +28,7 @@ std::string month(int number) {
     return names[static_cast<std::size_t>(number - 1)];
 }
 
-/// Of a folder's name: "CASE-TRAINEE", and the local time in words.
+/// A folder's name, parsed: "CASE-TRAINEE", and the local time as text.
 struct NamedFolder {
     std::string whose;
     std::string when;

@@ -27,11 +27,11 @@ struct ScanPreview {
     ScanBox covers;  ///< centres of the outermost voxels
     double least_hu = 0.0;
     double most_hu = 0.0;
-    double black_hu = 0.0;  ///< of the picture's greys
+    double black_hu = 0.0;  ///< range of the picture's greys
     double white_hu = 0.0;
-    double finest_voxel_mm = 0.0;         ///< of the scan: the least of its voxels' edges; 0: not said
+    double finest_voxel_mm = 0.0;         ///< the least of the edges of the scan's voxels; 0: not stated
     std::vector<std::string> segments{};  ///< names, as segmentations have them
-    double took_s = 0.0;                  ///< to look at all of it
+    double took_s = 0.0;                  ///< to read all of it
 };
 
 /// The scan's voxels, x fastest, then y, then z.
@@ -44,8 +44,8 @@ struct ScanVoxels {
 /// A segment's outline in the slices, sRGB; `index` in ScanPreview::segments.
 std::array<std::uint8_t, 3> colour_of_segment(std::size_t index);
 
-/// What bone_import --preview VOXELS.raw wrote. Throws std::runtime_error, in one line, where that is not
-/// what the scan covers.
+/// The voxels that bone_import --preview VOXELS.raw wrote. Throws std::runtime_error, in one line, if they do
+/// not match the box that the scan covers.
 ScanVoxels read_scan_voxels(const std::filesystem::path& raw, const ScanBox& covers, double mm_per_px);
 
 /// Nothing where the text does not say what a scan covers.
@@ -61,7 +61,7 @@ struct PreviewSlice {
     int through_axis() const { return 3 - right_axis - down_axis; }
 };
 
-/// Of a picture with a pixel for each `mm_per_px`.
+/// The slices of a picture with a pixel for each `mm_per_px`.
 std::array<PreviewSlice, 3> preview_slices(const ScanBox& covers, double mm_per_px);
 
 /// The one with this pixel; nothing between two of them.
@@ -84,7 +84,7 @@ Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_
 std::optional<ScanBox> dragged_box(const ScanBox& covers, const ScanBox& before, double mm_per_px,
                                    const glm::dvec2& from_px, const glm::dvec2& to_px);
 
-/// Where a box is in a slice, pixels of the picture: upper left and lower right corner.
+/// A box's place in a slice, pixels of the picture: upper left and lower right corner.
 std::array<glm::dvec2, 2> box_in_slice(const ScanBox& covers, const ScanBox& box, double mm_per_px,
                                        const PreviewSlice& slice);
 

@@ -63,8 +63,8 @@ class StartPage {
     /// Its report in the user's browser, made before where there is none; a recording in a window of its own.
     void open_report_of(const KeptSession& session);
     void replay(const std::filesystem::path& recording);
-    std::size_t chosen = 0;  ///< of cases()
-    std::string trainee{};   ///< whose session it will be
+    std::size_t chosen = 0;  ///< index in cases()
+    std::string trainee{};   ///< who works in the session
     void start();
     /// The window has seen the end of the session: only its report remains to be written.
     void note_end_of_session();
@@ -76,19 +76,19 @@ class StartPage {
     bool is_session_running() const { return server_ != nullptr && server_->is_running(); }
     /// Started a session that has ended.
     bool has_served() const { return !report_folder_.empty() && server_ == nullptr; }
-    /// Of the last session, once it is written.
+    /// The last session's report, once it is written.
     const std::optional<std::filesystem::path>& report() const { return report_; }
-    /// In the user's browser.
+    /// Opens the report in the user's browser.
     void open_report() {
         if (report_) open_page(*report_);
     }
-    /// Of every session in the reports: tables and learning curves, which are opened when they are there.
+    /// Makes tables and learning curves of every session in the reports, and opens them once they are there.
     void compare_sessions();
     std::optional<std::size_t> tour_card{};  ///< which of the tour's cards is over the page
     bool is_hidden = false;  ///< until the next session: what is left of the last is looked at
 
     ImportForm form{};
-    /// Of the scan, once it was looked at.
+    /// The scan's preview, once it is there.
     const std::optional<ScanPreview>& look() const { return look_; }
     const std::optional<ScanVoxels>& voxels() const { return voxels_; }
     std::uint64_t voxels_number() const { return voxels_number_; }  ///< another for each look
@@ -102,7 +102,7 @@ class StartPage {
     const FolderListing& listing() const { return listing_; }
     /// With the files that may be what the browser was opened for.
     void browse(const std::filesystem::path& folder);
-    /// What a person wrote: a folder is browsed, a file taken.
+    /// Goes to a path that a person typed: browses a folder, chooses a file.
     void go_to(const std::string& path);
     /// A file, or a folder of DICOM, for what the browser was opened for.
     void take(const std::filesystem::path& path);
@@ -132,7 +132,7 @@ class StartPage {
     std::string form_error_;          ///< as message() says it, until it is corrected
     std::filesystem::path reported_;  ///< whose report is being made
     std::unique_ptr<ChildProgram> worker_;
-    std::filesystem::path scratch_;  // of the look that is under way
+    std::filesystem::path scratch_;  // of the preview under way
     std::optional<ScanPreview> look_;
     std::chrono::steady_clock::time_point began_looking_{};
     std::optional<ScanVoxels> voxels_;

@@ -22,19 +22,19 @@ class BoneOnScreen {
 
     struct Outcome {
         bool other_textures = false;              ///< or none any more: all is to be drawn anew
-        DrawingCost cost = DrawingCost::unknown;  ///< of a picture of them
+        DrawingCost cost = DrawingCost::unknown;  ///< cost of a picture of them
         std::vector<VoxelBox> changed{};          ///< else: voxels of textures()->grid()
         bool is_news() const { return other_textures || !changed.empty(); }
     };
 
-    /// Of the bones that come from now on.
+    /// Limits the textures of bones that come from now on.
     void limit(const TextureLimits& limits) { limits_ = limits; }
     /// Makes large textures' memory from now on; must outlive this, as the driver's context must.
     void make_storage_by(gl::StorageThread& thread) { storage_ = &thread; }
 
     /// Another bone has come: it is prepared by work(). `tissues` as they are drawn.
     void replace(const Bone& bone, std::vector<TissueColour> tissues);
-    /// What is drawn is another session's, whose bone has not come yet.
+    /// Marks the drawn bone as a former session's; the new session's has not come yet.
     void expect_another() {
         if (shown_) shown_->is_of_former_bone = true;
     }

@@ -22,7 +22,7 @@ class RecordingCamera {
     /// is the person's to turn.
     void aim(SessionPicture& session);
 
-    /// Of its pictures, where its file says it.
+    /// The size of its pictures, if its file states it.
     std::optional<glm::ivec2> size_px() const;
 
   private:

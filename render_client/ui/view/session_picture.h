@@ -33,7 +33,7 @@ class SessionPicture {
                    RendererChoice renderer = RendererChoice::raycast, const ShadingSettings& look = {},
                    const StereoSettings& stereo = {});
 
-    /// Of the bones that come from now on.
+    /// Limits the textures of bones that come from now on.
     void limit_textures(const TextureLimits& limits) { bone_.limit(limits); }
     /// Makes the memory of large textures from now on; must outlive the picture.
     void make_storage_by(gl::StorageThread& thread) { bone_.make_storage_by(thread); }
@@ -48,7 +48,7 @@ class SessionPicture {
     SessionNews take_in();
     /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
     const gl::Framebuffer& draw(double elapsed_s);
-    /// What was drawn last, for the window whose context is current.
+    /// Copies the last picture to the window whose context is current.
     void copy_to_window() const { picture_.copy_to_window(); }
 
     /// How long the whole frame took, waiting excluded: what quality on demand goes by.
@@ -62,7 +62,7 @@ class SessionPicture {
     const Camera& camera() const { return camera_; }
     /// The first view again (first_view.h).
     void reset_camera() { camera_ = first_view_; }
-    /// Of the first view.
+    /// Sets the first view's magnification.
     void set_first_magnification(double factor) { first_magnification_ = factor; }
     /// A new appearance needs new textures, like a new bone; the view stays, and so does the picture until
     /// they are ready. Throws std::invalid_argument for an invalid transfer function.
@@ -71,9 +71,9 @@ class SessionPicture {
     const ViewSettings& view() const { return view_; }
     /// Panels take what a person asks of the session, from now on.
     void offer_controls() { takes_requests_ = true; }
-    /// Where there is no session, one can be started with this, which outlives the picture.
+    /// While there is no session, one can be started with this, which outlives the picture.
     void offer_start(StartScreen& start) { start_ = &start; }
-    /// What was requested since the last call.
+    /// The requests since the last call.
     SessionRequests take_requests() { return std::exchange(requests_, {}); }
     void show_operator(const std::optional<OperatorCommand>& command) { operator_command_ = command; }
 
@@ -95,7 +95,7 @@ class SessionPicture {
     SessionSight sight() const;
     SightElements elements() const { return elements_of(sight()); }
 
-    /// What was measured so far, with the bone's checksum of now. Frame times are the caller's to add.
+    /// The measurements so far, with the bone's present checksum. The caller adds the frame times.
     RenderReport report() const;
 
   private:
@@ -126,7 +126,7 @@ class SessionPicture {
     double first_magnification_ = 1.0;
     bool has_taken_bone_ = false;
     bool has_first_view_ = false;
-    std::string scene_name_;  ///< of the bone that is shown, with its grid
+    std::string scene_name_;  ///< of the bone that is shown; so is the grid
     Grid grid_;
     LinkUpdate link_;
     ShownTool tool_;

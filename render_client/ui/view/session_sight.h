@@ -1,4 +1,4 @@
-// What a picture may say of a session: which of its elements are so, and which would be of another time, of
+// The elements of a session that a picture may show: those that are true now, and not of another time, of
 // another bone, or of nobody.
 #pragma once
 

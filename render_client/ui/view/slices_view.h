@@ -54,7 +54,7 @@ class SlicesView {
   private:
     std::shared_ptr<const CtVolume> ct_;
     std::optional<glm::dvec3> cross_mm_;
-    glm::dvec3 centre_mm_{0.0};  // of the pictures, but for where across their planes they are
+    glm::dvec3 centre_mm_{0.0};  // the pictures' centre, but for the coordinate across their planes
     double width_mm_ = 30.0;
     HuWindow window_;
     std::vector<SliceTissue> tissues_;
