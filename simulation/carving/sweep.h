@@ -24,7 +24,7 @@ struct Interval {
     bool empty() const { return !(first <= last); }
 };
 
-/// Where the line {(x, y, z): x free} passes through a ball; empty where it misses.
+/// The interval of x in which the line {(x, y, z): x free} is inside a ball; empty if it misses.
 inline Interval line_through_ball(const glm::dvec3& centre, double radius, double y, double z) {
     const double dy = y - centre.y;
     const double dz = z - centre.z;

@@ -34,7 +34,8 @@ inline constexpr double smoothed_mean_over = 0.70710678118654752;
 inline constexpr double smoothed_ramp_half = 0.5 + 0.5 * smoothed_mean_over;
 }  // namespace detail
 
-/// What the ramp is the mean over, voxels: 0 for linear coverage, and for binary, which has none.
+/// The length over which the ramp is averaged, voxels: 0 for linear coverage, and for binary, which has no
+/// ramp.
 constexpr double smoothing_voxels(VoxelCoverage coverage) {
     return coverage == VoxelCoverage::smoothed ? detail::smoothed_mean_over : 0.0;
 }

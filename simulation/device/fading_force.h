@@ -25,7 +25,7 @@ class FadingForce {
         return sent_n_ = last_n_ * std::clamp(1.0 - (now_s - *ended_s_) / fade_s, 0.0, 1.0);
     }
 
-    /// What was sent last is more than nothing.
+    /// Whether the last sent force is not zero.
     bool is_felt() const { return sent_n_ != glm::dvec3(0.0); }
 
   private:

@@ -11,7 +11,7 @@
 
 namespace osteomill {
 
-/// What a wanted change waits for; none where none is wanted.
+/// The condition that a wanted change waits for; none if no change is wanted.
 enum class BurrChange : std::uint8_t { none, spindle, bone };
 
 /// One line for people; empty for BurrChange::none.

@@ -172,7 +172,7 @@ std::uint64_t HapticLoop::note_steps(const MillingResult& latest) noexcept {
     while (left > 0 && first > 0) {
         StepRun run = latest.newest_runs[first - 1];
         if (run.count == 0) break;
-        // Of a run that was under way, the first step was seen before.
+        // A run that was under way began at a step that was seen before.
         if (run.count > left) run = {.command = run.command, .count = left};
         left -= run.count;
         seen[--first] = run;

@@ -21,7 +21,7 @@ class Histogram {
     double quantile_s(double share) const;
 
     struct Bucket {
-        double up_to_s = 0.0;  ///< upper edge; of the last, the maximum
+        double up_to_s = 0.0;  ///< upper edge; the last bin's is the maximum
         std::uint64_t count = 0;
     };
     /// Those that are not empty, ascending.

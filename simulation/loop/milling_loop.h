@@ -30,11 +30,11 @@ struct MillingLoopParts {
     TripleBuffer<MillingResult>& results;     ///< written
     ChangeQueue& changes;                     ///< written
     SampleLog<MillingSample>* log = nullptr;  ///< written; null: no log
-    std::span<const Burr> burrs{};            ///< of the scene: what may be put in the burr's place
+    std::span<const Burr> burrs{};            ///< the scene's set: burrs that may be put in the burr's place
     ChangeQueue* restored = nullptr;          ///< read: bone to be given back by undo; null: none ever is
     SessionGate* gate = nullptr;              ///< written, with `restored`
     TripleBuffer<std::optional<CutState>>* cuts = nullptr;  ///< written; null: no sound
-    std::optional<Motor> motor{};                           ///< of the scene, for `cuts`
+    std::optional<Motor> motor{};                           ///< the scene's, for `cuts`
 };
 
 class MillingLoop {
@@ -55,9 +55,9 @@ class MillingLoop {
     static constexpr double restored_bricks_per_ms = 4.0;
 
   private:
-    /// Where the burr shall be at the end of this step.
+    /// The pose that the burr shall have at the end of this step.
     ToolPose pose_on_the_way(double elapsed_s) noexcept;
-    /// With the spindle off, what the queue of restored bone holds, as much as a step has time for.
+    /// With the spindle off, applies as much of the queue of restored bone as a step has time for.
     void restore(double elapsed_s) noexcept;
     /// MillingResult::room_for_change_mm. Looks beyond both burrs and their shanks by a voxel, and by twice
     /// what the tool went since the last result: when this one is read it will have moved on.

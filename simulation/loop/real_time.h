@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-/// What this process may ask for.
+/// The rights that this process may request.
 struct RealTimeRights {
     bool priority = false;  ///< SCHED_FIFO: CAP_SYS_NICE, or a limit on rtprio
     bool memory = false;    ///< locking all memory: CAP_IPC_LOCK, or no limit on memlock

@@ -64,7 +64,7 @@ class SafetyMonitor {
     void observe(const Observation& seen) noexcept {
         begin(watchdog_.check(seen), pedal_date_.look(seen.device.pedal, seen.now_s), seen.clearance);
     }
-    /// What observe() saw of the pedal.
+    /// The pedal as observe() saw it.
     PedalSeen pedal_seen() const { return pedal_date_.seen(); }
 
     /// Begins a tick with given findings, for callers with checks of their own. `pedal` counts only if the
