@@ -21,7 +21,7 @@ struct HandOnArm {
     std::string coupling = "implicit";
     std::string force_model = "milling";
     double milling_rate_hz = 1000.0;
-    /// Of the coupling's spring, in place of what the arm gets.
+    /// The stiffness of the coupling's spring, in place of the one that the arm gets.
     std::optional<double> stiffness_n_per_mm{};
     double longest_s = 60.0;
 };

@@ -6,7 +6,7 @@
 
 namespace osteomill::study {
 
-/// Of force_models.h, those that know no cutting law.
+/// The models of force_models.h that know no cutting law.
 std::vector<std::string> contact_models();
 
 /// Length of the force that a model feels of an upright 5 mm burr, spindle off, over 0.1 mm voxels, N.

@@ -19,7 +19,7 @@ struct TrialBone {
 };
 
 // Names of trial bones.
-inline constexpr const char* tooth_trial = "tooth phantom";  ///< of the default scene, 512 x 512 x 128 voxels
+inline constexpr const char* tooth_trial = "tooth phantom";  ///< the default scene's, 512 x 512 x 128 voxels
 inline constexpr const char* skull_trial =
     "skull CT";  ///< 40 mm of the skull of the trial scans, 400^3 voxels
 

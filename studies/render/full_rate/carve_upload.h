@@ -17,8 +17,9 @@ struct CarveUpload {
     std::size_t bricks_of_ball = 0;
 };
 
-/// Of a phantom, by render_client's default look and limits, `times` carves of either kind, each until OpenGL
-/// has finished. Needs a current context. Throws std::runtime_error where the burr meets no bone.
+/// Uploads `times` carves of either kind of a phantom, with render_client's default appearance and limits;
+/// each is timed until OpenGL has finished. Needs a current context. Throws std::runtime_error where the burr
+/// meets no bone.
 CarveUpload upload_carves(const std::string& phantom, int times);
 
 }  // namespace osteomill::study

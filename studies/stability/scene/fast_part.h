@@ -13,7 +13,7 @@ namespace osteomill::study {
 
 inline constexpr std::size_t fit_reach_ticks = 30;
 
-/// Of samples [reach, size - reach); empty for a signal that is shorter than the fit.
+/// The fast part of samples [reach, size - reach); empty for a signal that is shorter than the fit.
 std::vector<glm::dvec3> fast_part(std::span<const glm::dvec3> signal);
 
 /// Root of the mean squared length; 0 of nothing.

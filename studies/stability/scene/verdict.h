@@ -33,7 +33,7 @@ struct JudgedRun {
     std::span<const glm::dvec3> truth_force_n;
     std::span<const double> truth_taken_mj;
     /// Judged are ticks [begins, ends), both at least fit_reach_ticks after the release and before the end;
-    /// of a run that went astray, what there is of its second half.
+    /// for a run that went astray, as much of its second half as there is.
     std::size_t window_begins = 0;
     std::size_t window_ends = 0;
     double spring_n_per_mm = 0.0;  ///< that the method renders; 0: none
@@ -43,7 +43,7 @@ struct JudgedRun {
 
 struct Verdict {
     bool is_stable = false;
-    /// Root of the difference of the mean squares of both fast parts; of a run too short for the fit, rms of
+    /// Root of the difference of the mean squares of both fast parts; for a run too short for the fit, rms of
     /// its force about the truth's.
     double limit_cycle_n = 0.0;
     double injected_mj = 0.0;
