@@ -16,7 +16,7 @@ enum class Hdf5Layout {
 };
 inline constexpr std::array hdf5_layout_names{"osteomill", "fivrs", "fivrs-v3"};
 
-/// Where fivrs_v3 has its second file; the folder is its own, since readers take every file of a folder.
+/// The path of fivrs_v3's second file; it has a folder of its own, since readers open every file of a folder.
 std::filesystem::path fivrs_v3_file(const std::filesystem::path& file);
 
 /// Replaces `file` once all is written; `on_frame` is called before each frame. Returns why the recording is

@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// Where recordings were joined, of the last session.
+/// The bones of a recording; if recordings were joined, those of the last session.
 struct RecordedBones {
     Bone at_start;        ///< as it was when the recording began
     Bone at_end;          ///< after the last frame that can be read

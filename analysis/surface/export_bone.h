@@ -15,8 +15,9 @@ struct ExportOptions {
     std::filesystem::path bone;
     std::filesystem::path output;
     std::optional<double> threshold_hu{};
-    std::optional<double> cell_mm{};  ///< of the surface: the bone's own spacing, or about so long
-    std::optional<std::filesystem::path> original{};  ///< write what is gone of it, and no surface
+    std::optional<double> cell_mm{};  ///< the surface's cell: the bone's own spacing, or about so long
+    std::optional<std::filesystem::path> original{};  ///< write the bone that is gone from this one, and no
+                                                      ///< surface
 };
 
 /// Throws std::invalid_argument with one line for wrong usage.

@@ -8,9 +8,9 @@
 //
 // Closed: every edge belongs to exactly two triangles, which pass along it in opposite directions, whatever
 // the fractions are and also where bone reaches the border of the grid. Normals (anticlockwise order) point
-// out of the bone. On a sphere of 15 voxels' radius a vertex lies 0.02 voxels off in the mean. What is
-// thinner than two voxels in two directions becomes thinner still: a rod of one whole voxel keeps a quarter
-// of its section.
+// out of the bone. On a sphere of 15 voxels' radius a vertex lies 0.02 voxels off in the mean. Bone thinner
+// than two voxels in two directions becomes thinner still: a rod of one whole voxel keeps a quarter of its
+// section.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ namespace osteomill {
 
 struct SurfaceMesh {
     std::vector<glm::vec3> points_mm;                     ///< patient LPS
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of points, anticlockwise from outside
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of points, anticlockwise from outside
 };
 
 /// Empty where nothing is left. `voxels_a_cell` along each axis are taken for one, with the mean of their
