@@ -126,7 +126,7 @@ class TwoMachinesTest : public ::testing::Test {
 TEST_F(TwoMachinesTest, EndWithTheSameBoneAndPictureThoughTheCableWasPulled) {
     constexpr auto longer_than_a_client_bears_silence = 6s;
     constexpr double is_drilling_mm3 = 0.02;
-    // Of 255: a few pixels by a shade. One brick that differs changes hundreds.
+    // A few pixels may differ by a shade of 255. One brick that differs changes hundreds.
     constexpr double largest_difference_of_pictures = 0.001;
     const double out_s = write_drilling(folder_ / "drilling.csv");
     ChildProcess server(

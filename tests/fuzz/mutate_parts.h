@@ -17,8 +17,8 @@ namespace osteomill::fuzz {
 /// Leaves a part out, tells it twice, swaps two, or lets libFuzzer change one of them.
 void mutate_parts(std::vector<std::string>& parts, std::mt19937& random);
 
-/// The messages of a stream of frames, up to where it makes no sense; and the stream of messages. What does
-/// not fit a frame is left out.
+/// The messages of a stream of frames, up to where it makes no sense; and the stream of messages. Messages
+/// that do not fit a frame are left out.
 std::vector<std::string> messages_of(std::string_view stream);
 std::string stream_of(const std::vector<std::string>& messages);
 

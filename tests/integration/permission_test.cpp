@@ -121,7 +121,7 @@ class Permissions : public ::testing::Test {
         return read_force_log(folder_ / "log.csv");
     }
 
-    /// What it did so far.
+    /// The log of the ticks so far.
     std::vector<ForceLogLine> log_so_far() const { return read_force_log(folder_ / "log.part.csv"); }
 
     /// The newest tool, with which the session's clock is set.

@@ -1,5 +1,5 @@
-// What --save-bone leaves when it is stopped and when the disk is full: the real server saves, is killed, and
-// loads again.
+// The files that --save-bone leaves when it is stopped and when the disk is full: the real server saves, is
+// killed, and loads again.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 

@@ -26,7 +26,7 @@ UNIT
 uhid_arm vm_arm.toml scene.toml trajectory.csv "" out/arm.csv >out/arm.txt 2>&1 &
 arm=$!
 sleep 0.2
-# What scripts/udev/70-osteomill.rules does.
+# Does the work of scripts/udev/70-osteomill.rules.
 chgrp plugdev /dev/hidraw0
 chmod 660 /dev/hidraw0
 unshare -p -f -m --mount-proc env -i container=trial PATH=/bin \

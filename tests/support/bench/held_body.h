@@ -13,7 +13,8 @@ namespace osteomill::testing {
 struct HeldBody {
     double mass_kg = 0.045;
     double damping_n_s_per_m = 0.1;
-    double hand_stiffness_n_per_m = 0.0;  ///< of the spring to where the hand means to be; 0: nobody holds it
+    double hand_stiffness_n_per_m = 0.0;  ///< spring to the place where the hand means to be; 0: nobody holds
+                                          ///< it
     double coulomb_friction_n = 0.0;      ///< 0: the body is linear
 };
 

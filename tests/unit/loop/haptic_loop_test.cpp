@@ -506,7 +506,7 @@ TEST(HapticLoop, PlacesTheToolUnderAHandThatStaysWhereItIs) {
     EXPECT_LT(glm::distance(bench.shown().force_n, glm::dvec3(0.0, 0.5, 0.0)), 1e-9);
 }
 
-/// What may be wrong with a session whose tool moves relative to the hand's bone, beside that.
+/// Another fault in a session whose tool moves relative to the hand's bone.
 class InterruptedBench : public ::testing::TestWithParam<bool> {
   public:
     InterruptedBench() {

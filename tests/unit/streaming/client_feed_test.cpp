@@ -39,7 +39,7 @@ class Carver final : public ChangeSink {
         feed_.note(mirror_.take_changes());
     }
 
-    /// Likewise, only the lower half of the bricks, and voxel by voxel.
+    /// Carves only the lower half of the bricks, voxel by voxel.
     void carve_first_bricks(int voxels) {
         for (int i = 0; i < voxels; ++i) {
             const std::size_t slot = random_() % (bone_.stored_bricks() / 2);

@@ -66,7 +66,7 @@ std::map<std::string, std::string> sources_in(const char* folder) {
     return sources;
 }
 
-/// Where the arguments of each call of that function begin.
+/// The offsets at which the arguments of each call of that function begin.
 std::vector<std::size_t> calls_of(const std::string& source, const std::string& function) {
     std::vector<std::size_t> calls;
     for (std::size_t at = source.find(function + "("); at != std::string::npos;
@@ -141,7 +141,7 @@ std::set<std::string> english_words() {
             std::ranges::replace(as_written, '_', ' ');
             words.insert(as_written);
         }
-    // Of the help, what is no name of a key.
+    // All of the help, but names of keys.
     for (const HelpLine& line : all_help()) {
         words.insert(line.meaning);
         if (has_word(line.name)) words.insert(line.name);

@@ -85,7 +85,7 @@ struct Held {
     ShadingSettings look{};
     TextureLimits limits{};
     bool is_labelled = true;
-    double opacity = 0.5;  ///< of one of two tissues
+    double opacity = 0.5;  ///< one of two tissues'
 };
 
 class HeldEachWay : public OffscreenTest, public ::testing::WithParamInterface<Held> {
@@ -119,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(
         Held{"dense", {}, {.layout = BoneLayout::dense}}, Held{"atlas", {}, {.layout = BoneLayout::atlas}},
         Held{"surface voxels", {.shading = Shading::surface_voxels}, {.layout = BoneLayout::atlas}},
         Held{"partly hidden", {}, {.layout = BoneLayout::dense}, true, 0.0},
-        // What is too much for the bone itself leaves a coarser copy, whose codes are not told anew.
+        // A budget that is too small for the bone itself leaves a coarser copy, whose codes are not
+        // made again.
         Held{"coarse", {}, {.budget_bytes = 30'000, .layout = BoneLayout::dense}, false}));
 
 using TextureBuildTest = OffscreenTest;
