@@ -28,7 +28,7 @@ class SessionFile {
     /// The path to write to, by whatever means; to be closed before commit(). A path that is no regular file
     /// (/dev/null, a pipe) is written directly.
     const std::filesystem::path& part() const { return file_->part(); }
-    /// Where the part that a killed session left is now, if there was one.
+    /// The present path of the part that a killed session left, if there was one.
     const std::optional<std::filesystem::path>& torn() const { return torn_; }
 
     /// These do the same as AtomicFile's.

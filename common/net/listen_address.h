@@ -29,7 +29,7 @@ AddressParts parts_of_address(const std::string& text);
 /// std::invalid_argument with one line that says what would be right.
 ListenAddress parse_listen_address(const std::string& text);
 
-/// Where a server can be reached.
+/// The address of a server.
 struct ServerAddress {
     std::string host = "127.0.0.1";
     std::uint16_t port = 7010;

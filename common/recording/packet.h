@@ -21,7 +21,7 @@ using Stamp = std::chrono::sys_time<std::chrono::nanoseconds>;
 /// were.
 inline constexpr std::size_t packet_header_bytes = 16;
 
-/// Where a packet lies in its file.
+/// A packet's place in its file.
 struct PacketPlace {
     std::uint64_t number = 1;        ///< as Wireshark counts
     std::uint64_t offset_bytes = 0;  ///< where its header begins

@@ -27,7 +27,7 @@ class PacketReader {
     /// Once next() has come to the end: whether the file ends within a packet, as a crash leaves it.
     bool is_truncated() const { return is_truncated_; }
 
-    /// Where the next packet lies.
+    /// The place of the next packet.
     PacketPlace place() const;
     /// Goes on from there: a place() of this file.
     void seek(const PacketPlace& place);

@@ -31,7 +31,8 @@ v2::CtPiece CtPacker::pack(const CtVolume& ct, std::size_t& first_voxel) {
     if (first_voxel == 0) *piece.mutable_grid() = to_message(ct.grid);
     piece.set_first_voxel(first_voxel);
     const std::size_t count = std::min(voxels_per_piece, ct.hu.size() - first_voxel);
-    // As two-byte numbers, the differences of neighbouring voxels compress to half the size of the values.
+    // The differences of neighbouring voxels, two bytes each, compress to half the size of the values
+    // themselves.
     std::vector<std::uint8_t> bytes(2 * count);
     std::int16_t before = 0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -45,8 +45,8 @@ class StructureAssembler {
     Grid grid_{};
     std::uint64_t grid_bricks_ = 0;
     std::optional<std::size_t> under_way_;
-    std::vector<StructureBrick> bricks_;  // of the structure that is coming
-    std::size_t taken_bricks_ = 0;        // of complete structures
+    std::vector<StructureBrick> bricks_;  // the incoming structure's
+    std::size_t taken_bricks_ = 0;        // the complete structures'
 };
 
 v2::StructureDistance to_message(const StructureDistance& distance);

@@ -99,7 +99,7 @@ class ConnectedClients {
     ControlLease control_lease_;  // where there is no tool lease
     std::function<void(const SessionControl&)> control_;
     LeaseHistory lease_history_;
-    std::map<Id, std::optional<Viewpoint>> views_;  // of the clients that stated one
+    std::map<Id, std::optional<Viewpoint>> views_;  // only clients that stated one
     std::optional<Id> steered_last_;                // set while that client is connected
 
     std::map<Id, std::shared_ptr<ClientConnection>> connections_;

@@ -284,7 +284,7 @@ class SegmentationSource {
     std::filesystem::path path_;
     DicomHeader header_;
     gdcm::Reader reader_;
-    const std::uint8_t* bits_ = nullptr;  // of all frames, if a pixel is one bit
+    const std::uint8_t* bits_ = nullptr;  // all frames' pixels, if a pixel is one bit
     std::size_t bits_of_frame_ = 0;
     std::optional<DicomFrames> wider_{};  // if a pixel is more
     bool is_fractional_ = false;

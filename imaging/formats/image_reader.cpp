@@ -112,7 +112,7 @@ OpenedImage opened(const std::filesystem::path& path, ImageHeader header, ImageP
 
 struct ImageFormat {
     const char* name;
-    std::array<std::string_view, 2> endings;  ///< of its files' names; empty: no rule
+    std::array<std::string_view, 2> endings;  ///< its files' endings; empty: no rule
     bool (*is)(const ImageStart&);
     OpenedImage (*open)(const ImageStart&, ImagePurpose);
 };

@@ -27,7 +27,7 @@ struct RenderOptions {
     std::optional<std::filesystem::path> record;  ///< what is received goes there, too
     std::optional<std::filesystem::path> replay;  ///< a recording in place of a server
     std::optional<DatasetOptions> dataset;        ///< made of the recording
-    double speed = 1.0;                           ///< of playback: recorded seconds a second
+    double speed = 1.0;                           ///< playback's: recorded seconds a second
     double from_s = 0.0;                          ///< where in the recording it begins
     std::optional<std::filesystem::path> film;    ///< made of the recording, offscreen
     std::string camera{};                         ///< for the recording, one of cameras_named; empty: the

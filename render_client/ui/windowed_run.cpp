@@ -42,7 +42,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr glm::ivec2 default_size_px(1280, 800);
 constexpr double orbit_rad_per_px = 0.008;
-/// As a share of the picture's height, while a key is held.
+/// A share of the picture's height, while a key is held.
 constexpr double view_motion_a_s = 0.5;
 constexpr double cut_mm_per_notch = 0.5;
 /// A display without vertical synchronisation must not take the cores from a server beside it: twice the

@@ -64,7 +64,7 @@ class CutReport {
     double elapsed_s_ = 0.0;
     double impulse_n_s_ = 0.0;   // in the period
     double force_n_ = 0.0;       // as remembered
-    bool has_position_ = false;  // of the burr, at the end of the last period
+    bool has_position_ = false;  // the burr's, at the end of the last period
     glm::dvec3 position_mm_{0.0};
 };
 

@@ -132,7 +132,7 @@ class StartPage {
     std::string form_error_;          ///< as message() says it, until it is corrected
     std::filesystem::path reported_;  ///< whose report is being made
     std::unique_ptr<ChildProgram> worker_;
-    std::filesystem::path scratch_;  // of the preview under way
+    std::filesystem::path scratch_;  // the preview's under way
     std::optional<ScanPreview> look_;
     std::chrono::steady_clock::time_point began_looking_{};
     std::optional<ScanVoxels> voxels_;

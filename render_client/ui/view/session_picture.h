@@ -126,7 +126,7 @@ class SessionPicture {
     double first_magnification_ = 1.0;
     bool has_taken_bone_ = false;
     bool has_first_view_ = false;
-    std::string scene_name_;  ///< of the bone that is shown; so is the grid
+    std::string scene_name_;  ///< belongs to the bone that is shown, like the grid
     Grid grid_;
     LinkUpdate link_;
     ShownTool tool_;

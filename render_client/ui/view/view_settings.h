@@ -24,7 +24,7 @@ enum class SessionQuestion {
 
 struct ViewSettings {
     ThemeName theme = ThemeName::dark;
-    float scale = 1.0f;  ///< of panels and letters: 2 on a display twice as dense
+    float scale = 1.0f;  ///< size of panels and letters: 2 on a display twice as dense
     bool panels_shown = true;
     bool playback_shown = true;  ///< the bar of a recording; in a film nobody can press it
     bool help_shown = false;

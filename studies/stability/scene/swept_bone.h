@@ -78,7 +78,7 @@ class SweptBone {
     bool has_engaged_ = false;            // since the last refresh
     glm::dmat3 force_per_velocity_{0.0};  // the engaged patches'
     glm::dvec3 force_per_gap_rate_{0.0};
-    glm::dvec3 edge_force_n_{0.0};  // of patches that rub with all their force
+    glm::dvec3 edge_force_n_{0.0};  // patches' that rub with all their force
     glm::dvec3 last_velocity_{0.0};
     std::vector<glm::dvec3> path_mm_;
     glm::dvec3 looked_far_from_mm_{0.0};  // where far_gap_mm_ was measured

@@ -8,8 +8,8 @@
 //     more energy than it may have stored: the largest drawdown of the energy that it took (EnergyLedger's
 //     rule), less that of the truth and less F^2 / 2K of the largest force on the spring that the method
 //     renders, is below 0.25 mJ or a tenth of what the run took, if that is more,
-//   - dies: of four equal parts of the run, from the release on, the first is not small, and each other shows
-//     at most 0.85 of the one before.
+//   - dies: the run, from the release on, is split into four equal parts; the first is not small, and each
+//     other shows at most 0.85 of the one before.
 //
 // The numbers. 0.03 N on top of about 1 N is at the edge of what fingers on a stylus tell apart, and an
 // eighth of the smallest limit cycle in the project's table of chatter. A ring that dies is no limit cycle:
