@@ -1,6 +1,6 @@
 // An HDF5 file under way: groups, series of rows that grow, attributes. It is made in memory, compressed, and
-// takes the place of an older file once it is whole (atomic_file.h); what goes wrong is one line with the
-// file and the reason.
+// takes the place of an older file once it is whole (atomic_file.h); a failure is one line with the file and
+// the reason.
 #pragma once
 
 #include <hdf5.h>
