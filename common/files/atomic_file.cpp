@@ -107,7 +107,7 @@ WriteTarget write_target(const fs::path& path, Link link) {
     WriteTarget target{.path = path};
     if (link == Link::replace) return target;
     if (const std::string why = why_no_target(path); !why.empty()) throw std::runtime_error(why);
-    std::error_code ignored;  // what cannot be looked at cannot be written either, and that is reported
+    std::error_code ignored;  // a path that cannot be examined cannot be written either, and that is reported
     const fs::file_status status = fs::status(path, ignored);
     target.is_direct = fs::exists(status) && !fs::is_regular_file(status);
     if (!target.is_direct) target.path = end_of_links(path);

@@ -41,7 +41,7 @@ class OutputPlace {
     int lock_ = -1;
     mutable std::mutex mutex_;
     mutable std::optional<std::filesystem::path> rescue_;  ///< where it goes since its folder was removed
-    bool was_there_ = true;                                ///< its folder, at the last look
+    bool was_there_ = true;                                ///< its folder, at the last check
 };
 
 }  // namespace osteomill

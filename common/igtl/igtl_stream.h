@@ -30,7 +30,7 @@ std::optional<std::string> text_of_string_message(std::span<const std::uint8_t> 
 
 class IgtlStream {
   public:
-    /// A volume of 512^3 voxels of 16 bits, as an imager may send between what is wanted, and room.
+    /// A volume of 512^3 voxels of 16 bits, as an imager may send between wanted messages, and a margin.
     static constexpr std::uint64_t longest_skipped_bytes = std::uint64_t{1} << 30;
     /// The longest message that is read: a matrix or a line of text, with metadata.
     static constexpr std::uint64_t longest_read_bytes = 4096;

@@ -40,7 +40,7 @@ class LineStream {
     bool has_caught_up() const { return writer_.is_idle(); }
     /// Whether a line can be overwritten.
     bool is_terminal() const { return is_terminal_ && !is_json_; }
-    /// Waits as BackgroundWriter::finish does; what comes later is forgotten.
+    /// Waits as BackgroundWriter::finish does; later lines are discarded.
     void finish();
 
   private:

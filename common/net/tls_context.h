@@ -1,7 +1,7 @@
 // Context that all TLS connections of a program share: its own identity, and the CAs it trusts.
 //
 // TLS 1.3 and nothing older. Both ends show a certificate of the lab's CA; one that does not is refused. No
-// sessions are resumed, so a certificate is looked at on every connection.
+// sessions are resumed, so a certificate is checked on every connection.
 #pragma once
 
 #include <boost/asio/ssl/context.hpp>

@@ -1,4 +1,4 @@
-// The sound of a burr, sample by sample: what a microphone beside the handpiece would hear. Four parts:
+// The sound of a burr, sample by sample, as a microphone beside the handpiece would hear it. Four parts:
 //
 // - Tooth note, the force within the tooth period: a row of harmonics of edges * revolutions, each r times
 //   the one below, with r = ripple / (2 force), as of a train of pulses (Poisson's kernel). Louder with the

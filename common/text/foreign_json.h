@@ -1,5 +1,6 @@
-// JSON from elsewhere, whose depth is bounded before it is parsed: what walks through a value afterwards (to
-// flatten, copy or print it) calls itself once a level, and a file of brackets alone would use up the stack.
+// JSON from elsewhere, whose depth is bounded before it is parsed. Code that walks through a value afterwards
+// (to flatten, copy or print it) calls itself once a level, so a file of brackets alone would use up the
+// stack.
 #pragma once
 
 #include <algorithm>
