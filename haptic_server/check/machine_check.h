@@ -1,4 +1,4 @@
-// Checks of the machine that haptic_server --check makes: what keeps the loops from being in time.
+// Checks of the machine that haptic_server --check makes, for conditions that make the loops late.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +25,7 @@ struct CheckedMachine {
     std::string program;               ///< the file that was started
     RealTimeRights rights{};
     std::function<WakeUps()> measure_wake_ups;
-    std::function<double()> measure_clock_ns;  ///< what reading the clock once takes
+    std::function<double()> measure_clock_ns;  ///< the time that one reading of the clock takes
 };
 
 /// This one. Measuring takes half a second.

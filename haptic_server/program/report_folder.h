@@ -1,4 +1,5 @@
-// The folder of a session's report: what a session leaves there, and that no two share one.
+// The folder of a session's report: the files that a session leaves there, and the rule that no two share
+// one.
 #pragma once
 
 #include <filesystem>

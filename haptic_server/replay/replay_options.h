@@ -30,7 +30,7 @@ struct ReplayOptions {
     std::optional<std::filesystem::path> report;      ///< folder for the session's report
     std::optional<std::filesystem::path> film;        ///< for render_client, which draws it
 
-    /// Whether it is only looked into, and shown to nobody.
+    /// Whether the recording is only evaluated, and shown to nobody.
     bool only_reads() const;
 };
 

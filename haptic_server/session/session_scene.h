@@ -1,4 +1,4 @@
-// The scene of a session with its bone in it: what a session is made of, before there is a device.
+// The scene of a session with its bone in it: a session is made of it, before there is a device.
 #pragma once
 
 #include <cstdint>

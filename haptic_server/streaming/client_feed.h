@@ -1,4 +1,4 @@
-// Feed of one client, frame by frame: hello, a snapshot, state frames, goodbye. No sockets, no clock.
+// Frames for one client, in order: hello, a snapshot, state frames, goodbye. No sockets, no clock.
 //
 // The snapshot is taken from the mirror piece by piece, only as fast as the client reads, while milling goes
 // on. A change to a brick that is still to be sent needs no extra message: the brick will be sent in its
@@ -28,7 +28,7 @@
 
 namespace osteomill {
 
-/// Room to compress in, which all feeds of a thread share.
+/// Buffers to compress in, which all ClientFeeds of a thread share.
 struct FeedPackers {
     SnapshotPacker snapshot;
     ChangePacker changes;
@@ -38,7 +38,7 @@ struct FeedPackers {
 class ClientFeed {
   public:
     /// `hello` is the client's first frame, `structures` are the messages of the protected structures, sent
-    /// after the snapshot. All but `hello` outlive the feed.
+    /// after the snapshot. All but `hello` outlive this object.
     ClientFeed(v2::Hello hello, const BoneReplica& mirror, FeedPackers& packers,
                std::span<const v2::StructureBricks> structures = {});
 

@@ -1,4 +1,4 @@
-// All clients connected to a streaming server: their identity, their rights, and their feeds.
+// All clients connected to a streaming server: their identity, their rights, and their frames.
 //
 // A connection is unidentified until its hello, and is served from then on. One client may move the tool, see
 // ToolLease. All calls are on the thread of the connections' io_context.

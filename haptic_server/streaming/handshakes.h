@@ -33,7 +33,7 @@ class Handshakes {
                Callbacks callbacks, std::size_t most_at_once = unidentified_quota());
 
     void begin(boost::asio::ip::tcp::socket socket);
-    /// Hangs up on all that are under way; without a word to anybody.
+    /// Closes all that are under way, silently.
     void cancel();
 
   private:

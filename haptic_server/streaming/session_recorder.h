@@ -1,9 +1,9 @@
 // Recorder of a session, which acts as one more client: a client's frames go into a file.
 //
-// Its feed is that of any client, so on a slow disk changes are merged and sent later, and the streaming
-// thread never waits. A full disk acts like a slow one: the session goes on, and once there is room the next
-// frame contains all changes since. Poses of that time are missing, bone is not. Ticks wait in their queue
-// while it has room; lost ticks are counted.
+// It uses a ClientFeed like any client, so on a slow disk changes are merged and sent later, and the
+// streaming thread never waits. A full disk acts like a slow one: the session goes on, and once there is room
+// the next frame contains all changes since. Poses of that time are missing, bone is not. Ticks wait in their
+// queue while it has room; lost ticks are counted.
 #pragma once
 
 #include <atomic>
