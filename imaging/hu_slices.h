@@ -1,5 +1,4 @@
-// CT numbers slice after slice, z ascending: what a bone is built from where the whole would not fit in
-// memory.
+// CT numbers slice after slice, z ascending, from which a bone is built if the whole would not fit in memory.
 #pragma once
 
 #include <cstdint>

@@ -202,8 +202,8 @@ bool read_part(const ImportOptions& options, const OpenedImage& opened, const Im
     const std::string doubt = is_windowed ? std::string() : histogram.doubt();
     if (!doubt.empty())
         surroundings.messages << fmt::format("{}: warning: {}\n", options.input.string(), doubt);
-    // Before the long part: what no voxel of the scan reaches, none of the result does but where it
-    // overshoots.
+    // Before the long part: a threshold that no voxel of the scan reaches, none of the result reaches but by
+    // overshoot.
     if (options.threshold_hu && histogram.highest_hu() < *options.threshold_hu)
         throw no_bone(options, histogram.highest_hu());
     return not_measured == 0 && !histogram.fill_hu();

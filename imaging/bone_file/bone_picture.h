@@ -11,7 +11,7 @@ namespace osteomill {
 Grid picture_grid(const Grid& bone);
 
 /// From -1000 where there is no bone to 1600 (the reference bone) where all of a voxel is left; a longer
-/// voxel holds the mean. To look at, no more. `bone` must outlive it.
+/// voxel holds the mean. For display only. `bone` must outlive it.
 HuSlices picture_of(const Bone& bone);
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-// A carved bone as one file: what is left of it can be looked at in 3D Slicer, and loaded again bit for bit.
+// A carved bone as one file: 3D Slicer can show the remaining bone, and it can be loaded again bit for bit.
 //
 // HU alone cannot give the bone back: fractions have 255 levels that no HU tells, and the stiffness of a
 // voxel on the surface was taken from neighbours that may be gone. So the codes are kept as they were, in the

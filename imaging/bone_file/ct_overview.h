@@ -1,4 +1,4 @@
-// The CT for people to look at, made of CT numbers that come slice by slice.
+// The CT for display, made of CT numbers that come slice by slice.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Volumes of bone removed by tissue, as a saved bone says of all sessions before: what is gone can no
-// longer be counted.
+// Volumes of bone removed by tissue in all earlier sessions, as a saved bone states them, because removed
+// bone can no longer be counted.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Walk through the elements of a DICOM file, with bounds on nesting and effort: what dicom_scan.h notes of
-// it.
+// Walk through the elements of a DICOM file, with bounds on nesting and effort; it collects the facts of
+// dicom_scan.h.
 #pragma once
 
 #include <array>

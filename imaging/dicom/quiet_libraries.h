@@ -1,5 +1,5 @@
-// Silence of image libraries on standard error while they work: what they find wrong comes back as one line
-// of ours.
+// Silence of image libraries on standard error while they work: their complaints come back as one line of
+// ours.
 #pragma once
 
 #include <exception>

@@ -1,5 +1,4 @@
-// The bytes of a file from an offset on, decoded, one after the other: what does not fit in memory is read
-// so.
+// The bytes of a file from an offset on, decoded, one after the other, for data that do not fit in memory.
 #pragma once
 
 #include <cstddef>

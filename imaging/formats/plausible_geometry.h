@@ -1,5 +1,5 @@
-// The limits that hold for the geometry of every image, of whatever format: what lies outside them was no
-// scan of a patient, and would spoil the arithmetic of what follows.
+// The limits that hold for the geometry of every image, of whatever format: an image outside them was no scan
+// of a patient, and would spoil later arithmetic.
 #pragma once
 
 #include <cstdint>

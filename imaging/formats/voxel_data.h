@@ -1,5 +1,5 @@
-// Place of an image's voxels in its files, as its header says, and whether they are all there. Headers lie;
-// what they say is held against the files before a reader is let at them.
+// Place of an image's voxels in its files, as its header says, and whether they are all there. Headers lie,
+// so their statements are checked against the files before a reader starts.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Boxes in the patient: what an image covers, and which part of it becomes bone.
+// Boxes in the patient: the space that an image covers, and the part of it that becomes bone.
 #pragma once
 
 #include <glm/vec3.hpp>

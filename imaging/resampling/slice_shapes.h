@@ -20,7 +20,7 @@ namespace osteomill {
 /// two: then the method gains nothing.
 std::optional<int> axis_of_far_slices(const glm::dvec3& spacing_mm);
 
-/// How far within a slice a contour is looked for.
+/// How far within a slice a contour is searched.
 double contour_reach_mm(const glm::dvec3& spacing_mm, int axis);
 
 /// The places in two slices that give the HU of a place between them.
