@@ -1,5 +1,5 @@
-// The index of an image set, dataset.json: what lies where, in which units and conventions, and for each
-// frame everything that is known of its instant.
+// The index of an image set, dataset.json: its files, their units and conventions, and for each frame all
+// facts of its instant.
 #pragma once
 
 #include <filesystem>

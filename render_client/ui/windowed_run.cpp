@@ -46,7 +46,7 @@ constexpr double orbit_rad_per_px = 0.008;
 constexpr double view_motion_a_s = 0.5;
 constexpr double cut_mm_per_notch = 0.5;
 /// A display without vertical synchronisation must not take the cores from a server beside it: twice the
-/// rate of its frames is smooth. So often the link is looked at, too, where nothing is drawn.
+/// rate of its frames is smooth. The link is polled as often, even if nothing is drawn.
 constexpr std::chrono::milliseconds shortest_frame(16);
 
 /// How often the mouse is read, and what it asks for sent, while the operator has the tool: four in five

@@ -1,4 +1,4 @@
-// The dialog in the middle of the picture: the note of a mark, and confirmation of reset, finish and end.
+// The dialog in the middle of the picture: the text of a mark, and confirmation of reset, finish and end.
 // Drawn with Dear ImGui; needs an ImGui frame to be open.
 #pragma once
 

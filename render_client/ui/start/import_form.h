@@ -32,7 +32,7 @@ struct ImportForm {
     double spacing_mm = 0.1;
     bool is_spacing_chosen = false;     ///< by a person; else it follows the region
     std::uint64_t available_bytes = 0;  ///< this machine's memory; 0: not known
-    bool keeps_soft_tissue = true;      ///< for people who look at the CT in the window
+    bool keeps_soft_tissue = true;      ///< for people who view the CT in the window
     std::string name{};
 };
 

@@ -85,16 +85,16 @@ class StartPage {
     /// Makes tables and learning curves of every session in the reports, and opens them once they are there.
     void compare_sessions();
     std::optional<std::size_t> tour_card{};  ///< which of the tour's cards is over the page
-    bool is_hidden = false;  ///< until the next session: what is left of the last is looked at
+    bool is_hidden = false;  ///< until the next session: the user inspects the result of the last
 
     ImportForm form{};
     /// The scan's preview, once it is there.
     const std::optional<ScanPreview>& look() const { return look_; }
     const std::optional<ScanVoxels>& voxels() const { return voxels_; }
-    std::uint64_t voxels_number() const { return voxels_number_; }  ///< another for each look
+    std::uint64_t voxels_number() const { return voxels_number_; }  ///< another for each preview
     glm::dvec3 slices_at_mm{0.0};                                   ///< where the slices meet, patient LPS
-    bool is_working() const { return worker_ != nullptr; }          ///< looks or imports
-    /// At a scan that could not be looked at before.
+    bool is_working() const { return worker_ != nullptr; }          ///< makes a preview or imports
+    /// Retries the preview of a scan that failed before.
     void look_again() { look_at_scan(true); }
     void import();
     void give_up_work();

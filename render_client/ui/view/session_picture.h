@@ -81,7 +81,7 @@ class SessionPicture {
     void show_tool_at(const std::optional<ToolPose>& pose) { tool_.show_at(pose); }
 
     bool has_bone() const { return bone_.textures() != nullptr; }
-    /// How much of what is to be drawn is ready, in percent, while the bone or a look is prepared.
+    /// The share of the textures that is ready, in percent, while the bone or an appearance is prepared.
     std::optional<int> preparation_percent() const;
     /// Whether the burr turns in the picture: only while the source sends states.
     bool has_turning_burr() const { return tool_.has_turning_burr(); }

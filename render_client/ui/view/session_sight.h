@@ -6,7 +6,7 @@
 
 namespace osteomill {
 
-/// A server speaks 30 times a second: after so long without a word nothing of it is of now.
+/// A server sends 30 frames a second: after so long a silence its state counts as old.
 inline constexpr double longest_fresh_s = 0.25;
 
 enum class SessionSight {

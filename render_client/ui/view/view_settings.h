@@ -15,7 +15,7 @@ namespace osteomill {
 /// A question to the user in the middle of the picture.
 enum class SessionQuestion {
     none,
-    mark,     ///< what is worth a note?
+    mark,     ///< the text of a note
     reset,    ///< undo everything?
     finish,   ///< end the session for everybody?
     surface,  ///< as which kind of file is the bone's surface saved?
