@@ -33,7 +33,7 @@ class CrescentRows {
     static constexpr int most_rows = 528;
 
     /// `ball` and `rim` in voxels; the ball is counted from the base, and so are the voxels `first` <= v <
-    /// `end` that there are. A ball at rest has carved nothing yet: all of it is looked at.
+    /// `end` that there are. A ball at rest has carved nothing yet: all of it is visited.
     CrescentRows(const Sweep& ball, double rim, const glm::ivec3& first, const glm::ivec3& end) noexcept;
 
     /// The existing voxels that the sweep can reach.

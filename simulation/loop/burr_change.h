@@ -39,7 +39,7 @@ class BurrChanger {
 
     /// The one in the tool.
     std::size_t burr() const { return burr_; }
-    /// For the milling loop to look at; nothing while no change is wanted.
+    /// The wanted change, for the milling loop to examine; nothing while none is wanted.
     std::optional<std::size_t> wanted() const {
         return wanted_ == burr_ ? std::nullopt : std::optional(wanted_);
     }

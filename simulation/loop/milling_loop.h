@@ -48,7 +48,7 @@ class MillingLoop {
     /// By all steps so far, less what was given back.
     double total_removed_mm3() const { return total_removed_mm3_; }
 
-    /// A tool that moves so fast that more room is needed is not looked at: it would take too long.
+    /// A tool so fast that it needs a larger margin is not examined: that would take too long.
     static constexpr double most_room_mm = 2.0;
     /// Bricks that are restored in a millisecond: a stroke of a hundred bricks is back within a frame of the
     /// picture, and they take a tenth of a step's time.

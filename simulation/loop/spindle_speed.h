@@ -1,5 +1,5 @@
-// The spindle's speed beside the burr's own: what was chosen, reached as a motor reaches it. A speed that
-// fell at once would make every chip thicker at once, and the hand would feel a knock.
+// The spindle's speed, if it is not the burr's own: the chosen speed, approached as a motor does. A speed
+// that fell at once would make every chip thicker at once, and the hand would feel a knock.
 #pragma once
 
 #include <algorithm>
