@@ -1,5 +1,6 @@
-// A simulated hand of any strength on an arm of any make mills a scene, by the scene's own trajectory: what
-// the arm does to the force on the hand. The program's own loops and coupling, on the virtual clock.
+// A simulated hand of any strength on an arm of any make mills a scene, by the scene's own trajectory, to
+// show the arm's effect on the force on the hand. The program's own loops and coupling run on the virtual
+// clock.
 #pragma once
 
 #include <glm/vec3.hpp>

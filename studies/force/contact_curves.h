@@ -1,4 +1,4 @@
-// The older contact models: what each feels of a burr that rests in flat bone.
+// The older contact models: the force of each on a burr that rests in flat bone.
 #pragma once
 
 #include <string>

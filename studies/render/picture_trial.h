@@ -1,5 +1,5 @@
-// A view of a bone in one look, drawn in any way of drawing: what a frame takes, and how far its picture is
-// from the reference image of the same look.
+// A view of a bone in one appearance, drawn in any way of drawing: the cost of a frame, and the picture's
+// distance from the reference image of the same appearance.
 #pragma once
 
 #include <memory>

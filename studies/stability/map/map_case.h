@@ -1,5 +1,5 @@
-// A point of the stability map: a scene, a hand, and the coupling between them. Plain values; what running
-// one gives is a MapOutcome (map_outcome.h).
+// A point of the stability map: a scene, a hand, and the coupling between them. Plain values; a run gives a
+// MapOutcome (map_outcome.h).
 #pragma once
 
 #include <string>

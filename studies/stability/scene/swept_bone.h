@@ -1,4 +1,4 @@
-// Bone without voxels around one burr, in continuous time: what the truth of the cutting scene mills.
+// Bone without voxels around one burr, in continuous time: the truth of the cutting scene mills it.
 //
 // The burr's surface is split into patches of equal area, rings of constant height times equal angles. A
 // patch resists in proportion to the rate at which it cuts new bone along its normal n, by the law of

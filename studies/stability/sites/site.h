@@ -1,5 +1,5 @@
-// A site where bone ends, and the motion of a hand there: what the stability study tries beside slots and
-// walls.
+// A site where bone ends, and the motion of a hand there. The stability study tries such sites beside slots
+// and walls.
 #pragma once
 
 #include <functional>
