@@ -1,5 +1,5 @@
-// Odd files that are sound, or follow from what may be mended, and the real bone_import: what it makes of
-// them and what it says. And hostile files for the server.
+// Odd files that are sound, or can be mended, and the real bone_import: its results and its messages. And
+// hostile files for the server.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
-// Nothing turns without leave, with the real programs: what a client that is cut, frozen, late or hostile can
-// make a real server do. Times are the server's own: see spindle_log.h.
+// Nothing turns without leave, with the real programs: the effects on a real server of a client that is cut,
+// frozen, late or hostile. Times are the server's own: see spindle_log.h.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// A session recorded, looked into, shown again and cut by other people's tools: the real programs.
+// A session recorded, inspected, shown again and cut by other people's tools: the real programs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The real study program, as a user calls it: what it writes, what it says, how it exits.
+// The real study program, as a user calls it: its files, its messages, its exit status.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 

@@ -1,5 +1,5 @@
-// render_client in a real window, with a real server: what mouse and keys do, what is on the screen, and what
-// happens when the display fails. Needs Xvfb and xdotool.
+// render_client in a real window, with a real server: mouse and keys, the picture on the screen, and a
+// display that fails. Needs Xvfb and xdotool.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -36,7 +36,7 @@ namespace {
 using namespace osteomill;
 
 constexpr double report_period_s = 0.001;  // full-speed USB
-/// Somebody looks at the arm, takes it to its calibration position, presses the switch.
+/// A person finds the arm, moves it to its calibration position, and presses the switch.
 constexpr double time_to_calibrate_s = 0.3;
 /// And takes the finger off it again, while the arm still is there.
 constexpr double time_to_let_go_s = 0.05;

@@ -1,4 +1,4 @@
-// A haptic device and the hand on it, in one dimension: what the sampled force acts on.
+// A haptic device and the hand on it, in one dimension, on which the sampled force acts.
 //
 //     m dv/dt = -b v - k x - friction + u        x from where the hand's spring is at rest
 //

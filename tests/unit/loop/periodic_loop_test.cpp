@@ -32,7 +32,7 @@ struct Tick {
     std::uint64_t missed;
 };
 
-/// A loop of 1 kHz that notes its ticks.
+/// A loop of 1 kHz that records its ticks.
 struct Noted {
     std::vector<Tick> ticks;
     PeriodicLoop loop;

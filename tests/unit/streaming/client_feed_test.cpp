@@ -12,7 +12,7 @@
 namespace osteomill {
 namespace {
 
-/// Carves the mirror and tells a feed, as the server does at every frame.
+/// Carves the mirror and passes the changes to a ClientFeed, as the server does at every frame.
 class Carver final : public ChangeSink {
   public:
     Carver(BoneReplica& mirror, ClientFeed& feed) : bone_(mirror.bone()), mirror_(mirror), feed_(feed) {}
