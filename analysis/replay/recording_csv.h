@@ -30,12 +30,12 @@ enum class CsvLines {
 /// motion.
 class RecordingCsv {
   public:
-    /// Throws std::runtime_error where the file cannot be written.
+    /// Throws std::runtime_error if the file cannot be written.
     RecordingCsv(const std::filesystem::path& file, CsvLines lines) : file_(file), lines_(lines) {}
-    /// Throws std::runtime_error where a session that was joined to another has other columns, or would
-    /// follow it in a trajectory, and where it cannot be written.
+    /// Throws std::runtime_error if a session that was joined to another has other columns, or would
+    /// follow it in a trajectory, and if it cannot be written.
     void add(const Playhead& playhead);
-    /// Makes it the file, which is as it was until then. Throws std::runtime_error where that fails.
+    /// Makes it the file, which is as it was until then. Throws std::runtime_error if that fails.
     void close() { file_.commit(); }
 
   private:

@@ -7,7 +7,7 @@
 // hold bone, not the grid.
 //
 // Closed: every edge belongs to exactly two triangles, which pass along it in opposite directions, whatever
-// the fractions are and also where bone reaches the border of the grid. Normals (anticlockwise order) point
+// the fractions are and also if bone reaches the border of the grid. Normals (anticlockwise order) point
 // out of the bone. On a sphere of 15 voxels' radius a vertex lies 0.02 voxels off in the mean. Bone thinner
 // than two voxels in two directions becomes thinner still: a rod of one whole voxel keeps a quarter of its
 // section.
@@ -27,7 +27,7 @@ struct SurfaceMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of points, anticlockwise from outside
 };
 
-/// Empty where nothing is left. `voxels_a_cell` along each axis are taken for one, with the mean of their
+/// Empty if nothing is left. `voxels_a_cell` along each axis are taken for one, with the mean of their
 /// fractions: fewer triangles, 1 / n^2 of them, and walls thinner than half a cell are lost. Throws
 /// std::runtime_error for more points than 32 bits can number.
 SurfaceMesh surface_of(const Bone& bone, int voxels_a_cell = 1);

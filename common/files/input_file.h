@@ -51,11 +51,11 @@ class InputFile {
     bool has_changed() const;
 
     /// Reads into `bytes` from an offset; how many there were, fewer only at the file's end. Throws
-    /// std::runtime_error where the disk fails.
+    /// std::runtime_error if the disk fails.
     std::size_t read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
     /// Its first bytes, at most so many.
     std::vector<std::uint8_t> first_bytes(std::uint64_t most) const;
-    /// All of it. Throws std::runtime_error where there are more bytes than its kind may have.
+    /// All of it. Throws std::runtime_error if there are more bytes than its kind may have.
     std::string text() const;
 
   private:
@@ -70,7 +70,7 @@ class InputFile {
 std::string read_text(const std::filesystem::path& path, const InputKind& kind);
 
 /// The same of a secret, which is its owner's alone; a key of root's may also be read by its group, as
-/// distributions keep those of services (root:ssl-cert, 0640). Throws also where others may read or write it.
+/// distributions keep those of services (root:ssl-cert, 0640). Throws also if others may read or write it.
 std::string read_secret(const std::filesystem::path& path, const InputKind& kind);
 
 }  // namespace osteomill

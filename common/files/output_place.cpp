@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Opens and locks; -1 and errno EWOULDBLOCK where another has it, -1 and another one where no lock can be
+/// Opens and locks; -1 and errno EWOULDBLOCK where another has it, -1 and another one if no lock can be
 /// made. Whoever ends removes the file that is locked: a lock of a file without a name is none.
 int locked(const fs::path& file) {
     for (;;) {

@@ -15,7 +15,7 @@ namespace osteomill {
 class OutputPlace {
   public:
     /// Links are followed. Throws std::runtime_error in one line where another session has reserved it, and
-    /// where nothing can be written there. A path that is no regular file (/dev/null, a pipe) is not
+    /// if nothing can be written there. A path that is no regular file (/dev/null, a pipe) is not
     /// reserved.
     explicit OutputPlace(std::filesystem::path file);
     ~OutputPlace();

@@ -25,7 +25,7 @@ struct IgtlMessageView {
 /// Big endian, as all of OpenIGTLink.
 std::uint64_t number_at(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t width);
 
-/// The text of a STRING message; nothing where its sizes contradict each other.
+/// The text of a STRING message; nothing if its sizes contradict each other.
 std::optional<std::string> text_of_string_message(std::span<const std::uint8_t> content);
 
 class IgtlStream {

@@ -16,8 +16,8 @@ class TlsContext {
   public:
     enum class Role { server, client };
 
-    /// Throws std::runtime_error, in one line, where a file cannot be read or holds something else, where the
-    /// key is not the certificate's or not kept to its owner, and where the certificate is not for the role,
+    /// Throws std::runtime_error, in one line, if a file cannot be read or holds something else, if the
+    /// key is not the certificate's or not kept to its owner, and if the certificate is not for the role,
     /// has expired or is revoked: see own_certificate.h and revocation_lists.h.
     TlsContext(const TlsFiles& files, Role role);
 

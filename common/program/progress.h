@@ -12,7 +12,7 @@ namespace osteomill {
 /// Called with how much is done, 0 to 1, ascending, from one thread.
 using ReportProgress = std::function<void(double done)>;
 
-/// "40 s left", "3 min left", "2 h 5 min left"; "" where nothing is left.
+/// "40 s left", "3 min left", "2 h 5 min left"; "" if nothing is left.
 std::string time_left(double left_s);
 
 class ProgressLine {

@@ -28,7 +28,7 @@ struct RecordingCounts {
 
 class Playhead {
   public:
-    /// Goes to the first bone. Throws RecordingError where there is none.
+    /// Goes to the first bone. Throws RecordingError if there is none.
     explicit Playhead(std::filesystem::path file);
 
     enum class Step {

@@ -37,7 +37,7 @@ struct RecordingReport {
 };
 
 /// One line about a recording that has ended with an error: what, and where that which was written lies and
-/// can be read. Empty where all frames are in the file.
+/// can be read. Empty if all frames are in the file.
 std::string ending_of(const RecordingReport& report);
 
 /// News of a recording under way.

@@ -20,7 +20,7 @@ class WarningTone {
     static constexpr double touch_period_s = 0.2;
     static constexpr double pulse_s = 0.1;
     static constexpr double loudest = 0.3;
-    /// It stops where no new state has come for so long.
+    /// It stops if no new state has come for so long.
     static constexpr double patience_s = 0.5;
 
     /// From the next sample on. A pulse that has begun ends first.

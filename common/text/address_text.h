@@ -16,7 +16,7 @@ inline std::string without_passwords(const std::string& text) {
     return std::regex_replace(std::regex_replace(text, of_address, "$1***@"), of_setting, "$1***");
 }
 
-/// Whether an address or a list of settings for libpq has one; also where letters are written as %XX.
+/// Whether an address or a list of settings for libpq has one; also if letters are written as %XX.
 inline bool holds_password(const std::string& address) {
     std::string plain;
     for (std::size_t i = 0; i < address.size(); ++i) {

@@ -34,8 +34,8 @@ inline std::size_t depth_of_json(std::string_view text) {
     return deepest;
 }
 
-/// Throws std::runtime_error in one line that begins with `name` where the text is too deep, and
-/// nlohmann::json::exception where it is no JSON.
+/// Throws std::runtime_error in one line that begins with `name` if the text is too deep, and
+/// nlohmann::json::exception if it is no JSON.
 template <typename Json = nlohmann::json>
 Json parse_foreign_json(std::string_view text, const std::string& name) {
     if (depth_of_json(text) > deepest_json)

@@ -15,7 +15,7 @@ namespace osteomill {
 /// wrong, to go on behind the text's name: "is no UTF-8 (byte 2 is \xe4)".
 std::optional<std::string> why_not_plain(std::string_view text);
 
-/// Throws std::invalid_argument where it is not plain: "WHAT 'Z\xe4hne' is no UTF-8 (byte 2 is \xe4)".
+/// Throws std::invalid_argument if it is not plain: "WHAT 'Z\xe4hne' is no UTF-8 (byte 2 is \xe4)".
 void require_plain(std::string_view what, std::string_view text);
 
 /// The text, each byte of a control character and each that is no UTF-8 as "\x1b".

@@ -12,7 +12,7 @@ namespace osteomill {
 
 namespace {
 
-/// 64 kB: fits a frame even where nothing compresses.
+/// 64 kB: fits a frame even if nothing compresses.
 constexpr std::size_t voxels_per_piece = 32 * 1024;
 
 WireError ct_refused(const std::string& what) {

@@ -35,7 +35,7 @@ struct SessionInfo {
     std::map<std::string, std::string> settings{};  ///< as haptic_server --json names them
     std::string scene_toml{};  ///< the whole scene, which whoever reads it checks; empty: not said
 
-    /// The burr of that number; null where the server has announced none.
+    /// The burr of that number; null if the server has announced none.
     const Burr* burr_of(std::size_t number) const { return number < burrs.size() ? &burrs[number] : nullptr; }
 };
 

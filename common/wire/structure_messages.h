@@ -14,7 +14,7 @@
 
 namespace osteomill {
 
-/// In one message; even where nothing compresses it fits a frame.
+/// In one message; even if nothing compresses it fits a frame.
 inline constexpr std::size_t most_bricks_of_structure_piece = 128;
 /// The most bricks of all structures together: 128 MiB of masks, 1 dm^3 at 0.1 mm. A mask's size on the wire
 /// bounds nothing.

@@ -151,7 +151,7 @@ class BridgeHost {
 /// The reason for which no arm can be like this, a text with static lifetime; nullptr for a possible one.
 const char* why_impossible(const omb_arm& arm);
 
-/// Whether all its numbers are finite and the quaternion, where there is one, is a rotation.
+/// Whether all its numbers are finite and the quaternion, if there is one, is a rotation.
 bool is_possible(const omb_pose& pose);
 
 }  // namespace osteomill

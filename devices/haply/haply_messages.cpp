@@ -19,7 +19,7 @@ using nlohmann::json;
 constexpr std::size_t longest_id = 64;
 constexpr double fastest_m_per_s = 100.0;
 
-/// The value under a key; null where there is none.
+/// The value under a key; null if there is none.
 const json& at(const json& object, const char* key) {
     static const json nothing;
     if (!object.is_object()) return nothing;

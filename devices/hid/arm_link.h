@@ -40,7 +40,7 @@ class ArmLink {
   public:
     enum class State { waking, uncalibrated, waiting, driving, gone };
 
-    /// The device answers one report per report: where nothing comes for this long, it waits for ours.
+    /// The device answers one report per report: if nothing comes for this long, it waits for ours.
     static constexpr double wake_after_s = 0.010;
     /// Two exchanges that failed: what it says is too old to answer with a force.
     static constexpr double silent_after_s = 0.020;

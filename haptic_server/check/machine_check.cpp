@@ -23,7 +23,7 @@ constexpr double tick_us = 1000.0;
 /// A state that takes longer to leave is felt in the latest wake-ups.
 constexpr double deep_idle_us = 100.0;
 
-/// Without its last line's end; nullopt where there is no such file.
+/// Without its last line's end; nullopt if there is no such file.
 std::optional<std::string> said_by(const std::filesystem::path& file) {
     std::ifstream in(file);
     if (!in) return std::nullopt;

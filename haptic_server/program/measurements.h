@@ -28,7 +28,7 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
 nlohmann::ordered_json histograms_us(const MillingSessionReport& report);
 
 /// Adds what came of each protected structure, as "structures", and what watching them took in memory, as
-/// "structures_memory_bytes"; nothing where none is.
+/// "structures_memory_bytes"; nothing if none is.
 void add_structures(nlohmann::ordered_json& json, const StructureWatch& structures, const Scene& scene);
 
 /// The outcome of a recording, under "recording": file, frames, bytes, pauses (while the disk was full),

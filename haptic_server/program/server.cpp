@@ -44,7 +44,7 @@ void require_place_for(const std::optional<std::filesystem::path>& file) {
     if (!write_target(*file, Link::follow).is_direct) AtomicFile{*file};
 }
 
-/// Throws where something is wrong, once all of it was said.
+/// Throws if something is wrong, once all of it was said.
 void check(const ServerOptions& options, const ProgramOutput& output) {
     std::filesystem::path records_in = options.record.value_or("").parent_path();
     while (!records_in.empty() && !std::filesystem::exists(records_in)) records_in = records_in.parent_path();
@@ -59,7 +59,7 @@ void check(const ServerOptions& options, const ProgramOutput& output) {
     if (must_be_mended(rows)) throw std::runtime_error("the machine is not ready for a session: see above");
 }
 
-/// Nothing where nobody looks on and nothing is recorded. Reads the files of TLS and the list of operators.
+/// Nothing if nobody looks on and nothing is recorded. Reads the files of TLS and the list of operators.
 std::optional<ShownOptions> shown_options(const ServerOptions& options, const std::string& version) {
     StreamingOptions streaming = streaming_options(options.listen.value_or(ListenAddress{}), options.access);
     if (options.operators) streaming.operators.emplace(*options.operators);

@@ -29,7 +29,7 @@ class RecordedSession final : public StreamSource {
 
     /// Any thread. Whether all was shown.
     bool is_over() const { return is_over_.load(); }
-    /// Once it is over, after the server has been stopped: one line; empty where nothing was wrong.
+    /// Once it is over, after the server has been stopped: one line; empty if nothing was wrong.
     const std::string& error() const { return error_; }
 
   private:

@@ -127,7 +127,7 @@ class Repeat {
     }
 
   private:
-    /// False where something differs.
+    /// False if something differs.
     bool take_state() {
         if (!playhead_.session().holds_ticks) throw NotRepeatable("it holds no ticks");
         for (const ControlEvent& event : playhead_.state().events)

@@ -26,7 +26,7 @@ struct RepeatedSession {
     std::string line() const;
 };
 
-/// Throws RecordingError where the file is no recording. `on_progress`: 0 to 1, now and then; what it throws
+/// Throws RecordingError if the file is no recording. `on_progress`: 0 to 1, now and then; what it throws
 /// ends it.
 RepeatedSession repeat_session(const std::filesystem::path& file,
                                const std::function<void(double)>& on_progress);

@@ -40,7 +40,7 @@ class SessionAssembly {
 
     /// Places the device on the patient, if the scene leaves that to it. `device` holds a device. Throws
     /// std::runtime_error or std::invalid_argument in one line if a part refuses its options, and for a
-    /// session on the virtual clock that would never end, and where a file to write is one that the scene is
+    /// session on the virtual clock that would never end, and if a file to write is one that the scene is
     /// made of.
     SessionAssembly(SessionScene scene, DeviceParts device, SessionOptions options);
     SessionAssembly(const SessionAssembly&) = delete;

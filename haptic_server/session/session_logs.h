@@ -18,7 +18,7 @@ class SessionLogs {
     /// Begins the files. Throws std::runtime_error in one line where one cannot be.
     SessionLogs(const LogFiles& files, bool has_shank);
 
-    /// Null where none is requested.
+    /// Null if none is requested.
     ForceLog* force() { return force_ ? &*force_ : nullptr; }
     MillingLog* milling() { return milling_ ? &*milling_ : nullptr; }
 

@@ -21,14 +21,14 @@ namespace osteomill {
 
 class SessionRecorder {
   public:
-    /// Writes hello, snapshot and `structures` before it returns, and throws RecordingError where that much
+    /// Writes hello, snapshot and `structures` before it returns, and throws RecordingError if that much
     /// cannot be written. `mirror`, `structures` and the queue of ticks outlive the recorder.
     SessionRecorder(const RecordTo& to, v2::Hello hello, const BoneReplica& mirror,
                     std::span<const v2::StructureBricks> structures = {});
 
     /// These do what they do for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
-    /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Nothing where it says no
+    /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Nothing if it says no
     /// more than the one before, of the same time.
     void record(SessionState state, bool may_wait);
     /// Hands over the end, waits until all is written and makes it the file that was requested. Gives up on a

@@ -17,8 +17,8 @@ inline std::string no_digest_yet() {
     return std::string(Digest::text_length, '0');
 }
 
-/// False where a file has none: it is no NRRD, is from elsewhere, or was written anew on purpose. Throws
-/// ImagingError where it has another than the file's.
+/// False if a file has none: it is no NRRD, is from elsewhere, or was written anew on purpose. Throws
+/// ImagingError if it has another than the file's.
 bool has_file_digest(const std::filesystem::path& path);
 
 }  // namespace osteomill

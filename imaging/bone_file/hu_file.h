@@ -33,7 +33,7 @@ class NrrdData {
     void read_before_voxels(std::span<std::byte> bytes) { source_.read(bytes); }
     void skip(std::uint64_t bytes) { source_.skip(bytes); }
     void read_voxels(std::span<std::int16_t> voxels);
-    /// After the last voxel: throws ImagingError where compressed data do not end there with a CRC that fits.
+    /// After the last voxel: throws ImagingError if compressed data do not end there with a CRC that fits.
     void finish() { source_.finish(); }
 
   private:
@@ -55,7 +55,7 @@ class BoneFile {
     const std::map<std::string, std::string>& key_values() const { return form_.key_values; }
     /// The value of threshold_key; absent if the file has none.
     const std::optional<double>& threshold_hu() const { return threshold_hu_; }
-    /// Throws ImagingError, naming the key, where it is missing.
+    /// Throws ImagingError, naming the key, if it is missing.
     const std::string& value(const char* key) const;
 
     /// Whether it was written to since it was opened.

@@ -230,7 +230,7 @@ void note_doubtful_kind(const DicomScan& scan, DicomHeader& header) {
              "taken for HU unless --rescale or --intensity-window says otherwise");
 }
 
-/// Why it is no slice of a scan, where there is one beside it.
+/// Why it is no slice of a scan, if there is one beside it.
 std::string why_left_out(const DataSet& data, const DicomScan& scan, const DicomHeader& header) {
     const std::string type = text_of(data, image_type_tag);
     if (type.find("LOCALIZER") != std::string::npos) return "is a localizer (Image Type)";

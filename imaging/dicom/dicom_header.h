@@ -39,7 +39,7 @@ struct DicomHeader {
     std::string fault;  ///< why the frames make no volume, in words; empty where they may
 };
 
-/// std::nullopt where the file is not DICOM at all. Throws ImagingError where it cannot be opened, begins as
+/// std::nullopt if the file is not DICOM at all. Throws ImagingError if it cannot be opened, begins as
 /// DICOM and then cannot be parsed (cut off), nests its sequences beyond reason, or has pixels that are not
 /// there or cannot be decoded (dicom_scan.h).
 std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path);

@@ -98,7 +98,7 @@ OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& 
 
 namespace {
 
-/// The only segmentation of a folder; nothing where there is none.
+/// The only segmentation of a folder; nothing if there is none.
 std::optional<std::filesystem::path> segmentation_in(const std::filesystem::path& folder) {
     std::optional<std::filesystem::path> found;
     std::error_code failed;

@@ -40,7 +40,7 @@ struct DicomSeries {
 DicomSeries choose_series(const std::filesystem::path& folder, const std::optional<std::string>& uid,
                           std::vector<std::string>& notes);
 
-/// A single DICOM file as a series of its own. Throws ImagingError where it is not DICOM or has no image.
+/// A single DICOM file as a series of its own. Throws ImagingError if it is not DICOM or has no image.
 DicomSeries series_of_file(const std::filesystem::path& path);
 
 /// The placement of every slice of the series; a multi-frame file states it in its functional groups. Throws

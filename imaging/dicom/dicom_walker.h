@@ -39,7 +39,7 @@ class DicomWalker {
     /// Elements of the file itself, from an offset on, up to one of another group where `only_group` is one.
     /// Returns the offset of the end. Throws as scan_dicom does.
     std::size_t walk_file(std::size_t at, const DicomSyntax& syntax, std::optional<std::uint32_t> only_group);
-    /// Throws std::invalid_argument where values that are no sequences hold many items, or an element is of
+    /// Throws std::invalid_argument if values that are no sequences hold many items, or an element is of
     /// another form than the standard's.
     void require_sound() const;
 

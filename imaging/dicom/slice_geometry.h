@@ -56,7 +56,7 @@ struct SliceLattice {
 
 /// The lattice of a segmentation's frames. Its gap follows the positions; where those leave it open (slices
 /// may be empty), the stated spacing. Throws as stack_slices does, but for the number of slices and those at
-/// one position, and where the slices lie at no common spacing.
+/// one position, and if the slices lie at no common spacing.
 SliceLattice lattice_of(const std::vector<SlicePlacement>& slices, const StatedGap& stated);
 
 }  // namespace osteomill

@@ -30,7 +30,7 @@ class ByteSource {
     ByteSource(ByteSource&&) noexcept;
     ByteSource& operator=(ByteSource&&) = delete;
 
-    /// The next bytes, as many as there is room for. Throws ImagingError where the file ends before, or what
+    /// The next bytes, as many as there is room for. Throws ImagingError if the file ends before, or what
     /// was encoded is damaged.
     void read(std::span<std::byte> bytes);
     /// The same, but for what ends earlier; how many there were.

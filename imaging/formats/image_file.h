@@ -33,7 +33,7 @@ inline std::uint64_t least_bytes(std::uint64_t voxels, VoxelType type, Encoding 
 }
 
 /// Finds the voxels of every file that the header of `path` names, or behind the header. Throws ImagingError
-/// where one is missing, or shorter than what is to be skipped.
+/// if one is missing, or shorter than what is to be skipped.
 VoxelData find_voxels(const ImageHeader& header, const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -34,7 +34,7 @@ ImageHeader open_nifti(const std::filesystem::path& path);
 /// Whether the name is that of the half of a pair that holds the voxels, whose content says nothing: .img or
 /// .img.gz.
 bool is_nifti_voxel_file(const std::filesystem::path& path);
-/// The other half of such a pair; any other path itself. Throws ImagingError where there are two.
+/// The other half of such a pair; any other path itself. Throws ImagingError if there are two.
 std::filesystem::path nifti_header_file(const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -29,7 +29,7 @@ class TiffPages {
     /// Throws ImagingError.
     explicit TiffPages(const std::filesystem::path& path);
 
-    /// Throws ImagingError where ImageJ or OME say that not each of them is a slice.
+    /// Throws ImagingError if ImageJ or OME say that not each of them is a slice.
     int count() const;
     /// Grey of 8, 16 or 32 bits or floats; colours of 8 bits. A scan's white may be 0, and ImageJ's linear
     /// calibration of levels is applied to it; labels are read as stored. Throws ImagingError.

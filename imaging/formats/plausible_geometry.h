@@ -28,7 +28,7 @@ bool is_plausible_position(const glm::dvec3& position_mm);
 std::string implausible_spacing(const std::string& what, double spacing_mm);
 std::string implausible_position(const std::string& what);
 
-/// The number of voxels, of any number of axes. Throws std::invalid_argument where an axis has none, or it or
+/// The number of voxels, of any number of axes. Throws std::invalid_argument if an axis has none, or it or
 /// the product is above the limits.
 std::uint64_t plausible_voxel_count(std::span<const std::uint64_t> sizes);
 

@@ -34,7 +34,7 @@ struct VoxelData {
 std::string numbered_name(std::string_view pattern, std::int64_t number);
 
 /// The words "slice%03d.raw FIRST LAST STEP" as names. Without LAST as many as `wanted`, without STEP one by
-/// one. Throws std::invalid_argument where they are not that, name no file or more than 65535.
+/// one. Throws std::invalid_argument if they are not that, name no file or more than 65535.
 std::vector<std::string> numbered_names(const std::vector<std::string>& words, std::int64_t wanted = 0);
 
 /// The file of that name beside the header or in a folder below. Throws ImagingError, naming the header, for
@@ -46,11 +46,11 @@ std::filesystem::path data_file_beside(const std::filesystem::path& header, cons
 using TakeBytes = std::function<void(std::span<const std::byte>)>;
 
 /// Reads all parts, decoded, and hands them on; for text, all that the files hold, with a blank behind each
-/// file. Throws ImagingError, naming the file, where one is missing, cut off or damaged (checksums of gzip
-/// and zlib included), or where compressed voxels are followed by more.
+/// file. Throws ImagingError, naming the file, if one is missing, cut off or damaged (checksums of gzip
+/// and zlib included), or if compressed voxels are followed by more.
 void read_voxel_data(const VoxelData& data, const TakeBytes& take);
 
-/// Looks at the files' sizes alone: throws ImagingError where one is missing, too short for its voxels, or
+/// Looks at the files' sizes alone: throws ImagingError if one is missing, too short for its voxels, or
 /// too short to be their compressed form. Says by how many bytes the last part's file is longer than it need
 /// be (0 where they are encoded). A raw part of several must have its size exactly.
 std::uint64_t require_room(const VoxelData& data);

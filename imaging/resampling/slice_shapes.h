@@ -43,7 +43,7 @@ class SliceShapes {
         const SourceImage& part, std::span<const float> values, int axis, double threshold_hu,
         double result_spacing_mm, std::span<float> room, const std::function<void()>& pause = [] {});
 
-    /// `at`: continuous voxel coordinates in the scan. std::nullopt where HU blended in place are right: in a
+    /// `at`: continuous voxel coordinates in the scan. std::nullopt if HU blended in place are right: in a
     /// slice, far from the contour, where it hardly moves, and where the slices' contours are not of one
     /// surface (bone in one slice only, a plate thinner than the way it moves).
     std::optional<PlacesInSlices> places(const glm::dvec3& at) const;

@@ -11,7 +11,7 @@
 
 namespace osteomill {
 
-/// Empty where no voxel of the grid is in the segment. Throws std::invalid_argument for a bad grid.
+/// Empty if no voxel of the grid is in the segment. Throws std::invalid_argument for a bad grid.
 StructureMask structure_of(const Segmentation& segmentation, const Segment& segment, const Grid& grid);
 
 }  // namespace osteomill

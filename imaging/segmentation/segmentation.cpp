@@ -113,7 +113,7 @@ LabelRows read_labels(const std::filesystem::path& path, const OpenedImage& open
     return rows;
 }
 
-/// One line on labels that no segment has; empty where each has one.
+/// One line on labels that no segment has; empty if each has one.
 std::string labels_left_out(const Segmentation& segmentation) {
     int left_out = 0;
     for (int layer = 0; layer < segmentation.labels.layers(); ++layer)

@@ -35,7 +35,7 @@ class DatasetIndex {
     /// `images`: for each camera view_json and files.
     void add_frame(const DatasetFrame& frame, const Playhead& playhead, nlohmann::ordered_json images);
 
-    /// dataset.json or, of a part, dataset-2-of-8.json. Throws std::runtime_error naming the file where it
+    /// dataset.json or, of a part, dataset-2-of-8.json. Throws std::runtime_error naming the file if it
     /// cannot be written.
     void write() const;
 

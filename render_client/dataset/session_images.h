@@ -29,7 +29,7 @@ DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session);
 class SessionImages {
   public:
     /// Draws the session that `playhead`, which outlives it, has begun. Tissues are solid, but for those of
-    /// opacity 0, which are left out. Throws std::runtime_error where the bone cannot be drawn. Calls need a
+    /// opacity 0, which are left out. Throws std::runtime_error if the bone cannot be drawn. Calls need a
     /// context current.
     SessionImages(Playhead& playhead, std::span<const DatasetCamera> cameras, const SceneAppearance& look,
                   const TextureLimits& limits);

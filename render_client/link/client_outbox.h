@@ -33,7 +33,7 @@ class ClientOutbox {
     void put(const Viewpoint& view);
     void request_ct() { owes_ct_request_ = has_ct_; }
 
-    /// Takes out the next message, numbered; nothing where none waits.
+    /// Takes out the next message, numbered; nothing if none waits.
     std::optional<v2::ClientFrame> next();
 
   private:

@@ -70,7 +70,7 @@ class ServerConnection {
     void discard(std::shared_ptr<void> unused);
     /// There is room in the queue again.
     void resume();
-    /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
+    /// Why nothing more is recorded; empty while all is well, and if nothing is to be.
     std::string recording_error() const;
     /// Writes what still waits; what comes later is not recorded. One line where some of it is not.
     std::string finish_recording();

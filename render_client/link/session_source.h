@@ -51,14 +51,14 @@ struct LinkUpdate {
     /// From where the one who moves the tool looks, in a recording that says so.
     std::optional<Viewpoint> view{};
     SessionStatus controls{};  ///< what can be done with the session now
-    /// How old the newest tool of this session was when a poll took it; nothing where the server does not
+    /// How old the newest tool of this session was when a poll took it; nothing if the server does not
     /// say.
     std::optional<DelayMeter::Delay> delay{};
 
     std::uint32_t snapshot_bricks = 0;        ///< received so far, while receiving_snapshot
     std::uint32_t snapshot_bricks_total = 0;  ///< announced, while receiving_snapshot
 
-    /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
+    /// Why nothing more is recorded; empty while all is well, and if nothing is to be.
     std::string recording_error{};
 
     /// The time since anything came from the server; 0 for a recording.
@@ -89,13 +89,13 @@ class SessionSource {
     virtual const SessionInfo* session() const = 0;  ///< null until a server has said hello
     /// Any thread. Sends the operator's wishes for the tool; ignored if nobody can drive it.
     virtual void send_operator(const OperatorCommand&) {}
-    /// Asks for the CT, which a poll then brings; nothing where there is none.
+    /// Asks for the CT, which a poll then brings; nothing if there is none.
     virtual void ask_for_ct() {}
-    /// To a server elsewhere from now on; nothing where there is none.
+    /// To a server elsewhere from now on; nothing if there is none.
     virtual void connect_to(const ListenAddress&) {}
     /// Any thread: a request to the session; ignored if there is none to take it.
     virtual void send_control(const SessionControl&) {}
-    /// Any thread: from where the operator looks; nothing where nobody keeps it.
+    /// Any thread: from where the operator looks; nothing if nobody keeps it.
     virtual void send_view(const Viewpoint&) {}
     /// Any thread. The tool of the session that an operator may be at; nothing if there is none.
     virtual std::optional<ToolState> newest_tool() const { return std::nullopt; }

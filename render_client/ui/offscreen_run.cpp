@@ -31,7 +31,7 @@ double seconds(Clock::duration duration) {
     return std::chrono::duration<double>(duration).count();
 }
 
-/// Polls until the first bone is there. False where the run was asked to stop before.
+/// Polls until the first bone is there. False if the run was asked to stop before.
 bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_requested) {
     const Clock::time_point start = Clock::now();
     double says_at_s = silent_wait_for_bone_s;

@@ -177,7 +177,7 @@ std::string contradiction(const RenderOptions& options) {
 constexpr std::array screenshot_names{"frame_*.png", "final.png"};
 constexpr std::array dataset_names{"dataset*.json", "*/[0-9]*_*.png", "*/[0-9]*_*.npy"};
 
-/// Says which two are one; empty where none are.
+/// Says which two are one; empty if none are.
 std::string same_files(const RenderOptions& options, const TlsOptions& tls) {
     std::vector<NamedFile> files = tls.files_read();
     if (options.replay) files.push_back({"--replay", *options.replay, false});

@@ -26,7 +26,7 @@ struct RenderReport {
 /// bone), dirty_bricks_uploaded, checksum_mismatches, link_status.
 std::string to_json(const RenderReport& report);
 
-/// Replaces the file as a whole. Throws std::runtime_error naming the file where it cannot be written.
+/// Replaces the file as a whole. Throws std::runtime_error naming the file if it cannot be written.
 void write_report(const RenderReport& report, const std::filesystem::path& file);
 
 }  // namespace osteomill

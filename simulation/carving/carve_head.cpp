@@ -80,7 +80,7 @@ class SweptHead {
 /// Carves one short sweep.
 class HeadCarver {
   public:
-    /// `changes`: null where the bone stays as it is.
+    /// `changes`: null if the bone stays as it is.
     HeadCarver(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink* changes,
                RemovalSink& removed) noexcept
         : bone_(bone),

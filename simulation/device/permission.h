@@ -28,7 +28,7 @@ class Permission {
         renewed_s_ = said_s;
     }
     void withdraw() noexcept { is_given_ = false; }
-    /// Also false where the time is no number.
+    /// Also false if the time is no number.
     bool holds(double now_s) const noexcept { return is_given_ && now_s - renewed_s_ <= lasts_s_; }
     double renewed_s() const noexcept { return renewed_s_; }
 

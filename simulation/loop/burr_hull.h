@@ -1,4 +1,4 @@
-// Balls about the spindle that together hold a burr's head and its shank: where no bone lies in them, the
+// Balls about the spindle that together hold a burr's head and its shank: if no bone lies in them, the
 // burr may stand.
 #pragma once
 

@@ -39,7 +39,7 @@ class CutReport {
     /// Whether a report's period is over.
     bool is_due() const noexcept;
     /// The cut of the period that ends with `latest`, in which the spindle turned at `speed_share` of the
-    /// burr's speed; nothing where nothing was cut. The next period begins.
+    /// burr's speed; nothing if nothing was cut. The next period begins.
     std::optional<CutState> take(const MillingResult& latest, double speed_share) noexcept;
 
   private:

@@ -17,7 +17,7 @@ class Histogram {
     std::uint64_t count() const { return count_; }
     double max_s() const { return max_s_; }
     /// The duration that a share (0 to 1) of those added do not exceed: the upper edge of the bucket where
-    /// that is reached, never above the maximum. 0 where nothing was added.
+    /// that is reached, never above the maximum. 0 if nothing was added.
     double quantile_s(double share) const;
 
     struct Bucket {

@@ -15,7 +15,7 @@ struct RealTimeRights {
 
 RealTimeRights real_time_rights() noexcept;
 
-/// One line that says what is missing, what that means and what to run; empty where nothing is. `program` is
+/// One line that says what is missing, what that means and what to run; empty if nothing is. `program` is
 /// the file that was started.
 std::string advice_on_rights(const RealTimeRights& rights, const std::string& program);
 

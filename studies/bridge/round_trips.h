@@ -21,7 +21,7 @@ struct Ends {
     bool has_key = false;
 };
 
-/// Measures for so long, after a settling of a tenth of a second. Throws std::runtime_error where no socket
+/// Measures for so long, after a settling of a tenth of a second. Throws std::runtime_error if no socket
 /// can be had or nothing is answered.
 RoundTrips measure_round_trips(const Ends& ends, double seconds);
 

@@ -41,7 +41,7 @@ class PolishingSlide {
     glm::dvec3 meant_mm(double time_s) const { return meant_.at(time_s).target.position_mm; }
 
     /// The simulated hand slides; the session's log of forces is left in `log` (force_log.h). Throws
-    /// std::runtime_error where that cannot be written, std::invalid_argument for a set-up that the simulator
+    /// std::runtime_error if that cannot be written, std::invalid_argument for a set-up that the simulator
     /// refuses.
     SlideEnd run(const PolishingSetup& setup, const std::filesystem::path& log) const;
 

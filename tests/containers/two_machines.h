@@ -1,4 +1,4 @@
-// Two machines on a private network whose cable can be pulled: two containers or, where no engine runs, two
+// Two machines on a private network whose cable can be pulled: two containers or, if no engine runs, two
 // network namespaces.
 #pragma once
 

@@ -34,7 +34,7 @@ nlohmann::json json_of(const std::filesystem::path& file) {
     return nlohmann::json::parse(bytes_of(file));
 }
 
-/// Waits, reading what the server says, until `happened`; false where it is far too late.
+/// Waits, reading what the server says, until `happened`; false if it is far too late.
 template <typename Happened>
 bool comes_true(ChildProcess& server, Happened&& happened) {
     const auto deadline = std::chrono::steady_clock::now() + far_too_long;

@@ -36,7 +36,7 @@ void renumber(std::vector<std::string>& messages, std::uint64_t first) {
 /// The message with a seal that holds, and without the length before it; as it was if it is no message.
 std::string resealed(const std::string& message);
 
-/// Writes `mutated` over `data`, or, where there is no room for it, lets libFuzzer mutate what is there.
+/// Writes `mutated` over `data`, or, if there is no room for it, lets libFuzzer mutate what is there.
 std::size_t put(const std::string& mutated, std::uint8_t* data, std::size_t size, std::size_t most);
 
 }  // namespace osteomill::fuzz

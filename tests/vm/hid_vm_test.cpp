@@ -24,7 +24,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Why there can be no virtual machine here; empty where there can.
+/// Why there can be no virtual machine here; empty if there can.
 std::string obstacle() {
     for (const char* program : {"qemu-system-x86_64", "busybox", "cpio"}) {
         const auto found = testing::run_program({"/bin/sh", "-c", std::string("command -v ") + program});

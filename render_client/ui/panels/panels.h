@@ -1,5 +1,5 @@
 // Dear ImGui's context and its OpenGL 3 back end, as one RAII value. Needs a current OpenGL context. All
-// lengths are pixels of the picture, also where a window counts in larger units.
+// lengths are pixels of the picture, also if a window counts in larger units.
 //
 // Takes the window's input as data instead of through Dear ImGui's own back end for GLFW, which reads it
 // while drawing: another thread does the reading, see hand_input.h.

@@ -33,7 +33,7 @@ class Field {
     double hu_at(float x) const { return highest_hu() * static_cast<double>((x - first_.x) / size_.x); }
     double value_at(float x) const { return stiffness_at_hu(hu_at(x)); }
     double opacity_at(float y) const { return 1.0 - static_cast<double>((y - first_.y) / size_.y); }
-    /// How far apart in value two pixels are at x; above zero also where the relation is flat.
+    /// How far apart in value two pixels are at x; above zero also if the relation is flat.
     double value_reach(float x, double px) const {
         const auto half = static_cast<float>(px);
         return std::max(0.5 * (value_at(x + half) - value_at(x - half)), 0.02);

@@ -26,7 +26,7 @@ std::filesystem::path home_of_cases();
 /// none.
 std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder);
 
-/// Why a case cannot have this name, in one line; empty where it can: a name of a file in any language, no
+/// Why a case cannot have this name, in one line; empty if it can: a name of a file in any language, no
 /// dot first, no blank at its ends, none like it in `folder`.
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder);
 

@@ -60,7 +60,7 @@ std::vector<std::string> look_command(const std::string& bone_import, const Impo
 std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
                                         const std::filesystem::path& folder);
 
-/// Edge of a voxel where nobody has chosen one: 0.1 mm, of a finer scan its own, 0.02 mm at least, or longer
+/// Edge of a voxel if nobody has chosen one: 0.1 mm, of a finer scan its own, 0.02 mm at least, or longer
 /// (usual_spacing.h).
 double default_spacing_mm(const ImportForm& form, const ScanPreview& look);
 

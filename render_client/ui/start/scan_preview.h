@@ -48,7 +48,7 @@ std::array<std::uint8_t, 3> colour_of_segment(std::size_t index);
 /// not match the box that the scan covers.
 ScanVoxels read_scan_voxels(const std::filesystem::path& raw, const ScanBox& covers, double mm_per_px);
 
-/// Nothing where the text does not say what a scan covers.
+/// Nothing if the text does not say what a scan covers.
 std::optional<ScanPreview> read_scan_preview(const std::string& preview_output);
 
 /// One of the picture's slices: axial, coronal, sagittal.
@@ -80,7 +80,7 @@ std::array<const char*, 4> letters_of(const PreviewSlice& slice);
 Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_per_px, double threshold_hu);
 
 /// The box with two of its sides as they were dragged in a slice, from one pixel of the picture to another;
-/// kept within the scan. Nothing where the first lies in no slice.
+/// kept within the scan. Nothing if the first lies in no slice.
 std::optional<ScanBox> dragged_box(const ScanBox& covers, const ScanBox& before, double mm_per_px,
                                    const glm::dvec2& from_px, const glm::dvec2& to_px);
 

@@ -47,7 +47,7 @@ class StartPage {
     /// Ends what it started: a session's server writes its report first.
     ~StartPage() { give_up_work(); }
 
-    /// Once in a while: looks after the programs that run. True where there is something new to show.
+    /// Once in a while: looks after the programs that run. True if there is something new to show.
     bool poll();
 
     View view() const { return view_; }
@@ -60,7 +60,7 @@ class StartPage {
     const std::vector<ShelvedCase>& cases() const { return cases_; }
     /// The sessions that were kept here, the newest first.
     const std::vector<KeptSession>& sessions() const { return sessions_; }
-    /// Its report in the user's browser, made before where there is none; a recording in a window of its own.
+    /// Its report in the user's browser, made before if there is none; a recording in a window of its own.
     void open_report_of(const KeptSession& session);
     void replay(const std::filesystem::path& recording);
     std::size_t chosen = 0;  ///< index in cases()

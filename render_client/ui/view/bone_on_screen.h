@@ -52,7 +52,7 @@ class BoneOnScreen {
     /// step. `bone` is the one that replace() had last, at the same address.
     Outcome work(const Bone& bone, const std::function<bool()>& has_time);
 
-    /// Null until the first are complete, and where there is no room for them beside those to come.
+    /// Null until the first are complete, and if there is no room for them beside those to come.
     const BoneTextures* textures() const { return shown_ ? &shown_->textures : nullptr; }
     /// How much of the preparation is done, 0 to 1, while one goes on.
     std::optional<double> preparation() const;

@@ -90,7 +90,7 @@ class SessionPicture {
     const LinkUpdate& link() const { return link_; }
     /// Null until a server has said hello.
     const SessionInfo* session() const { return source_.session(); }
-    /// Nothing where it is not known how the tool is now.
+    /// Nothing if it is not known how the tool is now.
     std::optional<ToolState> tool() const { return elements().tool ? tool_.state() : std::nullopt; }
     SessionSight sight() const;
     SightElements elements() const { return elements_of(sight()); }
@@ -108,7 +108,7 @@ class SessionPicture {
     void show_other_textures(DrawingCost cost);
     SessionNews news() const;
     void ask_for_ct();
-    /// Null where none is wanted, or there is nothing to see in it.
+    /// Null if none is wanted, or there is nothing to see in it.
     const gl::Framebuffer* draw_inset(const std::optional<DrawnTool>& tool, const SceneAppearance& look);
 
     SessionSource& source_;

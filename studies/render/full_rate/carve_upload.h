@@ -18,7 +18,7 @@ struct CarveUpload {
 };
 
 /// Uploads `times` carves of either kind of a phantom, with render_client's default appearance and limits;
-/// each is timed until OpenGL has finished. Needs a current context. Throws std::runtime_error where the burr
+/// each is timed until OpenGL has finished. Needs a current context. Throws std::runtime_error if the burr
 /// meets no bone.
 CarveUpload upload_carves(const std::string& phantom, int times);
 

@@ -18,7 +18,7 @@ struct WindowFrames {
 };
 
 /// Draws `frames` of each motion of a phantom. Writes `picture`, a PNG of the last frame before the first
-/// cut. Needs a current OpenGL context. Throws std::runtime_error where the bone cannot be drawn.
+/// cut. Needs a current OpenGL context. Throws std::runtime_error if the bone cannot be drawn.
 WindowFrames draw_window(const std::string& phantom, const glm::ivec2& size_px, int frames,
                          const std::filesystem::path& picture);
 

@@ -4,7 +4,7 @@
 //   - grows: rms in the window's second half more than 1.5 times that in its first, and above a third of
 //     what is small,
 //   - small: rms over the window below max(0.03 N, 5 % of the mean), and half an encoder step of the rendered
-//     spring on top of that, where there are any: a staircase is no limit cycle; and the force gave back no
+//     spring on top of that, if there are any: a staircase is no limit cycle; and the force gave back no
 //     more energy than it may have stored: the largest drawdown of the energy that it took (EnergyLedger's
 //     rule), less that of the truth and less F^2 / 2K of the largest force on the spring that the method
 //     renders, is below 0.25 mJ or a tenth of what the run took, if that is more,

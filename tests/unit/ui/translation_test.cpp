@@ -33,7 +33,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
         text.replace(at, from.size(), to);
 }
 
-/// The literal that begins at `at`, with those that C++ joins to it, and `at` behind it; "" where there is
+/// The literal that begins at `at`, with those that C++ joins to it, and `at` behind it; "" if there is
 /// none.
 std::string literal_at(const std::string& source, std::size_t& at) {
     std::string text;

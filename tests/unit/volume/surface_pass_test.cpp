@@ -21,7 +21,7 @@ glm::dvec3 ray_of(const Camera& camera, int x, int y) {
     return direction / glm::dot(direction, camera.forward());
 }
 
-/// Along the camera's axis to a ball about the origin; nothing where the ray passes it.
+/// Along the camera's axis to a ball about the origin; nothing if the ray passes it.
 std::optional<double> depth_of_ball(const Camera& camera, const glm::dvec3& ray, double radius_mm) {
     const glm::dvec3 eye = camera.eye_mm();
     const double a = glm::dot(ray, ray), b = glm::dot(eye, ray),

@@ -52,7 +52,7 @@ std::vector<Texels> content_of(const BoneTextures& textures) {
     return all;
 }
 
-/// Which texture differs, in how many bytes and in which at first; empty where none does.
+/// Which texture differs, in how many bytes and in which at first; empty if none does.
 std::string first_difference(const std::vector<Texels>& are, const std::vector<Texels>& would_be) {
     for (std::size_t texture = 0; texture < would_be.size(); ++texture) {
         const auto [at, other] = std::ranges::mismatch(are[texture], would_be[texture]);
