@@ -14,7 +14,7 @@ inline constexpr std::uint64_t most_import_bytes = std::uint64_t{3} << 29;
 /// file while it is refined.
 inline constexpr std::uint64_t most_scan_bytes = std::uint64_t{512} << 20;
 
-/// Slices of the result that are refined at once: as many as bricks are thick, fewer where they are large.
+/// Slices of the result that are refined at once: as many as bricks are thick, fewer if they are large.
 int slices_at_once(const Grid& result);
 
 /// Peak bytes of an import. `reading_bytes`: what reading the file takes; `part_floats`: the region's

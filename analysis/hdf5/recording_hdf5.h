@@ -21,9 +21,8 @@ std::filesystem::path fivrs_v3_file(const std::filesystem::path& file);
 
 /// Replaces `file` once all is written; `on_frame` is called before each frame. Returns why the recording is
 /// not read further, in one line, empty at its end: what could be read is then in the file. Throws
-/// RecordingError if there is no bone in it, and std::runtime_error in one line where the file cannot be
-/// written or several sessions were joined, std::invalid_argument if it is the recording itself
-/// (distinct_files.h).
+/// RecordingError if there is no bone in it, and std::runtime_error in one line if the file cannot be written
+/// or several sessions were joined, std::invalid_argument if it is the recording itself (distinct_files.h).
 std::string write_hdf5(const std::filesystem::path& recording, const std::filesystem::path& file,
                        Hdf5Layout layout, const ReportProgress& on_frame);
 

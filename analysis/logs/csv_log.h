@@ -17,7 +17,7 @@ namespace osteomill {
 
 /// The file behind a log, written by a thread of its own. After a failed write (a full disk) nothing more is
 /// written and error() says why. Until it is closed its file is the part beside the one that was requested
-/// (session_file.h); that stays where the log is not whole.
+/// (session_file.h); that stays if the log is not whole.
 class CsvFile {
   public:
     /// Creates the file and writes the header line. Throws std::runtime_error with one line naming the file.

@@ -2,9 +2,9 @@
 //
 // The surface is where the fraction, linear between the centres of voxels, is one half. It is made by
 // OpenVDB's volumeToMesh: dual contouring, a vertex in each cell of eight neighbouring voxels that the
-// surface passes through, at the mean of where it crosses the cell's edges; where a cell holds several
-// sheets, a vertex for each. OpenVDB stores the fractions sparsely, so that memory follows the bricks that
-// hold bone, not the grid.
+// surface passes through, at the mean of where it crosses the cell's edges; if a cell holds several sheets, a
+// vertex for each. OpenVDB stores the fractions sparsely, so that memory follows the bricks that hold bone,
+// not the grid.
 //
 // Closed: every edge belongs to exactly two triangles, which pass along it in opposite directions, whatever
 // the fractions are and also if bone reaches the border of the grid. Normals (anticlockwise order) point

@@ -42,8 +42,8 @@ std::string why_no_target(const std::filesystem::path& path);
 
 class AtomicFile {
   public:
-    /// Makes an empty part. Throws std::runtime_error with one line where that cannot be, and for a pipe that
-    /// no program reads.
+    /// Makes an empty part. Throws std::runtime_error with one line if that cannot be, and for a pipe that no
+    /// program reads.
     explicit AtomicFile(const std::filesystem::path& path, Link link = Link::follow);
     /// Takes over a part that is there.
     AtomicFile(const std::filesystem::path& path, WriteTarget target, const std::filesystem::path& part);
@@ -87,8 +87,8 @@ void remove_abandoned_parts(const std::filesystem::path& path, Link link = Link:
 /// Replaces the file by `text` as a whole. Throws std::runtime_error as AtomicFile does.
 void write_atomic_file(const std::filesystem::path& path, std::string_view text, Link link = Link::follow);
 
-/// Opens a file to write whose name nothing has yet; -1 and errno where that cannot be, EEXIST for
-/// whatever is there, a link, too.
+/// Opens a file to write whose name nothing has yet; -1 and errno if that cannot be, EEXIST for whatever is
+/// there, a link, too.
 int open_new(const std::filesystem::path& path);
 
 }  // namespace osteomill

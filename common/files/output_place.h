@@ -1,4 +1,4 @@
-// Place of a file that a session writes at its end: reserved for it from the start, and found again where its
+// Place of a file that a session writes at its end: reserved for it from the start, and found again if its
 // folder was moved or removed meanwhile.
 //
 // A file beside it, .NAME.lock, is locked (flock) and goes with this; what a killed program has left of it
@@ -14,9 +14,8 @@ namespace osteomill {
 
 class OutputPlace {
   public:
-    /// Links are followed. Throws std::runtime_error in one line where another session has reserved it, and
-    /// if nothing can be written there. A path that is no regular file (/dev/null, a pipe) is not
-    /// reserved.
+    /// Links are followed. Throws std::runtime_error in one line if another session has reserved it, and if
+    /// nothing can be written there. A path that is no regular file (/dev/null, a pipe) is not reserved.
     explicit OutputPlace(std::filesystem::path file);
     ~OutputPlace();
     OutputPlace(const OutputPlace&) = delete;

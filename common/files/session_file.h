@@ -15,8 +15,8 @@ namespace osteomill {
 
 class SessionFile {
   public:
-    /// Makes an empty part. Throws std::runtime_error with one line where that cannot be, or another session
-    /// is writing it.
+    /// Makes an empty part. Throws std::runtime_error with one line if that cannot be, or another session is
+    /// writing it.
     explicit SessionFile(const std::filesystem::path& path);
     /// Removes the part unless it was committed or kept.
     ~SessionFile();

@@ -54,7 +54,7 @@ class Stream {
     virtual boost::asio::ip::tcp::socket& socket() = 0;
 };
 
-/// ADDRESS:PORT of the other end; "a client" where it has gone.
+/// ADDRESS:PORT of the other end; "a client" if it has gone.
 std::string describe_end(const boost::asio::ip::tcp::socket& socket);
 
 /// The serving end of a connection that was accepted. `tls`: null for none; outlives the stream.

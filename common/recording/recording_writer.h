@@ -88,8 +88,8 @@ class RecordingWriter {
     /// Whether the last attempt to write has failed.
     bool has_failed() const;
 
-    /// Writes what still waits, with one last attempt where the disk is full, and ends the thread; gives the
-    /// recording up where the disk stands still. Later pushes are discarded.
+    /// Writes what still waits, with one last attempt if the disk is full, and ends the thread; gives the
+    /// recording up if the disk stands still. Later pushes are discarded.
     void close();
     /// Closes first, and makes the part the file, unless frames are missing. Failures show in the report.
     void commit();

@@ -1,5 +1,5 @@
 // The tone that warns of a protected structure, sample by sample: short pulses, which a burr's even note does
-// not drown; twice a second where the burr is near, five times where it touches.
+// not drown; twice a second if the burr is near, five times if it touches.
 //
 // A pulse has a fundamental of 880 Hz and the first harmonics, so that it is heard through a small
 // loudspeaker and by those who no longer hear high notes (IEC 60601-1-8 asks alarms for 150 to 1000 Hz with

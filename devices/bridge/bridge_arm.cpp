@@ -106,7 +106,7 @@ void BridgeArm::take_pose(std::uint64_t now_ns) {
     if (!sensor_) sensor_.emplace(0.0);
     sensor_->read(state.position_mm, seconds(now_ns - sensed_ns_));
     sensed_ns_ = now_ns;
-    // The arm's own estimate is of the handle; where that is not the tool, turning it moves the tool, too.
+    // The arm's own estimate is of the handle; if that is not the tool, turning it moves the tool, too.
     const bool is_at_tool = tool_from_handle_mm_ == glm::dvec3(0.0);
     state.velocity_mm_per_s = is_at_tool && (pose.status & OMB_HAS_VELOCITY) != 0
                                   ? vector_of(pose.velocity_mm_per_s)

@@ -25,7 +25,7 @@ class DatagramSocket {
     DatagramSocket(const DatagramSocket&) = delete;
     DatagramSocket& operator=(const DatagramSocket&) = delete;
 
-    /// The port, where the system chose it.
+    /// The port, if the system chose it.
     const BridgeAddress& address() const { return where_; }
 
     /// Waits for a datagram or for wake(), `longest_wait_ms` at most. Returns the datagram's length, or the

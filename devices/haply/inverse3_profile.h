@@ -5,8 +5,7 @@
 // Positions and forces are those of the cursor, about which the grip turns: that is where the burr's centre
 // is, so turning the grip does not move the burr.
 //
-// No document of the maker's was found that has all of this; where a number is our own, it is
-// on the safe side.
+// No document of the maker's was found that has all of this; if a number is our own, it is on the safe side.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -11,7 +11,7 @@ namespace osteomill {
 
 namespace {
 
-/// An arm answers within a millisecond or two; this is how long the thread sleeps where it does not.
+/// An arm answers within a millisecond or two; this is how long the thread sleeps if it does not.
 constexpr int longest_wait_ms = 5;
 
 class ArmConversation final : public HidConversation {

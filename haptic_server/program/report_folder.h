@@ -9,7 +9,7 @@ namespace osteomill {
 /// The path of the recording of the session that is reported in `folder`.
 std::filesystem::path recording_in(const std::filesystem::path& folder);
 
-/// Makes the folder. Throws std::runtime_error with one line where it cannot be made, or holds a session
+/// Makes the folder. Throws std::runtime_error with one line if it cannot be made, or holds a session
 /// already.
 void prepare_report_folder(const std::filesystem::path& folder);
 

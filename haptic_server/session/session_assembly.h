@@ -30,8 +30,7 @@ struct SessionOptions {
     std::optional<ShownOptions> shown{};          ///< absent: no clients, no recording
 };
 
-/// The scene with its device placed on the patient, where it leaves that to the device. Placed once, it
-/// stays.
+/// The scene with its device placed on the patient, if it leaves that to the device. Placed once, it stays.
 SessionScene seated(SessionScene scene, const DeviceParts& device);
 
 class SessionAssembly {
@@ -64,7 +63,7 @@ class SessionAssembly {
 
     // Or, on the virtual clock, in this order and in steps.
     void start() { session_->start(); }
-    /// Returns how many ticks were made: fewer than `ticks` where the session's duration is over.
+    /// Returns how many ticks were made: fewer than `ticks` if the session's duration is over.
     std::uint64_t advance(std::uint64_t ticks);
     void end();
 

@@ -15,7 +15,7 @@ namespace osteomill {
 
 class SessionKeeper {
   public:
-    /// Writes a bone, or its surface where there is an ending of mesh_endings; says in one line what is wrong
+    /// Writes a bone, or its surface if there is an ending of mesh_endings; says in one line what is wrong
     /// with it, or nothing. Called on a thread of its own.
     using Save = std::function<std::string(const Bone&, const std::string& mesh_ending)>;
 

@@ -15,7 +15,7 @@ struct LogFiles {
 
 class SessionLogs {
   public:
-    /// Begins the files. Throws std::runtime_error in one line where one cannot be.
+    /// Begins the files. Throws std::runtime_error in one line if one cannot be.
     SessionLogs(const LogFiles& files, bool has_shank);
 
     /// Null if none is requested.

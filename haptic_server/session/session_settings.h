@@ -23,13 +23,12 @@ struct HandSettings {
 };
 
 /// The same for every session, however it is started; `scene` with its device placed (seated()). Keys:
-/// version, commit, scene, force_model, coupling, device, grip (of a simulated hand; firm where a hand's pose
-/// is prescribed, for no force moves it; or rails), burr (at the start), rpm, haptic_rate_hz,
-/// milling_rate_hz, clock, vibration, wall_friction, start_position_mm, start_spindle_axis, bone_digest (of
-/// all of the bone at the start), structures_digest, is_built_in, case_digest (of its case.toml; a built-in
-/// case has none), arm (its limits), removed_before_mm3 (by sessions before), instruction_set, seeds (none:
-/// nothing in a session is drawn at random); and bone, trajectory where the choice has a file: its name, and
-/// trajectory_digest.
+/// version, commit, scene, force_model, coupling, device, grip (of a simulated hand; firm if a hand's pose is
+/// prescribed, for no force moves it; or rails), burr (at the start), rpm, haptic_rate_hz, milling_rate_hz,
+/// clock, vibration, wall_friction, start_position_mm, start_spindle_axis, bone_digest (of all of the bone at
+/// the start), structures_digest, is_built_in, case_digest (of its case.toml; a built-in case has none), arm
+/// (its limits), removed_before_mm3 (by sessions before), instruction_set, seeds (none: nothing in a session
+/// is drawn at random); and bone, trajectory if the choice has a file: its name, and trajectory_digest.
 nlohmann::ordered_json session_settings(const MillingSessionOptions& milling, const SceneChoice& choice,
                                         const SessionScene& scene, const HandSettings& hand,
                                         std::string_view version);

@@ -79,7 +79,7 @@ class ClientFeed {
     std::optional<WireError> compare(const v2::CompareBone& request);
 
     /// Requests the end: the remaining changes, a last state with a checksum, then goodbye; goodbye at once
-    /// where the last state said all that there is (`has_said_all`).
+    /// if the last state said all that there is (`has_said_all`).
     void finish(std::string reason, bool has_said_all = false);
 
     /// The next frame, as bytes for the stream; nothing while there is nothing to send. Changes that exceed a

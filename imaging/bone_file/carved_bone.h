@@ -40,7 +40,7 @@ void save_carved_bone(
     const std::map<std::string, std::string>& key_values = {}, const ReportProgress& report = [](double) {});
 
 /// The same for a bone that no CT numbers were made for, or whose source is gone: the voxels are a picture of
-/// it, on a grid of longer voxels where its own is large (bone_picture.h).
+/// it, on a grid of longer voxels if its own is large (bone_picture.h).
 void save_carved_bone(
     const std::filesystem::path& path, const Bone& bone, std::map<std::string, std::string> key_values = {},
     const ReportProgress& report = [](double) {});

@@ -45,7 +45,7 @@ class NrrdData {
 class BoneFile {
   public:
     /// Throws ImagingError in one line for a file that is missing or too short for what its header says, and
-    /// for anything but an int16 NRRD on an isotropic, axis-aligned LPS grid; where the image is merely of
+    /// for anything but an int16 NRRD on an isotropic, axis-aligned LPS grid; if the image is merely of
     /// another form the line says to run bone_import.
     explicit BoneFile(const std::filesystem::path& path);
 
@@ -73,9 +73,8 @@ class BoneFile {
     std::optional<double> threshold_hu_;
 };
 
-/// Throws ImagingError, "its WHAT damaged: digest ..., not the ... that was saved" (WHAT: "CT
-/// numbers are"), where the file holds
-/// another digest under `key`; a file without that key has nothing to hold it against.
+/// Throws ImagingError, "its WHAT damaged: digest ..., not the ... that was saved" (WHAT: "CT numbers are"),
+/// if the file holds another digest under `key`; a file without that key has nothing to hold it against.
 void require_digest(const BoneFile& file, const char* key, const Digest& digest, const std::string& what);
 
 /// The CT numbers of a bone file, from the first slice on.

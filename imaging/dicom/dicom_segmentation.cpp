@@ -36,7 +36,7 @@ constexpr int most_layers_of_segments = 255;
 /// One layer of labels, x fastest; a segment of frames that overlap others lies in another.
 using Layer = std::vector<std::uint16_t>;
 
-/// A text of a file whose Specific Character Set (0008,0005) is `set`; as it is where that is another than
+/// A text of a file whose Specific Character Set (0008,0005) is `set`; as it is if that is another than
 /// these.
 std::string in_utf8(const std::string& text, const std::string& set) {
     static const std::map<std::string, const char*> known{

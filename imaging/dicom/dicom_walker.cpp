@@ -154,15 +154,14 @@ std::size_t DicomWalker::after(const Element& element, const DicomSyntax& syntax
         }
         items_in_values_ = before;
     }
-    // GDCM reads it with the file, makes room for any length in it, and ends the program where it does not
-    // end.
+    // GDCM reads it with the file, makes room for any length in it, and ends the program if it does not end.
     if (is_sequence && begins_with_item(element)) throw DamagedDicom();
     items_in_values_ += items_between(element.value, end);
     require_few_hidden(element, items_in_values_ - before);
     return end;
 }
 
-/// GDCM ends the program where one of those is of another form than the standard's.
+/// GDCM ends the program if one of those is of another form than the standard's.
 void DicomWalker::require_representation(const Element& element) {
     struct Known {
         std::uint32_t tag;

@@ -54,9 +54,9 @@ struct SliceLattice {
     std::string note;  ///< where positions and what is stated differ, in words; else empty
 };
 
-/// The lattice of a segmentation's frames. Its gap follows the positions; where those leave it open (slices
-/// may be empty), the stated spacing. Throws as stack_slices does, but for the number of slices and those at
-/// one position, and if the slices lie at no common spacing.
+/// The lattice of a segmentation's frames. Its gap follows the positions; if those leave it open (slices may
+/// be empty), the stated spacing. Throws as stack_slices does, but for the number of slices and those at one
+/// position, and if the slices lie at no common spacing.
 SliceLattice lattice_of(const std::vector<SlicePlacement>& slices, const StatedGap& stated);
 
 }  // namespace osteomill

@@ -45,8 +45,8 @@ std::string sheared_axes(const SourceImage& image);
 void require_plausible_geometry(const SourceImage& image);
 
 /// Makes axes that are perpendicular but for how they were rounded, or up to most_shear_degrees off, truly
-/// perpendicular: the nearest such, about the image's middle, which stays. Notes it where it can be seen.
-/// Then as require_plausible_geometry, but throws ImagingError, naming `path`.
+/// perpendicular: the nearest such, about the image's middle, which stays. Notes it if it can be seen. Then
+/// as require_plausible_geometry, but throws ImagingError, naming `path`.
 void settle_geometry(SourceImage& image, const std::filesystem::path& path);
 
 /// Notes that nothing says how the image lies in the patient, so that left and right are a guess: `taken_as`.

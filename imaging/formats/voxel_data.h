@@ -52,7 +52,7 @@ void read_voxel_data(const VoxelData& data, const TakeBytes& take);
 
 /// Looks at the files' sizes alone: throws ImagingError if one is missing, too short for its voxels, or
 /// too short to be their compressed form. Says by how many bytes the last part's file is longer than it need
-/// be (0 where they are encoded). A raw part of several must have its size exactly.
+/// be (0 if they are encoded). A raw part of several must have its size exactly.
 std::uint64_t require_room(const VoxelData& data);
 
 }  // namespace osteomill

@@ -25,7 +25,7 @@ class HuHistogram {
     /// The highest value so far, rounded; the lowest that counts if there is none.
     int highest_hu() const;
 
-    /// The constant that a field of view was filled with around it: the lowest value, where it lies below all
+    /// The constant that a field of view was filled with around it: the lowest value, if it lies below all
     /// air and far below all other values.
     std::optional<float> fill_hu() const;
 

@@ -1,5 +1,5 @@
-// Part of an image that a region needs, with its axes turned to patient LPS where that only means swapping
-// and reversing them.
+// Part of an image that a region needs, with its axes turned to patient LPS if that only means swapping and
+// reversing them.
 #pragma once
 
 #include <span>

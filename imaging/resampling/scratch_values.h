@@ -1,5 +1,5 @@
-// Room for a scan's values: in memory, or, where they are more than ought to be held there, in a file without
-// a name that is mapped into it and gone with the program.
+// Room for a scan's values: in memory, or, if they are more than ought to be held there, in a file without a
+// name that is mapped into it and gone with the program.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace osteomill {
 
 class ScratchValues {
   public:
-    /// All zero. A file is made in `folder` where the values take more than `most_memory_bytes`. Throws
+    /// All zero. A file is made in `folder` if the values take more than `most_memory_bytes`. Throws
     /// ImagingError, naming the folder, if the disk has no room for it; std::bad_alloc.
     ScratchValues(std::uint64_t count, std::uint64_t most_memory_bytes, const std::filesystem::path& folder);
     ~ScratchValues();

@@ -148,8 +148,8 @@ void SliceShapes::compare_slices(const std::function<void()>& pause) {
     });
 }
 
-/// 1 where both contours face the same way and what lies between them is bone in one slice and none in the
-/// other, as it is where one surface moves; else 0, with a slope between.
+/// 1 if both contours face the same way and what lies between them is bone in one slice and none in the
+/// other, as it is if one surface moves; else 0, with a slope between.
 float SliceShapes::trust_between(std::span<const float> lower_mm, std::span<const float> upper_mm, int column,
                                  int row) const {
     const auto at = [&](std::span<const float> depth_mm, int x, int y) {
@@ -329,8 +329,8 @@ std::optional<PlacesInSlices> SliceShapes::places(const glm::dvec3& at) const {
         .upper = place(upper, below + 1)};
 }
 
-/// A cubic from slice to slice, so that the surface has no edge at a slice; its ends go straight where the
-/// slice beyond shows another surface. Neither end is so steep that the cubic would turn back.
+/// A cubic from slice to slice, so that the surface has no edge at a slice; its ends go straight if the slice
+/// beyond shows another surface. Neither end is so steep that the cubic would turn back.
 double SliceShapes::depth_between(const glm::dvec3& at, int below, double lower_mm, double upper_mm) const {
     const double way_mm = upper_mm - lower_mm;
     // `inner_mm`: the depth on the other side of the interval.

@@ -60,7 +60,7 @@ std::vector<Segment> named_segments(const std::filesystem::path& path, const Ope
     std::vector<Segment> segments;
     std::map<int, int> segments_of_layer;
     for (int i = 0; i < most_segments; ++i) {
-        // Numbers may have gaps, where a program took one out.
+        // Numbers may have gaps, if a program took one out.
         const bool is_there = value(i, "Name") || value(i, "ID");
         if (!is_there) continue;
         std::string name = value(i, "Name").value_or("");

@@ -15,7 +15,7 @@ namespace osteomill {
 // The index's entries for a camera, for the session that a playhead is in, for a frame and for one of its
 // cameras; units and conventions are the index's.
 
-/// Name, size and intrinsics; null for these where they change from frame to frame.
+/// Name, size and intrinsics; null for these if they change from frame to frame.
 nlohmann::ordered_json json_of(const DatasetCamera& camera);
 nlohmann::ordered_json session_json(const Playhead& playhead);
 /// All but its images: time, tool, hand, force, removed volume. The playhead has a tool.

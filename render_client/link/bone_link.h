@@ -45,7 +45,7 @@ class BoneLink final : public SessionSource {
     /// Sends controls in order; drops them while not connected, and if the server does not accept them. The
     /// outcome arrives as an event.
     void send_control(const SessionControl& control) override;
-    /// At most thirty times a second; sent where it has changed, to a server that records it.
+    /// At most thirty times a second; sent if it has changed, to a server that records it.
     void send_view(const Viewpoint& view) override;
     /// The server before is left, and its bone stays until the next has come.
     void connect_to(const ListenAddress& server) override;

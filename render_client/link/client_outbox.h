@@ -24,7 +24,7 @@ class ClientOutbox {
     /// one.
     void end();
 
-    // Each is dropped where the session does not accept it.
+    // Each is dropped if the session does not accept it.
     void put(v2::OperatorInput input);
     /// Dropped, too, beyond most_waiting_controls.
     void put(v2::SessionControl control);

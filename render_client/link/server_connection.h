@@ -60,7 +60,7 @@ class ServerConnection {
     void send(const SessionControl& control);
     /// From where its operator looks, sent again on later connections; only to servers that record it.
     void send(const Viewpoint& view);
-    /// Asks for the CT; dropped where the server has none.
+    /// Asks for the CT; dropped if the server has none.
     void ask_for_ct();
     /// The tool of the newest state frame on this connection; nothing before the first.
     std::optional<ToolState> newest_tool() const;

@@ -1,6 +1,6 @@
 // A client's replica of the server's bone, verified and repaired, through one session after another: follows
-// the state frames, checks every checksum, and has the bricks that differ sent again where one does not hold.
-// No sockets, no clock.
+// the state frames, checks every checksum, and has the bricks that differ sent again if one does not hold. No
+// sockets, no clock.
 #pragma once
 
 #include <cstdint>

@@ -97,7 +97,7 @@ struct Shared {
     std::atomic<bool> is_fullscreen{false};
 };
 
-/// The thread that draws: takes in what the source brings, and shows it where it has changed.
+/// The thread that draws: takes in what the source brings, and shows it if it has changed.
 class Drawing {
   public:
     /// The window's context is current here, for as long as this lives.
@@ -206,7 +206,7 @@ class Drawing {
         if (news == SessionNews::figures || !session_.view().notice.empty()) redraw_.note_figures();
     }
 
-    /// Another case brings another transfer table; an edited one is saved where that is requested.
+    /// Another case brings another transfer table; an edited one is saved if that is requested.
     void work_look(double now_s) {
         ViewSettings& view = session_.view();
         try {

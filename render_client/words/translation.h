@@ -1,7 +1,7 @@
 // Words of the window in a person's language, found by the English ones as gettext does. English is in the
 // sources; every other language is a file beside this one: LANGUAGE.toml, "English" = "translated".
 //
-// What a server says (faults, notices) comes in English, and is translated as a whole where the file has it.
+// What a server says (faults, notices) comes in English, and is translated as a whole if the file has it.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ std::string language_of_environment();
 /// before there are threads.
 void speak(const std::string& language);
 
-/// In the language that is spoken; where it has no such words, the English ones. Lives for ever.
+/// In the language that is spoken; if it has no such words, the English ones. Lives for ever.
 const char* tr(const char* english);
 inline std::string tr(const std::string& english) {
     return tr(english.c_str());

@@ -94,8 +94,8 @@ class MillingSession {
     /// For the streaming server and others that follow or control the session.
     SessionExchange& exchange() { return exchange_; }
 
-    /// Called on the caller's thread: about every 20 ms, on the virtual clock every 33 ms of the session,
-    /// where it may consume the changes.
+    /// Called on the caller's thread: about every 20 ms, on the virtual clock every 33 ms of the session, if
+    /// it may consume the changes.
     using OnProgress = std::function<void(const ToolState&)>;
 
     /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Throws what
@@ -107,7 +107,7 @@ class MillingSession {
 
     /// Throws what device.start() throws.
     void start();
-    /// Makes so many ticks, fewer where the duration is over or `stop` is set; returns how many.
+    /// Makes so many ticks, fewer if the duration is over or `stop` is set; returns how many.
     std::uint64_t advance(std::uint64_t ticks, const OnProgress& on_progress = {},
                           const std::atomic<bool>* stop = nullptr);
     // Or as recorded of a session on the real clock; with repeats_real_clock, after start().

@@ -34,7 +34,7 @@
 // earlier fault.
 //
 // The spindle turns while the pedal is down, its latch (pedal_latch.h) is free and the tool touches bone.
-// Beside the reasons in pedal_latch.h, it is locked where the force goes off, for whatever reason: a spindle
+// Beside the reasons in pedal_latch.h, it is locked if the force goes off, for whatever reason: a spindle
 // that stopped starts again by a fresh press alone. And it is locked for as long as a fault lasts that
 // withdraws_pedal() (fault.h), whatever else is wrong in the same tick.
 //

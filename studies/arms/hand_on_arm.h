@@ -32,7 +32,7 @@ struct HandOnArm {
 std::vector<glm::dvec3> forces_of(const Scene& scene, const Bone& bone, const HandOnArm& choice);
 
 /// Simulated arms with the mass, encoder and claim of each that is shipped; friction as the simulated arm's
-/// where it is not known.
+/// if it is not known.
 std::vector<std::pair<std::string, ArmModel>> shipped_arms();
 
 }  // namespace osteomill::study

@@ -51,7 +51,7 @@ class PictureTrial {
 
     /// The median of so many frames; with 0 the first is what counts, for what takes seconds.
     DrawnWay draw(const DrawingWay& way, int times) const;
-    /// Whether normals are taken from smoothed fractions: not where they do not fit, nor of surface voxels.
+    /// Whether normals are taken from smoothed fractions: not if they do not fit, nor of surface voxels.
     bool has_smoothed_normals() const { return textures_->smoothed() != nullptr; }
     const std::string& gl_renderer() const { return gl_renderer_; }
 

@@ -34,7 +34,7 @@ class Panels {
 
     /// Opens an ImGui frame, in the colours of `theme` and with letters and controls `scale` times as large
     /// as on an ordinary display. `elapsed_s` is the time since the last one. Panels are laid out in a
-    /// picture of `size_px` and drawn into pictures of `drawn_px`, which differ where two eyes share one.
+    /// picture of `size_px` and drawn into pictures of `drawn_px`, which differ if two eyes share one.
     void begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s, ThemeName theme,
                float scale);
     /// Draws what was put into the frame into each of these pictures; returns where that is in them.

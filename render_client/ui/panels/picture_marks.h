@@ -18,7 +18,7 @@ void draw_force_label(const PanelPainter& painter, const ToolState& tool, double
                       std::span<const std::optional<PanelPlace>> panels);
 
 /// On the bone that the burr's centre would meet along its spindle, as large as the burr: nothing if that
-/// is more than 20 mm away, and where it touches already.
+/// is more than 20 mm away, and if it touches already.
 void draw_touch_ring(const PanelPainter& painter, const Bone& bone, const ToolState& tool,
                      double burr_radius_mm, const Camera& camera, const glm::ivec2& size_px);
 

@@ -67,8 +67,8 @@ std::array<PreviewSlice, 3> preview_slices(const ScanBox& covers, double mm_per_
 /// The one with this pixel; nothing between two of them.
 std::optional<PreviewSlice> slice_at(const ScanBox& covers, double mm_per_px, const glm::dvec2& px);
 
-/// The slices through a place, patient LPS, with the segments outlined; the nearest ones where it is outside
-/// the scan.
+/// The slices through a place, patient LPS, with the segments outlined; the nearest ones if it is outside the
+/// scan.
 Picture picture_of(const ScanVoxels& voxels, const ScanBox& covers, double mm_per_px,
                    const glm::dvec3& place_mm);
 
@@ -76,7 +76,7 @@ Picture picture_of(const ScanVoxels& voxels, const ScanBox& covers, double mm_pe
 std::array<const char*, 4> letters_of(const PreviewSlice& slice);
 
 /// The picture with the edge of what has so many HU or more drawn into its slices, a pixel thick; nothing is
-/// drawn where the picture does not say its HU.
+/// drawn if the picture does not say its HU.
 Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_per_px, double threshold_hu);
 
 /// The box with two of its sides as they were dragged in a slice, from one pixel of the picture to another;

@@ -67,7 +67,7 @@ class BoneOnScreen {
     };
     void begin(const Bone& bone);
     void build(const Bone& bone, const std::function<bool()>& has_time, Outcome& outcome);
-    /// Drops what is shown where that is in the way. True: the build began anew.
+    /// Drops what is shown if that is in the way. True: the build began anew.
     bool make_room(const Bone& bone, Outcome& outcome);
     void show(Outcome& outcome);
     void fail(const std::string& problem, Outcome& outcome);

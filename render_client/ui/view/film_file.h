@@ -14,7 +14,7 @@ namespace osteomill {
 class FilmFile {
   public:
     /// The ending of the name says which kind of film: .mp4, .mkv, .webm, ... Throws std::runtime_error with
-    /// one line where there is no ffmpeg, and if the file cannot be.
+    /// one line if there is no ffmpeg, and if the file cannot be.
     FilmFile(const std::filesystem::path& file, const glm::ivec2& size_px, int frames_per_s);
     /// Ends ffmpeg; a film that was not closed goes.
     ~FilmFile();

@@ -28,8 +28,8 @@ class SettingsFile {
     const KeptSettings& settings() const { return settings_; }
     /// One line about what is wrong in the file, where, and what would be right; empty: nothing.
     const std::string& wrong() const { return wrong_; }
-    /// Writes them, as a whole, where they are others than before. Returns one line about what went wrong,
-    /// once; else nothing.
+    /// Writes them, as a whole, if they are others than before. Returns one line about what went wrong, once;
+    /// else nothing.
     std::string keep(const KeptSettings& settings);
 
   private:

@@ -46,8 +46,8 @@ class SlicesView {
     void zoom(double factor);
     HuWindow& window() { return window_; }
 
-    /// The slice's picture as it is now, made anew only where something has changed. `bone_version` goes up
-    /// with each change of the bone.
+    /// The slice's picture as it is now, made anew only if something has changed. `bone_version` goes up with
+    /// each change of the bone.
     const gl::Texture2D& picture(SlicePlane plane, int edge_px, const Bone* bone, std::uint64_t bone_version);
     SliceView view(SlicePlane plane, int edge_px) const;
 
