@@ -109,7 +109,7 @@ void FivrsRecording::begin_v3() {
 void FivrsRecording::add(const Playhead& playhead) {
     const ToolState& tool = *playhead.tool();
     const double began_s = began_s_ + playhead.time_s() - tool.time_s;  // the session's time is then zero
-    // Several states at one time are one row: what reads them wants time to go on.
+    // Several states at one time are one row: readers expect time to go on.
     if (row_times_s_.empty() || began_s + tool.time_s > row_times_s_.back()) add_row(playhead);
     for (const TickSample& tick : playhead.ticks())
         add_force(began_s + tick.time_s, tick.force_n, tick.shank_torque_n_mm,

@@ -17,7 +17,7 @@ struct RecordedBones {
 };
 
 /// Reads a recording through, every checksum with it; `on_frame` is called before each. Throws RecordingError
-/// if there is no bone in it; what is wrong later is said in `error`.
+/// if there is no bone in it; later faults are reported in `error`.
 RecordedBones bones_of(const std::filesystem::path& file, const ReportProgress& on_frame);
 
 }  // namespace osteomill

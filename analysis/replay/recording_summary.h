@@ -29,7 +29,7 @@ struct RecordingSummary : RecordingCounts {
 };
 
 /// Reads a recording through, every checksum with it; `on_state` is called behind each state frame. Throws
-/// RecordingError if there is no bone in it; what is wrong later is said in `error`.
+/// RecordingError if there is no bone in it; later faults are reported in `error`.
 RecordingSummary summarise(const std::filesystem::path& file,
                            const std::function<void(const Playhead&)>& on_state);
 

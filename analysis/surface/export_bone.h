@@ -25,8 +25,8 @@ ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const
                                                      const std::string& version);
 
 /// Writes the file and says in a line (`say`) what is in it. `progress` is called before each part of the
-/// work; what it throws ends the work, and nothing was written. Throws std::exception with one line for a
-/// file that holds no bone, bones of two grids, a bone that was not carved from the original, an output that
+/// work; if it throws, the work ends and nothing is written. Throws std::exception with one line for a file
+/// that holds no bone, bones of two grids, a bone that was not carved from the original, an output that
 /// cannot be written.
 void export_bone(const ExportOptions& options, const std::function<void(const std::string&)>& say,
                  const ReportProgress& progress);
