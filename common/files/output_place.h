@@ -1,7 +1,7 @@
 // Place of a file that a session writes at its end: reserved for it from the start, and found again if its
 // folder was moved or removed meanwhile.
 //
-// A file beside it, .NAME.lock, is locked (flock) and goes with this; what a killed program has left of it
+// A file beside it, .NAME.lock, is locked (flock) and goes with this; the file that a killed program leaves
 // blocks nobody.
 #pragma once
 

@@ -23,7 +23,7 @@ inline std::size_t depth_of_json(std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char letter = text[i];
         if (in_text && letter == '\\')
-            ++i;  // what follows ends no text
+            ++i;  // the next character ends no text
         else if (letter == '"')
             in_text = !in_text;
         else if (!in_text && (letter == '[' || letter == '{'))

@@ -59,7 +59,7 @@ struct SpeaksOtherProtocol {
     std::string program_version{};  ///< version of the program that sends it
 };
 
-/// Another piece of the CT; what it makes is the receiver's business.
+/// Another piece of the CT, which the receiver assembles.
 struct CtPieceArrived {
     v2::CtPiece piece;
 };

@@ -1,6 +1,6 @@
 // A snapshot of the bone in and out of messages, in pieces that fit a frame.
 //
-// Everything that arrives is checked before it is used; what does not fit is refused in one line.
+// Everything that arrives is checked before it is used; anything wrong is refused in one line.
 #pragma once
 
 #include <cstdint>

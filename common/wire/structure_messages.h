@@ -31,8 +31,8 @@ class StructureAssembler {
     StructureAssembler(const std::vector<Tissue>& tissues, const Grid& grid);
 
     /// The structure when its last piece has come, else nothing. A piece of one that is complete changes
-    /// nothing: a recording may be wound back. Refuses what makes no sense; what came of that structure is
-    /// then forgotten.
+    /// nothing: a recording may be wound back. Refuses a piece that makes no sense, and then forgets that
+    /// structure's earlier pieces.
     std::variant<std::optional<Structure>, WireError> take(const v2::StructureBricks& piece);
     /// Some pieces will not come: forgets the structure that is not complete.
     void miss();
