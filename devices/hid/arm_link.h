@@ -42,7 +42,7 @@ class ArmLink {
 
     /// The device answers one report per report: if nothing comes for this long, it waits for ours.
     static constexpr double wake_after_s = 0.010;
-    /// Two exchanges that failed: what it says is too old to answer with a force.
+    /// Two exchanges that failed: the arm's last report is then too old to answer with a force.
     static constexpr double silent_after_s = 0.020;
     static constexpr double given_up_after_s = 0.5;
     /// A force that has not been renewed for this long ends.

@@ -59,7 +59,7 @@ struct ArmProfile {
     double max_current_a = 0.0;
     SwitchUse switch_use = SwitchUse::pedal;
     std::optional<StylusEncoders> stylus;  ///< none: the spindle's direction is fixed
-    glm::dvec3 fixed_axis{0.0, 0.0, 1.0};  ///< unit, device space; what it is then
+    glm::dvec3 fixed_axis{0.0, 0.0, 1.0};  ///< unit, device space; the axis in that case
 };
 
 }  // namespace osteomill

@@ -36,8 +36,8 @@ struct TrackerSetup {
     std::vector<PointPair> points;
 };
 
-/// Throws std::runtime_error in one line, with file and, if it is of one, its line: what is missing, wrong
-/// or out of range, and what registered() refuses.
+/// Throws std::runtime_error in one line, with the file and, if known, the line in it, for entries that are
+/// missing, wrong or out of range, and for pairs that registered() refuses.
 TrackerSetup parse_tracker_setup(std::string_view toml, const std::string& name);
 TrackerSetup read_tracker_setup(const std::filesystem::path& path);
 
