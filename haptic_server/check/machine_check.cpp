@@ -17,7 +17,7 @@ namespace osteomill {
 
 namespace {
 
-/// A thousandth of a tick's period: what the loop's own spin before its deadline hides is far more.
+/// A thousandth of a tick's period; the loop's own spin before its deadline hides far more.
 constexpr double dear_clock_ns = 1000.0;
 constexpr double tick_us = 1000.0;
 /// A state that takes longer to leave is felt in the latest wake-ups.

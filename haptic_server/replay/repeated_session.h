@@ -26,8 +26,8 @@ struct RepeatedSession {
     std::string line() const;
 };
 
-/// Throws RecordingError if the file is no recording. `on_progress`: 0 to 1, now and then; what it throws
-/// ends it.
+/// Throws RecordingError if the file is no recording. `on_progress`: 0 to 1, now and then; if it throws, the
+/// repetition ends.
 RepeatedSession repeat_session(const std::filesystem::path& file,
                                const std::function<void(double)>& on_progress);
 

@@ -18,9 +18,9 @@ namespace osteomill {
 
 struct ShownOptions {
     StreamingOptions streaming{};            ///< whom, where, and what is recorded
-    ControlScript script{};                  ///< what is requested at its time without anybody
+    ControlScript script{};                  ///< requests that come at given times without anybody
     const OutputPlace* save_bone = nullptr;  ///< where a client may have the bone saved; outlives the session
-    std::string words_at_finish{};           ///< what is answered to who ends the session
+    std::string words_at_finish{};           ///< the answer to the client that ends the session
     bool accepts_controls = true;            ///< from clients
     // The session as clients and recordings see it.
     std::string version{};

@@ -12,7 +12,7 @@
 
 namespace osteomill {
 
-/// A start farther from all bone is taken for a mistake.
+/// A start farther from all bone counts as a mistake.
 inline constexpr double farthest_from_bone_mm = 50.0;
 /// Greatest distance by which the burr is drawn back along its handpiece to be clear of bone.
 inline constexpr double longest_draw_back_mm = 20.0;

@@ -138,7 +138,7 @@ void SessionRecorder::hand_over(Wait wait) {
         const std::optional<std::string> frame = feed_.next();
         if (!frame) return;
         Stamp stamp = std::max(stamp_of(time_s_), stamp_);
-        // Rows of a table have times of their own: what does not fit one state is a moment later.
+        // Rows of a table have times of their own: rows that do not fit one state come a moment later.
         if (feed_.newest_state() != newest) {
             if (newest > 0 && stamp <= stamp_) stamp = stamp_ + least_between_states;
             stamp_ = stamp;

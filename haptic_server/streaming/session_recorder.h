@@ -35,7 +35,7 @@ class SessionRecorder {
     /// disk that does not answer (see RecordingWriter).
     void finish(SessionState state, const std::string& reason);
 
-    /// Its error also says where the end is missing. Then what there is stays in the part.
+    /// Its error also tells if the end is missing. The recorded frames then stay in the part.
     RecordingReport report() const;
 
   private:
