@@ -40,7 +40,7 @@ struct ImportSurroundings {
     bool is_terminal = false;
     std::optional<std::uint64_t>
         available_memory_bytes{};  ///< std::nullopt: not known, nothing is refused for it
-    /// Called again and again, from any thread, while the import works; what it throws ends it.
+    /// Called again and again, from any thread, while the import works; if it throws, the import ends.
     std::function<void()> go_on = [] {};
 };
 

@@ -33,8 +33,8 @@ inline constexpr std::int16_t milled_away_hu = air_hu;
 
 /// Writes the file beside `path` and switches to it at once. `source` gives what `bone` was built from;
 /// `key_values` go with it (the threshold among them). Throws std::invalid_argument if the grids differ,
-/// ImagingError if the file cannot be written; what stood under the name is then as it was, as it is when
-/// `source` throws.
+/// ImagingError if the file cannot be written; an older file of that name is then unchanged, also if `source`
+/// throws.
 void save_carved_bone(
     const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
     const std::map<std::string, std::string>& key_values = {}, const ReportProgress& report = [](double) {});
@@ -54,9 +54,9 @@ struct RestoredBone {
 bool is_carved(const BoneFile& file);
 
 /// The bone that was saved: equal checksum, and equal stiffness and labels wherever anything is left. The
-/// scene's threshold and stiffness relation play no part: what was carved keeps the codes that it had. Reads
-/// all of the file, the HU, too. Throws ImagingError in one line that names the channel if a digest is not
-/// the one saved, and for what 0.1 saved.
+/// scene's threshold and stiffness relation play no part: a carved bone keeps its codes. Reads all of the
+/// file, the HU, too. Throws ImagingError in one line that names the channel if a digest is not the one
+/// saved, and for files of 0.1.
 RestoredBone restore_carved_bone(const BoneFile& file);
 
 }  // namespace osteomill

@@ -18,9 +18,9 @@ class DicomFrames {
     DicomFrames(DicomFrames&&) noexcept;
     DicomFrames& operator=(DicomFrames&&) noexcept;
 
-    /// Columns x rows values, column fastest, in HU as the file itself says (DicomValues::hu); what is
-    /// padding is not a number. They may be changed, and are there until the next call. Any order of frames.
-    /// Throws ImagingError if the pixels cannot be decoded or are not of the size that the header says.
+    /// Columns x rows values, column fastest, in HU as the file itself says (DicomValues::hu); padding is not
+    /// a number. They may be changed, and are there until the next call. Any order of frames. Throws
+    /// ImagingError if the pixels cannot be decoded or are not of the size that the header says.
     std::span<float> frame(unsigned index);
 
     /// The most memory that reading takes: a frame, or the whole file if it is compressed as a whole.

@@ -34,7 +34,7 @@ struct DicomHeader {
     double slice_gap_mm = 0.0;           ///< Spacing Between Slices; 0 if not stated
     double slice_thickness_mm = 0.0;     ///< 0 if not stated
     std::vector<DicomRescale> rescales;  ///< one a frame
-    /// What had to be assumed of it, or makes its values doubtful, in words that follow its name.
+    /// The assumptions about it and the doubts about its values, as texts that follow its name.
     std::vector<std::string> notes;
     std::string fault;  ///< why the frames make no volume, in words; empty where they may
 };

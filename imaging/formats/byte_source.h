@@ -50,8 +50,8 @@ class ByteSource {
     std::uint64_t given_ = 0;             // bytes, decoded
 };
 
-/// A file's first bytes, at most so many, inflated if they are gzip's. Damage ends them early; what reads the
-/// file finds it.
+/// A file's first bytes, at most so many, inflated if they are gzip's. Damage ends them early; the file's
+/// reader finds the damage.
 std::vector<std::uint8_t> first_bytes_inflated(const InputFile& file, std::size_t most);
 
 /// Whether a file of `file_bytes` may hold `bytes` in this encoding: deflate packs 1032 into one at most.

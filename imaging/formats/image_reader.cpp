@@ -60,8 +60,8 @@ ImageStart start_of(const std::filesystem::path& path, const ImageChoice& choice
     return start;
 }
 
-/// The text header begins with fields, of which "NDims" is one of the first. It has no mark: what is called
-/// so and is nothing else is taken for one, so that its reader says what is wrong.
+/// The text header begins with fields, of which "NDims" is one of the first. It has no mark, so a file with
+/// its ending that is no other format counts as one, and its reader reports the fault.
 bool is_meta_image(const ImageStart& start) {
     const std::string ending = lower_case(start.path.extension().string());
     if (ending == ".mha" || ending == ".mhd") return true;

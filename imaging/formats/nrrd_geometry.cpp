@@ -82,7 +82,7 @@ NrrdSpace space_of(const NrrdHeader& header, const std::filesystem::path& path) 
     return space;
 }
 
-/// Millimetres of one, for each of `count` axes; what a field of quoted names says.
+/// The length of one unit in millimetres for each of `count` axes, from a field of quoted names.
 std::vector<double> mm_of_units(const NrrdHeader& header, const char* name, std::size_t count,
                                 const std::filesystem::path& path, SourceImage& image) {
     std::vector<double> mm(count, 1.0);

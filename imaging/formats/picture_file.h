@@ -17,7 +17,7 @@ struct SlicePicture {
     int height = 0;
     bool is_coloured = false;
     std::vector<float> values{};  ///< left to right, top to bottom; see picture_stack.h
-    std::string note{};           ///< what was made of them; empty where nothing was
+    std::string note{};           ///< how values were converted; empty if they were not
 };
 
 /// PNG of any form: grey stays grey, 8 or 16 bits, palettes are colours. Throws ImagingError.

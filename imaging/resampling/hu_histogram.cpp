@@ -24,7 +24,7 @@ constexpr int highest_of_stored_air = 100;
 constexpr int most_of_median_of_air = 15;
 /// The area outside a scanner's round field of view often has one value of its own, far below all others.
 constexpr int least_gap_above_padding = 64;
-/// Air has noise around -1000; what is measured lies above this.
+/// Air has noise around -1000; tissue lies above this.
 constexpr float lowest_air_hu = -1100.0F;
 /// A constant near -1000 in more of a scan is its air, not what lies outside of a round field of view.
 constexpr double most_padding_like_air = 0.25;

@@ -55,7 +55,7 @@ std::size_t step_along(const SourceImage& part, int axis) {
     return step;
 }
 
-/// Weights of a cubic B-spline and of its slope: what smooths a distance whose contour is made of short
+/// Weights of a cubic B-spline and of its slope, which smooth a distance whose contour is made of short
 /// straight pieces.
 struct SmoothWeights {
     double value[4];

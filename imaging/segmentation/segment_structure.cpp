@@ -129,7 +129,7 @@ double voxels_within(const Segmentation& segmentation, const Segment& segment, c
 /// round and thin too small, a rod of four voxels by 2 %. Never above: two segments side by side would leave
 /// a gap.
 std::int16_t level_of(const Refiner& refiner, const Grid& grid, double wanted_voxels) {
-    std::vector<std::uint64_t> with_value(half + 1);  // what is larger counts as a half
+    std::vector<std::uint64_t> with_value(half + 1);  // larger values count as a half
     std::mutex mutex;
     in_parallel(grid.size_voxels.z, [&](int z) {
         std::vector<std::int16_t> refined(static_cast<std::size_t>(grid.size_voxels.x) *
