@@ -38,7 +38,7 @@ struct DatasetCamera {
     std::vector<double> times_s{};  ///< ascending
     std::vector<Pose> poses{};      ///< at those; one where it stands still, none: the first view
     double aside_mm = 0.0;          ///< how far to the right of that pose: one of a pair
-    double aside_slope = 0.0;       ///< what of that comes to the middle of the picture: mm a mm forward
+    double aside_slope = 0.0;       ///< the shift of the picture's middle by that: mm a mm forward
     bool follows_trainee = false;   ///< in place of those poses
     bool has_trainees_angle = false;
 

@@ -1,7 +1,7 @@
 // Domain randomisation: the same surfaces under other lamps, of other colours, wet or dry, by another camera.
 //
-// Every pixel's surface is known, so that its light is made anew from its normal: what the lamps of the scene
-// send back from it is replaced by what turned and tinted lamps would (lighting.h), times a tint of its
+// Every pixel's surface is known, so that its light is made anew from its normal: the light that the scene's
+// lamps reflect from it is replaced by that of turned and tinted lamps (lighting.h), times a tint of its
 // label, and a wet tissue has their highlights (Blinn). Shadows stay. The camera then exposes, blurs by a
 // Gaussian, and adds noise of variance read^2 + shot * light, in linear light (Foi et al. 2008, IEEE Trans.
 // Image Process. 17).

@@ -19,7 +19,7 @@ namespace osteomill {
 
 class KeyFrames {
   public:
-    /// Recorded time between two key frames: what is to be read again when winding back, at most.
+    /// Recorded time between two key frames: winding back reads at most so much again.
     static constexpr double interval_s = 5.0;
 
     /// `start`: where the bone is as it first came.

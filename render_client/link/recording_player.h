@@ -46,7 +46,7 @@ class RecordingPlayer final : public SessionSource {
     void pause() { is_playing_ = false; }
     double speed() const { return speed_; }
     void set_speed(double speed);
-    /// Anywhere from the first bone to duration_s(); what is beyond is its nearest end.
+    /// Anywhere from the first bone to duration_s(); a time beyond counts as the nearest end.
     void seek(double time_s);
 
     /// The time that it is at or, while it seeks, the time that it is going to.

@@ -72,7 +72,8 @@ class ServerConnection {
     void resume();
     /// Why nothing more is recorded; empty while all is well, and if nothing is to be.
     std::string recording_error() const;
-    /// Writes what still waits; what comes later is not recorded. One line where some of it is not.
+    /// Writes the frames that still wait; later ones are not recorded. Returns one line if some could not be
+    /// written.
     std::string finish_recording();
     /// Drops what has come of this connection and begins another.
     void reconnect();
@@ -82,7 +83,7 @@ class ServerConnection {
   private:
     using tcp = boost::asio::ip::tcp;
 
-    /// A recording has none: what a frame said that is missing there cannot be requested in years.
+    /// A recording has none: changes of a frame that is missing there cannot be requested years later.
     Gaps gaps() const { return recorder_ ? Gaps::refused : Gaps::reported; }
 
     void run();

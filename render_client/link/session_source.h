@@ -50,7 +50,7 @@ struct LinkUpdate {
     std::vector<StructureDistance> distances{};
     /// From where the one who moves the tool looks, in a recording that says so.
     std::optional<Viewpoint> view{};
-    SessionStatus controls{};  ///< what can be done with the session now
+    SessionStatus controls{};  ///< the controls that the session accepts now
     /// How old the newest tool of this session was when a poll took it; nothing if the server does not
     /// say.
     std::optional<DelayMeter::Delay> delay{};

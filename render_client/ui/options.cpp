@@ -67,7 +67,7 @@ NoRun wrong_usage(const std::string& what) {
     return {2, "render_client: " + what};
 }
 
-/// An option with a few named values; what is no name is refused with all that are.
+/// An option with a few named values; any other text is refused with a list of the names.
 template <typename Value>
 void add_choice(CLI::App& app, const std::string& option, const std::vector<std::string>& names,
                 const std::vector<Value>& values, Value& chosen, const std::string& help) {

@@ -24,7 +24,7 @@ struct RenderOptions {
     std::uint16_t port = 7010;
     bool names_server = false;                    ///< the command line does
     std::optional<TlsFiles> tls;                  ///< absent: in the clear
-    std::optional<std::filesystem::path> record;  ///< what is received goes there, too
+    std::optional<std::filesystem::path> record;  ///< received frames are written there, too
     std::optional<std::filesystem::path> replay;  ///< a recording in place of a server
     std::optional<DatasetOptions> dataset;        ///< made of the recording
     double speed = 1.0;                           ///< playback's: recorded seconds a second

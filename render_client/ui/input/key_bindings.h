@@ -92,7 +92,7 @@ std::vector<Action> actions_of(std::span<const int> pressed_keys, Situation situ
 /// Whether a binding is valid in that situation.
 bool holds(const KeyBinding& binding, Situation situation);
 
-/// A line of the help: what to press, what it does. A line without a name goes on with the one before.
+/// A line of the help: a key and its effect. A line without a name goes on with the one before.
 struct HelpLine {
     std::string name;
     std::string meaning;

@@ -17,7 +17,7 @@ struct PanelRequest {
     bool may_cover_middle = false;  ///< a page or a question: it wants to be read and answered
     bool is_kept = false;           ///< room for its last size is kept, whatever is more important
     bool is_requested = false;      ///< the user opened it: others that were opened shrink for it
-    bool gives_way = false;         ///< to the burr, wherever that is; what is pressed must not flee
+    bool gives_way = false;         ///< to the burr, wherever that is; a panel with buttons must not flee
 };
 
 struct PanelPlace {

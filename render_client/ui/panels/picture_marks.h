@@ -22,7 +22,7 @@ void draw_force_label(const PanelPainter& painter, const ToolState& tool, double
 void draw_touch_ring(const PanelPainter& painter, const Bone& bone, const ToolState& tool,
                      double burr_radius_mm, const Camera& camera, const glm::ivec2& size_px);
 
-/// Over the whole picture: what is seen is not of now.
+/// Marks the whole picture as not current.
 void draw_veil(const PanelPainter& painter, const glm::ivec2& size_px);
 
 /// Round the picture, in the colour of warnings.

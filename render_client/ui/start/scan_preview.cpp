@@ -161,7 +161,7 @@ Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_
         const auto* pixel = picture.at(x, y);
         return pixel[0] == pixel[1] && pixel[1] == pixel[2];
     };
-    // Not where a segment's outline is: what is under that is not known.
+    // Not under a segment's outline, where the value is not known.
     const auto is_bone = [&](int x, int y) { return !is_grey(x, y) || *picture.at(x, y) >= grey; };
     for (const PreviewSlice& slice : preview_slices(look.covers, mm_per_px)) {
         const glm::ivec2 first(slice.first_px);

@@ -82,7 +82,7 @@ class BoneOnScreen {
     GatheredChanges unshown_;
     std::shared_ptr<TextureBuild> build_;
     ShadingSettings build_look_;
-    GatheredChanges unbuilt_;  ///< what changed while it went on
+    GatheredChanges unbuilt_;  ///< changes during the build
     std::string problem_;
 };
 

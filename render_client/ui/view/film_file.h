@@ -33,7 +33,7 @@ class FilmFile {
     AtomicFile file_;
     pid_t program_ = -1;
     int pipe_ = -1;        // into the program
-    int complaints_ = -1;  // what it wrote on its standard error
+    int complaints_ = -1;  // its standard error
 };
 
 }  // namespace osteomill

@@ -51,7 +51,7 @@ class SessionPicture {
     /// Copies the last picture to the window whose context is current.
     void copy_to_window() const { picture_.copy_to_window(); }
 
-    /// How long the whole frame took, waiting excluded: what quality on demand goes by.
+    /// The duration of the whole frame, waiting excluded; it controls quality on demand.
     void frame_took(double frame_s) { picture_.frame_took(frame_s); }
     PictureQuality quality() const { return picture_.quality(); }
 

@@ -41,7 +41,7 @@ constexpr SessionSight sight_of(const LinkUpdate& link, bool has_bone, bool is_r
 struct SightElements {
     bool tool = false;       ///< burr, spindle, force, distances, warnings, sound
     bool controls = false;   ///< buttons, keys and mouse act on the session
-    bool is_grey = false;    ///< what is drawn is not of now
+    bool is_grey = false;    ///< the picture is not current
     bool has_words = false;  ///< in the middle: the cause, and what to do
 };
 

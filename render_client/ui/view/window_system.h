@@ -29,8 +29,7 @@ class WindowSystem {
     /// Wayland: it has no refreshes for a window that is hidden, whose thread would wait for ever.
     int swap_interval() const { return error_of_wayland_ ? 0 : 1; }
 
-    /// The display's server ended or shut this program out; what is drawn then is lost without harm. On any
-    /// thread.
+    /// The display's server ended or shut this program out; drawing is then lost without harm. On any thread.
     bool has_gone() const;
 
     /// Why GLFW's last call on this thread failed.
