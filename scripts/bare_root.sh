@@ -12,7 +12,7 @@ apt() {
     within apt-get -y -qq --no-install-recommends "$@" >"$root/root/apt.log" 2>&1 || { tail -20 "$root/root/apt.log" >&2; exit 1; }
 }
 
-# suite_of FOLDER: what the packages in a folder are for.
+# suite_of FOLDER: the suite that the packages in a folder are for.
 suite_of() {
     local changes=("$1"/osteomill_*.changes)
     [ -e "${changes[0]}" ] || { echo "$1 holds no packages: scripts/package.sh builds them" >&2; return 1; }

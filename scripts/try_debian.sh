@@ -28,8 +28,8 @@ for what; do
     case $what in demo | test | packages) ;; *) usage ;; esac
 done
 
-# Twice: outside it makes the root, and removes it in the end. Within, in namespaces of its own, it mounts and runs: what is mounted and
-# what still runs is gone before the root is removed.
+# Twice: outside it makes the root, and removes it in the end. Within, in namespaces of its own, it mounts and runs: mounts and processes
+# are gone before the root is removed.
 if [ -z "${OSTEOMILL_ROOT_TO_TRY:-}" ]; then
     [ "$(id -u)" -eq 0 ] || cannot "debootstrap needs root"
     command -v debootstrap >/dev/null || cannot "debootstrap is not installed (apt-get install debootstrap)"
