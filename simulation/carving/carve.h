@@ -23,7 +23,7 @@ enum class CarveHistory {
 struct CarveSettings {
     VoxelCoverage coverage = VoxelCoverage::smoothed;
     InstructionSet instructions = best_instruction_set();
-    const UncutTissues* uncut = nullptr;  ///< what is left alone; null: nothing
+    const UncutTissues* uncut = nullptr;  ///< the tissues to leave alone; null: none
 };
 
 /// Carves a sweep given in voxel coordinates (whole numbers are voxel centres, radius in voxels). Hands each

@@ -78,7 +78,7 @@ inline std::int32_t level_left_at(VoxelCoverage coverage, double beyond) {
     return level_left_at<VoxelCoverage::binary>(beyond);
 }
 
-/// A short sweep, seen from a voxel nearby; what the inner loop needs of it.
+/// A short sweep, seen from a voxel nearby, reduced to the values that the inner loop needs.
 struct SweepSeenFrom {
     /// `sweep` in voxel coordinates. `base` is a whole number of voxels, so nothing is rounded.
     SweepSeenFrom(const Sweep& sweep, const glm::dvec3& base, VoxelCoverage voxel_coverage);

@@ -14,7 +14,7 @@ struct DeviceLimits {
     double position_resolution_mm = 0.0;       ///< step of a position reading; 0: negligible
     double damping_n_s_per_mm = 0.004;         ///< the damper beside that spring
     const char* stiffness_is_limited_by = "";  ///< for people
-    bool gives_force = true;  ///< false: what is written is shown to people, and felt by nobody
+    bool gives_force = true;                   ///< false: forces are shown to people, and felt by nobody
 };
 
 /// The same in the patient's millimetres, in which couplings reckon.
