@@ -22,7 +22,7 @@ double removal_mm3_per_s(const ForceSeries& series);
 double relative_error(const glm::dvec3& value, const glm::dvec3& reference);
 
 /// |F - mean| over |mean|, F being the mean force of each whole `window_s` (of each step if a step is
-/// longer): what a hand that follows no faster than that feels. None for a mean of zero.
+/// longer): the variation for a hand that follows no faster than that. None for a mean of zero.
 std::vector<double> deviations(const ForceSeries& series, double window_s = 0.01);
 
 /// Their root mean square; 0 for none.

@@ -12,7 +12,7 @@ namespace osteomill::study {
 struct CarveUpload {
     TexturePlan plan{};
     std::vector<TextureSize> textures{};
-    FrameMilliseconds by_frame{};  ///< what the 5 mm burr cuts from one frame to the next
+    FrameMilliseconds by_frame{};  ///< the cut of the 5 mm burr from one frame to the next
     FrameMilliseconds by_ball{};   ///< a ball of 5 mm at once, at the burr's first place
     std::size_t bricks_of_ball = 0;
 };

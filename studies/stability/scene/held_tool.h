@@ -4,7 +4,7 @@
 //     m dv/dt = u + push + clamp(K (target - x), max_push) + B (v_target - v) - b v - friction
 //
 // mm, s, N. The target moves evenly. The hand is hand_model.h's without its slow correction by eye, and
-// without anyone who waits for the tool: what a few tenths of a second show.
+// without anyone who waits for the tool: it is valid for a few tenths of a second.
 #pragma once
 
 #include <glm/vec3.hpp>
