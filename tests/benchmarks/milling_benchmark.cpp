@@ -112,8 +112,8 @@ BENCHMARK(CrescentAgainstFullScan)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-/// A whole step as the implicit coupling wants it, with the engagement map. Argument: depth. edges_times:
-/// what the same step takes with edges that rub, beside one without.
+/// A whole step as the implicit coupling wants it, with the engagement map. Argument: depth. edges_times: the
+/// time of the same step with edges that rub, relative to one without.
 void StepWithEngagement(benchmark::State& state) {
     const auto make = study::voxel_model_with_engagement();
     const auto model = make(volume(), Burr{});

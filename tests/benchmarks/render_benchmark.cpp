@@ -203,7 +203,7 @@ BENCHMARK(CarveInStereo)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
-/// Nothing moves but the tool's spin: what panels, tool and restoring cost.
+/// Nothing moves but the tool's spin: the cost of panels, tool and restoring.
 void IdleFrame(benchmark::State& state) {
     Client client(FrameQuality::on_demand);
     for ([[maybe_unused]] auto _ : state) {

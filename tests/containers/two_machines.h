@@ -22,7 +22,7 @@ class TwoMachines {
   public:
     virtual ~TwoMachines() = default;
 
-    /// For people: what they are.
+    /// A description of the machines, for people.
     virtual std::string kind() const = 0;
     /// The command that runs `program` (a file name) with `arguments` on a machine.
     virtual Command run(Machine where, const std::string& program, const Command& arguments) const = 0;

@@ -39,7 +39,7 @@ struct Attack {
     const char* name;
     /// Writes the files of the attack into the folder; gives what to import.
     std::function<std::filesystem::path(const std::filesystem::path& folder)> write;
-    const char* reason;  ///< what the refusal must say
+    const char* reason;  ///< a text that the refusal must contain
 
     friend std::ostream& operator<<(std::ostream& out, const Attack& attack) { return out << attack.name; }
 };

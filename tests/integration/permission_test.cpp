@@ -114,7 +114,7 @@ class Permissions : public ::testing::Test {
         port_ = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
     }
 
-    /// Ends the session; what the spindle did in it.
+    /// Ends the session; returns the spindle's log.
     std::vector<ForceLogLine> log_of_session() {
         server_.send_signal(SIGINT);
         EXPECT_EQ(server_.wait(), 0) << server_.err();

@@ -60,7 +60,7 @@ class SavedBone : public testing::FolderTest {
         command.insert(command.end(), options.begin(), options.end());
         return command;
     }
-    /// The checksum of a bone as the server loads it; what it says where it refuses.
+    /// The checksum of a bone as the server loads it, or the message with which it refuses.
     std::string loaded(const std::string& bone) const {
         std::filesystem::remove(file("loaded.json"));
         const Finished run = testing::run_program(

@@ -50,7 +50,7 @@ class LinkProxy {
         delay_to_client_ms_ = to_client.count();
     }
 
-    /// Nothing passes any more, in silence; what is sent waits.
+    /// Nothing passes any more, without notice; sent data wait.
     void cut() { is_cut_ = true; }
     void heal() { is_cut_ = false; }
     /// Hangs up on everybody.

@@ -14,7 +14,7 @@
 
 namespace osteomill::testing {
 
-/// The angles A, B, C at which an arm's tip is at a position (device space, mm), elbow up; what is out of
+/// The angles A, B, C at which an arm's tip is at a position (device space, mm), elbow up; a place out of
 /// reach gives angles that are not finite.
 glm::dvec3 angles_at(const ArmProfile& profile, const glm::dvec3& position_mm);
 

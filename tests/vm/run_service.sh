@@ -1,5 +1,5 @@
 # In the virtual machine: systemd, the first process of a container, starts the server as scripts/systemd/osteomill.service says, for
-# an arm on /dev/uhid. The rest of a system is not there; what the unit takes from it is made here.
+# an arm on /dev/uhid. The rest of a system is not there; the parts that the unit needs are made here.
 mkdir -p /etc/systemd/system/osteomill.service.d /usr/local/bin /var/lib /var/tmp /home /root /run /sys/fs/cgroup
 chmod 755 / /trial
 mount -t tmpfs none /run

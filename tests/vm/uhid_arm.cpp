@@ -260,7 +260,7 @@ class Session {
     bool is_answer_due_ = false;
 };
 
-std::atomic<bool> stop_requested{false};  // what a signal handler may touch
+std::atomic<bool> stop_requested{false};  // a signal handler may use nothing else
 
 }  // namespace
 

@@ -73,7 +73,7 @@ void drill_tooth(NotingArm& arm, const Scene& scene) {
     });
 }
 
-// The bar of a knock is 0.03 N; what is left of it at the arm's 0.055 mm is in docs/results/stability.md.
+// The bar of a knock is 0.03 N; docs/results/stability.md has its remainder at the arm's 0.055 mm.
 TEST(EncoderNoise, OfTheSimulatedArmIsNotFeltAsTaps) {
     const Scene scene = phantom_scene("tooth");
     NotingArm shipped(scene, ArmModel{});

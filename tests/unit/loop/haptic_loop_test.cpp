@@ -25,7 +25,7 @@ class Bench {
     TripleBuffer<ToolState> tool;
     TripleBuffer<ToolState> status;
     HapticLoopOptions options{.burr_count = 3, .start_burr = 1};
-    MillingResult next;  // what the milling loop says from now on
+    MillingResult next;  // the milling loop's result from now on
     HandpieceVibration* vibration = nullptr;
     SessionGate gate;
     TripleBuffer<Placement> placements;

@@ -88,7 +88,7 @@ bool has_word(const std::string& text) {
     return false;
 }
 
-/// Words among a call's arguments that are not handed to tr; what is behind ## is not shown.
+/// Words among a call's arguments that are not handed to tr; text behind ## is not shown.
 std::vector<std::string> bare_words(const std::string& source, std::size_t at) {
     std::vector<std::string> bare;
     for (int depth = 1; at < source.size() && depth > 0;) {

@@ -41,7 +41,7 @@ TEST_F(SceneAppearanceTest, CutShowsTheTissuesInsideAsAFlatFaceWhereTheCutIs) {
     const Picture whole = picture.draw(&textures, nullptr, camera).read_back();
     EXPECT_GT(whole.at(middle.x, middle.y)[1], 2 * whole.at(middle.x, middle.y)[0]);
 
-    picture.set_appearance({.cuts = {{{0.0, -1.0, 0.0}, 0.5}}});  // what is in front of y = -0.5 is gone
+    picture.set_appearance({.cuts = {{{0.0, -1.0, 0.0}, 0.5}}});  // all in front of y = -0.5 is gone
     const gl::Framebuffer& cut = picture.draw(&textures, nullptr, camera);
     const Picture inside = cut.read_back();
     EXPECT_GT(inside.at(middle.x, middle.y)[0], 2 * inside.at(middle.x, middle.y)[1]) << "the red core";
