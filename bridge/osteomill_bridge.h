@@ -14,8 +14,8 @@
  *     }
  *     omb_close(&link);
  *
- * What comes back is safe by itself: the last force of the server is held for 5 ms, then fades, and is zero 50 ms
- * after the last word of the server; it is within the arm's force and slew, and finite. The messages:
+ * The force that comes back is safe by itself: the server's last force is held for 5 ms, then fades, and is zero 50 ms
+ * after the server's last message; it is within the arm's force and slew, and finite. The messages:
  * docs/device-bridge.md.
  *
  * Device space is the arm's own, right-handed, in mm; the server's scene says where the patient is in it.
@@ -54,7 +54,7 @@ typedef int omb_socket;
 #define OMB_NO_SOCKET (-1)
 #endif
 
-/* ---- What is said ------------------------------------------------------------------------------------------ */
+/* ---- Types ------------------------------------------------------------------------------------------------- */
 
 #define OMB_MAGIC 0x424d534fu /* "OSMB" on the wire */
 #define OMB_VERSION 1u
@@ -64,7 +64,7 @@ typedef int omb_socket;
 
 typedef enum omb_kind { OMB_HELLO = 1, OMB_WELCOME = 2, OMB_POSE = 3, OMB_FORCE = 4, OMB_GOODBYE = 5 } omb_kind;
 
-/* Of every message: who says it in which session, and when by the sender's clock. */
+/* The header of every message: who sends it in which session, and when by the sender's clock. */
 typedef struct omb_header {
     uint16_t kind;
     uint64_t session;  /* the server's, from its welcome; 0 in a hello */
@@ -72,14 +72,14 @@ typedef struct omb_header {
     uint64_t clock_ns;
 } omb_header;
 
-/* What the arm is. All lengths and forces in device space. */
+/* The arm's description. All lengths and forces in device space. */
 typedef struct omb_arm {
     char name[OMB_NAME_BYTES];       /* ends with a zero unless it is 16 bytes long */
     double max_force_n;              /* that it can give all the time */
     double max_torque_n_mm;          /* 0: it has no actuated rotations */
     double max_stiffness_n_per_mm;   /* of a spring that it renders stably with no delay but its own */
     double apparent_mass_kg;
-    double position_step_mm;         /* of a reading; 0: none to speak of */
+    double position_step_mm;         /* resolution of a reading; 0: negligible */
     double workspace_min_mm[3];
     double workspace_max_mm[3];
     double tool_from_handle_mm[3];   /* the burr's centre seen from what omb_pose places, in the handle's frame */
@@ -100,7 +100,7 @@ typedef struct omb_pose {
     double velocity_mm_per_s[3];
     uint32_t buttons;
     uint32_t status;
-    /* Filled by omb_exchange(): of the newest force message, so that the server can measure the way. */
+    /* Filled by omb_exchange() from the newest force message, so that the server can measure the delay. */
     uint64_t echo_sequence;
     uint64_t echo_clock_ns; /* as it stood in that message */
     uint64_t kept_ns;       /* from its arrival to this pose */
@@ -386,7 +386,7 @@ static inline void omb_get_force(const uint8_t message[OMB_MESSAGE_BYTES], omb_f
     force->echo_clock_ns = omb_get(body + 64, 8);
 }
 
-/* ---- What reaches the hand --------------------------------------------------------------------------------- */
+/* ---- The force on the hand --------------------------------------------------------------------------------- */
 
 #define OMB_HOLD_NS 5000000u      /* so long the last force is kept without a word from the server */
 #define OMB_SILENT_NS 50000000u   /* after so long it is zero */
@@ -418,8 +418,8 @@ static inline void omb_clamp(double v[3], double most) {
     }
 }
 
-/* Of a rotation matrix, row by row: its columns are the handle's axes in device space (Shepperd's choice of the
- * largest, J. Guidance and Control 1:223, 1978). */
+/* The quaternion of a rotation matrix, given row by row, whose columns are the handle's axes in device space
+ * (Shepperd's choice of the largest, J. Guidance and Control 1:223, 1978). */
 static inline void omb_quaternion(const double r[3][3], double quaternion[4]) {
     const double trace = r[0][0] + r[1][1] + r[2][2];
     double scale;
@@ -444,7 +444,7 @@ static inline void omb_quaternion(const double r[3][3], double quaternion[4]) {
     quaternion[1 + k] = (r[k][i] + r[i][k]) / scale;
 }
 
-/* What is left of a force that answers a pose of that age: 1, falling from 5 ms on, 0 from 50 ms on. */
+/* The share of a force to render when it answers a pose of that age: 1, falling from 5 ms on, 0 from 50 ms on. */
 static inline double omb_trust(uint64_t age_ns) {
     if (age_ns <= OMB_HOLD_NS) return 1.0;
     if (age_ns >= OMB_SILENT_NS) return 0.0;
@@ -662,7 +662,7 @@ static inline int omb_open(omb_link* link, const char* address, const char* key_
 }
 
 static inline void omb_say(omb_link* link, const uint8_t message[OMB_MESSAGE_BYTES]) {
-    /* What cannot be sent now is as good as lost on the way. */
+    /* A message that cannot be sent now counts as lost on the way. */
     if (send(link->socket, (const char*)message, OMB_MESSAGE_BYTES, 0) < 0) return;
 }
 

@@ -1,5 +1,5 @@
-// What ITK knows of the compiler, for clang, which the sanitizers' presets use: Debian's package knows the one it was built with
-// alone, GCC 12, and refuses others. clang is close enough to be taken for that.
+// ITK's description of the compiler, for clang, which the sanitizers' presets use. Debian's package knows only the one that it
+// was built with, GCC 12, and refuses others. clang is close enough to pass for that.
 #pragma once
 
 #pragma push_macro("__clang__")

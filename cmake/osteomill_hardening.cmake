@@ -1,5 +1,5 @@
-# What makes a defect that gets past the tests harder to use: the programs read what strangers send. Every target has it, but those
-# of the sanitizers, which find more and want the checks of their own.
+# Flags that make a defect harder to exploit if it gets past the tests, since the programs read strangers' data. Every target has
+# them, but those of the sanitizers, which find more and bring checks of their own.
 #
 # - a canary behind the arrays of a function: a write beyond one ends the program before the function returns
 # - _FORTIFY_SOURCE: the C library's copies check the sizes that the compiler knows; needs optimisation

@@ -1,4 +1,4 @@
-# OSTEOMILL_SANITIZER: none, address (with UBSan, and counters for libFuzzer) or thread; what the presets asan and tsan set.
+# OSTEOMILL_SANITIZER: none, address (with UBSan, and counters for libFuzzer) or thread. The presets asan and tsan set it.
 set(OSTEOMILL_SANITIZER none CACHE STRING "Instrument everything: none, address (and undefined behaviour), thread")
 set_property(CACHE OSTEOMILL_SANITIZER PROPERTY STRINGS none address thread)
 

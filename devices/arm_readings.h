@@ -10,7 +10,7 @@
 
 namespace osteomill {
 
-/// What the driver's thread knows.
+/// The state that the driver's thread knows.
 struct ArmReading {
     DeviceState state{.connected = false};  ///< with a pedal of no date
     bool knows_pedal = false;               ///< false: nothing is known of it

@@ -8,7 +8,7 @@ namespace osteomill {
 
 class Clutch {
   public:
-    /// Where the tool is, given where the hand is; both mm. Real-time safe.
+    /// The tool's position for this position of the hand, both mm. Real-time safe.
     glm::dvec3 position_mm(const glm::dvec3& hand_mm, bool is_engaged) noexcept {
         if (is_engaged) offset_mm_ = tool_mm_ - hand_mm;
         tool_mm_ = hand_mm + offset_mm_;

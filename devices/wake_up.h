@@ -5,7 +5,7 @@ namespace osteomill {
 
 class WakeUp {
   public:
-    /// Throws std::system_error where the system has no more of them.
+    /// Throws std::system_error if the system has no more of them.
     WakeUp();
     ~WakeUp();
     WakeUp(const WakeUp&) = delete;

@@ -102,7 +102,7 @@ class HuLayer {
     const HuSlices& slices_;
     glm::ivec3 size_;
     std::size_t slice_;
-    int base_z_ = 0;  // of the first slice held
+    int base_z_ = 0;  // z of the first slice held
     std::vector<std::int16_t> hu_;
     std::vector<std::uint8_t> label_;
     std::vector<std::int16_t> lowest_, highest_;  // see look_at_row
@@ -170,8 +170,8 @@ struct BrickChannels {
     ByteBrick tissue{};
 };
 
-/// Of a voxel on the surface of which the segmentation says nothing: the label of the voxel beside it on the
-/// side where the HU rise most, which is where the bone of the voxel lies, if that is bone.
+/// The label for a surface voxel that the segmentation leaves out: that of the neighbour towards which the HU
+/// rise most, if that neighbour is bone. The voxel's bone lies on that side.
 std::uint8_t label_from_inside(const HuLayer& field, const glm::ivec3& voxel, double threshold_hu) {
     double steepest = 0.0;
     glm::ivec3 inner = voxel;

@@ -1,5 +1,4 @@
-// CT numbers slice after slice, z ascending: what a bone is built from where the whole would not fit in
-// memory.
+// CT numbers slice after slice, z ascending, from which a bone is built if the whole would not fit in memory.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +13,11 @@ struct HuSlices {
     Grid grid;
     bool labelled = false;
     /// Fills `hu` with the next slices, as many as it has room for (x fastest, then y, then z; never more
-    /// than are left), and `tissue`, as long, with their labels where there are labels; else it is empty.
+    /// than are left), and `tissue`, as long, with their labels if there are labels; else it is empty.
     std::function<void(std::span<std::int16_t> hu, std::span<std::uint8_t> tissue)> read;
-    /// Where the surface is known better than CT numbers tell it, as a phantom's is: the distance of a
-    /// voxel's centre from it, voxels, negative in bone, right within a voxel of the surface. Else empty.
+    /// The distance of a voxel's centre from the surface, voxels, negative in bone, right within a voxel of
+    /// the surface. For a surface that is known better than CT numbers tell it, such as a phantom's; else
+    /// empty.
     std::function<double(const glm::ivec3& voxel)> surface_distance_voxels{};
 };
 

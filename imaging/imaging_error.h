@@ -16,7 +16,8 @@ class ImagingError : public std::runtime_error {
         : ImagingError(file.string() + ": " + reason) {}
 };
 
-/// What `work` gives. What it refuses with std::invalid_argument, of whatever file, is said of this one.
+/// The result of `work`. If it throws std::invalid_argument, that becomes an ImagingError that names this
+/// file.
 template <typename Work>
 auto said_of(const std::filesystem::path& file, Work&& work) {
     try {

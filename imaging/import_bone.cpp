@@ -37,15 +37,15 @@ double gibibytes(std::uint64_t bytes) {
     return static_cast<double>(bytes) / static_cast<double>(1u << 30);
 }
 
-/// What is to be done, known before any voxel is read.
+/// The plan of an import, known before any voxel is read.
 struct ImportPlan {
     Grid grid;
     ImageBox needed;
     std::optional<int>
-        axis_of_shapes{};  ///< of the part: along it, contours are followed from slice to slice
+        axis_of_shapes{};  ///< the part's axis along which contours are followed from slice to slice
 };
 
-/// As few voxels as a scan may have, a bone may have.
+/// A bone may have as few voxels as a scan.
 void require_plausible_size(const Grid& grid) {
     const std::array<std::uint64_t, 3> sizes{static_cast<std::uint64_t>(grid.size_voxels.x),
                                              static_cast<std::uint64_t>(grid.size_voxels.y),
@@ -168,8 +168,8 @@ ImagingError no_bone(const ImportOptions& options, int highest_hu) {
                                        *options.threshold_hu, highest_hu)};
 }
 
-/// The region's part in HU; of the rest of the scan no more than a slice is looked at. Whether all of the
-/// scan was measured; what was not is not a number.
+/// Reads the region's part in HU; a slice at most is held of the rest of the scan. Returns whether all of the
+/// scan was measured; values that were not are not a number.
 bool read_part(const ImportOptions& options, const OpenedImage& opened, const ImageBox& needed,
                std::span<float> values, const std::function<void()>& pause,
                const ImportSurroundings& surroundings) {
@@ -197,13 +197,13 @@ bool read_part(const ImportOptions& options, const OpenedImage& opened, const Im
             pause();
         }
     }
-    // What a window makes is not to look like HU of a scan.
+    // Values that a window made shall not be taken for HU of a scan.
     const bool is_windowed = std::holds_alternative<IntensityWindow>(options.to_hu);
     const std::string doubt = is_windowed ? std::string() : histogram.doubt();
     if (!doubt.empty())
         surroundings.messages << fmt::format("{}: warning: {}\n", options.input.string(), doubt);
-    // Before the long part: what no voxel of the scan reaches, none of the result does but where it
-    // overshoots.
+    // Before the long part: a threshold that no voxel of the scan reaches, none of the result reaches but by
+    // overshoot.
     if (options.threshold_hu && histogram.highest_hu() < *options.threshold_hu)
         throw no_bone(options, histogram.highest_hu());
     return not_measured == 0 && !histogram.fill_hu();
@@ -277,7 +277,7 @@ void say_if_all_is_bone(const ImportOptions& options, const Grid& grid, std::uin
                             options.input.string(), *options.threshold_hu);
 }
 
-/// Where the file will lie there is room for what is larger.
+/// Scratch data go into the folder of the output file, which has space for large files.
 std::filesystem::path scratch_folder(const ImportOptions& options) {
     return options.output.has_parent_path() ? options.output.parent_path() : std::filesystem::path(".");
 }

@@ -19,8 +19,8 @@ struct ImportOptions {
     std::filesystem::path input;
     std::filesystem::path output;
     double spacing_mm = 0.1;
-    /// Where nobody has chosen spacing_mm: a region that is large to drill is made coarser
-    /// (usual_spacing_mm).
+    /// Whether a region that is large to drill is made coarser (usual_spacing_mm), because nobody has chosen
+    /// spacing_mm.
     bool may_be_coarser = false;
     std::optional<double> threshold_hu{};
     /// Far from bone, too, HU stay as they are. Else a file with a threshold has air there (near_bone.h),
@@ -30,17 +30,17 @@ struct ImportOptions {
     bool follows_contours = true;
     std::optional<Region> region{};
     ImageChoice choice{};
-    /// What makes HU of the file's values (after the rescale that the file itself states).
+    /// The mapping from the file's values to HU (after the rescale that the file itself states).
     std::variant<std::monostate, Rescale, IntensityWindow> to_hu{};
 };
 
-/// What an import tells while it works, and what it may use.
+/// The outputs of an import while it works, and the resources that it may use.
 struct ImportSurroundings {
     std::ostream& messages;  ///< notes, memory estimate, progress
     bool is_terminal = false;
     std::optional<std::uint64_t>
         available_memory_bytes{};  ///< std::nullopt: not known, nothing is refused for it
-    /// Called again and again, from any thread, while the import works; what it throws ends it.
+    /// Called again and again, from any thread, while the import works; if it throws, the import ends.
     std::function<void()> go_on = [] {};
 };
 

@@ -10,7 +10,7 @@
 namespace osteomill {
 
 /// Calls work(0) to work(count - 1), each once, in any order, and returns when all are done. The first
-/// exception that one throws is thrown again here; what has not begun by then is left out.
+/// exception that one throws is thrown again here; calls that have not begun by then are left out.
 template <typename Work>
 void in_parallel(int count, const Work& work) {
     std::atomic<int> next{0};

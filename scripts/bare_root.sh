@@ -1,5 +1,5 @@
 # Sourced by what tries the project's packages, as root: a bare Debian by debootstrap in a temporary folder, `root`, that is gone in the
-# end, and a signed repository of the packages in it. As try_debian.sh: bare roots are made once and kept in OSTEOMILL_ROOTS
+# end, and a signed repository of the packages in it. Like try_debian.sh, it makes bare roots once and keeps them in OSTEOMILL_ROOTS
 # (/var/tmp/osteomill-roots), of OSTEOMILL_MIRROR (http://deb.debian.org/debian).
 
 named=(osteomill-server osteomill-client osteomill-tools osteomill-study python3-osteomill osteomill-bridge-dev osteomill-doc)
@@ -12,7 +12,7 @@ apt() {
     within apt-get -y -qq --no-install-recommends "$@" >"$root/root/apt.log" 2>&1 || { tail -20 "$root/root/apt.log" >&2; exit 1; }
 }
 
-# suite_of FOLDER: what the packages in a folder are for.
+# suite_of FOLDER: the suite that the packages in a folder are for.
 suite_of() {
     local changes=("$1"/osteomill_*.changes)
     [ -e "${changes[0]}" ] || { echo "$1 holds no packages: scripts/package.sh builds them" >&2; return 1; }

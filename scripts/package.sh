@@ -2,7 +2,8 @@
 # Builds the Debian packages of what is committed, for the system that it runs on (suite.sh), looks at them with lintian, which is to be
 # silent, and puts the wheel and the bill of materials beside them.
 #   scripts/package.sh [FOLDER]      into FOLDER, out/packages/SUITE unless said otherwise
-# Needs scripts/packages.txt and scripts/package_packages.txt. What to build with is theirs to say: CMAKE_CXX_COMPILER_LAUNCHER=ccache.
+# Needs scripts/packages.txt and scripts/package_packages.txt. The environment may choose build tools:
+# CMAKE_CXX_COMPILER_LAUNCHER=ccache.
 set -euo pipefail
 umask 022  # modes go into the packages
 cd "$(dirname "$0")/.."
@@ -30,5 +31,5 @@ mkdir -p "$out"
 rm -f "$out"/*osteomill* "$out/commit"
 mv "$work"/*.deb "$work"/*.dsc "$work"/*.tar.* "$work"/*.changes "$work"/*.buildinfo "$out"
 scripts/wheel_of_packages.sh "$out"
-git rev-parse HEAD >"$out/commit"  # of which scripts/release.sh takes them
+git rev-parse HEAD >"$out/commit"  # scripts/release.sh accepts the packages of this commit
 (cd "$out" && ls -sh --block-size=1k ./*.deb)

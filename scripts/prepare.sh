@@ -44,7 +44,7 @@ about_minutes() {
     echo "about $((minutes > 0 ? minutes : 1)) minutes on $(nproc) cores"
 }
 
-# try_other_debian WHAT...: scripts/try_debian.sh for the Debian that this machine is not. Where no bare root can be made it says why, and
+# try_other_debian WHAT...: scripts/try_debian.sh for the Debian that this machine is not. If no bare root can be made, it says why, and
 # that is no failure.
 try_other_debian() {
     local other=13 result=0

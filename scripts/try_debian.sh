@@ -2,7 +2,7 @@
 # Tries what is committed as a stranger would, in a bare Debian: a root file system by debootstrap, a clone, the commands, nothing else.
 #   scripts/try_debian.sh 12|13|testing [demo] [test] [packages]      the demo unless said otherwise
 # demo and test are ./demo.sh and ./test.sh; packages builds the Debian packages there, installs, upgrades and removes them. Each ends with
-# its minutes and its seconds of a core, and what it leaves in out/ is copied to out/try/SYSTEM. As root.
+# its minutes and its seconds of a core, and what it leaves in out/ is copied to out/try/SYSTEM. Needs root.
 #   OSTEOMILL_ROOTS   where bare roots are kept, made once each: /var/tmp/osteomill-roots
 #   OSTEOMILL_MIRROR  of Debian
 #   OSTEOMILL_SCANS   real scans for the tests, as in ./test.sh
@@ -28,8 +28,8 @@ for what; do
     case $what in demo | test | packages) ;; *) usage ;; esac
 done
 
-# Twice: outside it makes the root, and removes it in the end. Within, in namespaces of its own, it mounts and runs: what is mounted and
-# what still runs is gone before the root is removed.
+# Twice: outside it makes the root, and removes it in the end. Within, in namespaces of its own, it mounts and runs: mounts and processes
+# are gone before the root is removed.
 if [ -z "${OSTEOMILL_ROOT_TO_TRY:-}" ]; then
     [ "$(id -u)" -eq 0 ] || cannot "debootstrap needs root"
     command -v debootstrap >/dev/null || cannot "debootstrap is not installed (apt-get install debootstrap)"

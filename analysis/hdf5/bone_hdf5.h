@@ -8,7 +8,7 @@
 
 namespace osteomill {
 
-/// Writes group/fraction, and group/stiffness and group/tissue where the bone has them, bytes as in the bone,
+/// Writes group/fraction, and group/stiffness and group/tissue if the bone has them, bytes as in the bone,
 /// and the grid as attributes of the group. Throws as Hdf5File does.
 void write_bone(Hdf5File& file, const std::string& group, const Bone& bone);
 

@@ -25,7 +25,7 @@ constexpr const char* readme =
     "is not among them. Force in N, on the hand, and torque in N m, of bone on the shank about the burr's "
     "centre, both in the world's axes. There are no images.";
 
-/// What their programs take for bone.
+/// The colour that their programs take for bone.
 constexpr std::array<std::uint8_t, 3> bone_rgb{255, 249, 219};
 
 using Pose = std::array<double, 7>;
@@ -57,7 +57,7 @@ FivrsRecording::FivrsRecording(const std::filesystem::path& file, const Playhead
                                bool with_v3)
     : file_(file), began_s_(began_s), at_start_(playhead.bone()) {
     if (with_v3) {
-        // What stands in the way is said by the file.
+        // If something stands in the way, opening the file reports it.
         std::error_code ignored;
         std::filesystem::create_directory(fivrs_v3_file(file).parent_path(), ignored);
         v3_.emplace(fivrs_v3_file(file));
@@ -109,7 +109,7 @@ void FivrsRecording::begin_v3() {
 void FivrsRecording::add(const Playhead& playhead) {
     const ToolState& tool = *playhead.tool();
     const double began_s = began_s_ + playhead.time_s() - tool.time_s;  // the session's time is then zero
-    // Several states at one time are one row: what reads them wants time to go on.
+    // Several states at one time are one row: readers expect time to go on.
     if (row_times_s_.empty() || began_s + tool.time_s > row_times_s_.back()) add_row(playhead);
     for (const TickSample& tick : playhead.ticks())
         add_force(began_s + tick.time_s, tick.force_n, tick.shank_torque_n_mm,

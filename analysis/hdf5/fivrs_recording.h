@@ -35,7 +35,7 @@ class FivrsRecording {
     Hdf5File file_;
     std::optional<Hdf5File> v3_;
     Hdf5Table<double> numbers_{file_};
-    std::optional<Hdf5Table<double>> poses_;  // of v3
+    std::optional<Hdf5Table<double>> poses_;  // for v3
     const double began_s_;
     const Bone at_start_;
     std::vector<double> row_times_s_;

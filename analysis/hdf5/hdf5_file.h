@@ -1,6 +1,6 @@
 // An HDF5 file under way: groups, series of rows that grow, attributes. It is made in memory, compressed, and
-// takes the place of an older file once it is whole (atomic_file.h); what goes wrong is one line with the
-// file and the reason.
+// takes the place of an older file once it is whole (atomic_file.h); a failure is one line with the file and
+// the reason.
 #pragma once
 
 #include <hdf5.h>
@@ -48,7 +48,7 @@ class Hdf5Id {
 enum class Hdf5Number { f8, i8, i4, u1 };
 hid_t stored_as(Hdf5Number number);
 
-/// Nothing here is called from two threads at once. What fails throws std::runtime_error in one line.
+/// Nothing here is called from two threads at once. Failures throw std::runtime_error in one line.
 class Hdf5File {
   public:
     explicit Hdf5File(const std::filesystem::path& file);
@@ -58,9 +58,9 @@ class Hdf5File {
     void add_text(const std::string& path, const std::string& text);
     void add_texts(const std::string& path, const std::vector<std::string>& texts);
     void add_number(const std::string& path, double value);
-    /// What another file has at `target`, found beside this one.
+    /// Links to `target` in another file, which is found beside this one.
     void add_link(const std::string& path, const std::filesystem::path& file, const std::string& target);
-    /// Of a group or dataset that is there; "/" is the file.
+    /// Sets an attribute of a group or dataset that is there; "/" is the file.
     void set_attribute(const std::string& path, const std::string& name, const std::string& text);
     void set_attribute(const std::string& path, const std::string& name, std::span<const double> numbers);
     void set_attribute(const std::string& path, const std::string& name, double number);
@@ -76,9 +76,9 @@ class Hdf5File {
         if (result < 0) fail();
         return result;
     }
-    /// Of a dataset's link: makes groups above it where they are missing.
+    /// Properties of a dataset's link: missing groups above it are made.
     hid_t link_properties() const { return links_.get(); }
-    /// Of a dataset: the same content makes the same bytes, without the time of its making.
+    /// Properties of a dataset: it stores no time of creation, so that the same content makes the same bytes.
     Hdf5Id dataset_properties() const;
 
   private:
@@ -93,7 +93,7 @@ class Hdf5File {
     Hdf5Id links_;
 };
 
-/// A dataset that rows are added to: of one number each, or of `width` numbers. In chunks, gzip.
+/// A dataset that rows are added to: rows of one number, or of `width` numbers. In chunks, gzip.
 template <typename Number>
 class Hdf5Series {
   public:

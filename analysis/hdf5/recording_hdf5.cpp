@@ -21,7 +21,7 @@ double began_unix_s(const std::filesystem::path& recording) {
 template <typename Layout>
 std::string write(const std::filesystem::path& recording, Layout layout, Playhead& playhead,
                   const ReportProgress& on_frame) {
-    // As the report's: whole is what the session's end is in.
+    // The report's rule: a recording is whole if it contains the session's end.
     bool has_end = false;
     std::string error = play_to_end(playhead, on_frame, [&](Playhead::Step step) {
         if (step == Playhead::Step::new_bone)

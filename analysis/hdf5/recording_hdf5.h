@@ -16,13 +16,13 @@ enum class Hdf5Layout {
 };
 inline constexpr std::array hdf5_layout_names{"osteomill", "fivrs", "fivrs-v3"};
 
-/// Where fivrs_v3 has its second file; the folder is its own, since readers take every file of a folder.
+/// The path of fivrs_v3's second file; it has a folder of its own, since readers open every file of a folder.
 std::filesystem::path fivrs_v3_file(const std::filesystem::path& file);
 
-/// Replaces `file` once all is written; `on_frame` is called before each frame. Returns why the recording is
-/// not read further, in one line, empty at its end: what could be read is then in the file. Throws
-/// RecordingError where there is no bone in it, and std::runtime_error in one line where the file cannot be
-/// written or several sessions were joined, std::invalid_argument where it is the recording itself
+/// Replaces `file` once all is written; `on_frame` is called before each frame. Returns, in one line, why the
+/// recording could not be read further, and the file then has the part before; empty at the recording's end.
+/// Throws RecordingError if there is no bone in it, and std::runtime_error in one line if the file cannot be
+/// written or several sessions were joined, std::invalid_argument if it is the recording itself
 /// (distinct_files.h).
 std::string write_hdf5(const std::filesystem::path& recording, const std::filesystem::path& file,
                        Hdf5Layout layout, const ReportProgress& on_frame);

@@ -11,7 +11,7 @@ namespace osteomill {
 
 namespace {
 
-/// What a log hands on at a time is a queue of some thousand lines; this takes two of them.
+/// A log hands on a queue of some thousand lines at a time; the buffer holds two of them.
 constexpr std::size_t capacity_bytes = 8 * 1024 * 1024;
 
 /// Closes it once it has a duplicate.

@@ -17,7 +17,7 @@ namespace osteomill {
 
 /// The file behind a log, written by a thread of its own. After a failed write (a full disk) nothing more is
 /// written and error() says why. Until it is closed its file is the part beside the one that was requested
-/// (session_file.h); that stays where the log is not whole.
+/// (session_file.h); that stays if the log is not whole.
 class CsvFile {
   public:
     /// Creates the file and writes the header line. Throws std::runtime_error with one line naming the file.
@@ -33,7 +33,7 @@ class CsvFile {
     void wait_until_idle() const { writer_.wait_until_idle(); }
     /// Does not wait for the disk.
     void write(const fmt::memory_buffer& text);
-    /// What the system could not store shows here at the latest. Waits for the disk, but not for ever (see
+    /// Failures to store lines show here at the latest. Waits for the disk, but not for ever (see
     /// BackgroundWriter::finish).
     void close();
     /// One line, empty while all is well.
@@ -69,7 +69,7 @@ class CsvLog final : public SampleLog<Sample> {
     void drain() override {
         if (file_.is_idle()) hand_on();
     }
-    /// Likewise, but waits for the disk: for sessions that run on a clock of their own.
+    /// Drains and waits for the disk: for sessions that run on a clock of their own.
     void drain_all() override {
         file_.wait_until_idle();
         hand_on();
@@ -83,7 +83,7 @@ class CsvLog final : public SampleLog<Sample> {
     std::uint64_t dropped() const noexcept { return queue_.dropped(); }
     const std::string& error() const { return file_.error(); }
     const std::filesystem::path& path() const { return file_.path(); }
-    /// Where the log is now that an earlier session, which was killed, left under the part's name.
+    /// The present path of the log that an earlier, killed session left under the part's name.
     const std::optional<std::filesystem::path>& torn() const { return file_.torn(); }
 
   private:

@@ -1,4 +1,4 @@
-// Logs of a session as CSV: of its haptic ticks, and of its milling steps.
+// Logs of a session as CSV: its haptic ticks, and its milling steps.
 #pragma once
 
 #include "analysis/logs/csv_log.h"

@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// Where recordings were joined, of the last session.
+/// The bones of a recording; if recordings were joined, those of the last session.
 struct RecordedBones {
     Bone at_start;        ///< as it was when the recording began
     Bone at_end;          ///< after the last frame that can be read
@@ -17,7 +17,7 @@ struct RecordedBones {
 };
 
 /// Reads a recording through, every checksum with it; `on_frame` is called before each. Throws RecordingError
-/// where there is no bone in it; what is wrong later is said in `error`.
+/// if there is no bone in it; later faults are reported in `error`.
 RecordedBones bones_of(const std::filesystem::path& file, const ReportProgress& on_frame);
 
 }  // namespace osteomill

@@ -31,7 +31,7 @@ constexpr const char* state_columns =
     "hand_z_mm,force_x_n,force_y_n,force_z_n,burr,spindle,removed_mm3,nearest_structure,"
     "nearest_structure_mm\n";
 
-/// As the loop used it: rails lead a hand along the same poses, bit for bit.
+/// Appends the waypoint as the loop used it: rails lead a hand along the same poses, bit for bit.
 void append_waypoint(fmt::memory_buffer& text, double time_s, const glm::dvec3& hand_mm,
                      const glm::dvec3& axis, bool pedal, std::size_t burr) {
     fmt::format_to(std::back_inserter(text), "{:.4f},{},{},{},{}\n", time_s, xyz(hand_mm, hand_decimals_mm),

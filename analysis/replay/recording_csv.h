@@ -14,9 +14,9 @@
 namespace osteomill {
 
 enum class CsvLines {
-    ticks,  ///< of a recording that holds none: states
+    ticks,  ///< states, if the recording holds no ticks
     states,
-    trajectory,  ///< of the hand; a line a tick, where there are ticks
+    trajectory,  ///< the hand's; a line a tick, if there are ticks
 };
 
 /// Ticks: as haptic_server --log-csv writes them, to the digit (tick_sample.h).
@@ -26,16 +26,16 @@ enum class CsvLines {
 /// counted), nearest_structure (quoted name of the protected one; empty: none is near), nearest_structure_mm
 /// (0 and below: the burr overlaps it). Patient LPS.
 /// Trajectory: as simulated hands follow it (trajectory_columns.h), from time 0 at the recording's first
-/// line; the pedal is down where the spindle turned. What else was done to the session (undo, place) is no
+/// line; the pedal is down where the spindle turned. Other actions on the session (undo, place) are no
 /// motion.
 class RecordingCsv {
   public:
-    /// Throws std::runtime_error where the file cannot be written.
+    /// Throws std::runtime_error if the file cannot be written.
     RecordingCsv(const std::filesystem::path& file, CsvLines lines) : file_(file), lines_(lines) {}
-    /// Throws std::runtime_error where a session that was joined to another has other columns, or would
-    /// follow it in a trajectory, and where it cannot be written.
+    /// Throws std::runtime_error if a session that was joined to another has other columns, or would
+    /// follow it in a trajectory, and if it cannot be written.
     void add(const Playhead& playhead);
-    /// Makes it the file, which is as it was until then. Throws std::runtime_error where that fails.
+    /// Makes it the file, which is as it was until then. Throws std::runtime_error if that fails.
     void close() { file_.commit(); }
 
   private:
@@ -46,7 +46,7 @@ class RecordingCsv {
     const CsvLines lines_;
     std::string header_line_;  // empty before the first line
     std::optional<double> trajectory_begins_s_{};
-    double waypoint_s_ = 0.0;  // of the last
+    double waypoint_s_ = 0.0;  // the last one's
 };
 
 }  // namespace osteomill

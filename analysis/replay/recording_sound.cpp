@@ -20,7 +20,7 @@ RecordingSound::RecordingSound(const std::filesystem::path& file) : file_(file) 
 
 void RecordingSound::add(const Playhead& playhead) {
     const ToolState& state = *playhead.tool();
-    // Ticks tell when within the frame the spindle was switched; what it cuts only states say.
+    // Ticks tell when within the frame the spindle was switched; only states tell the bone that it cuts.
     for (const TickSample& tick : playhead.ticks()) {
         if (tick.spindle_on == heard_.spindle_on && tick.burr == heard_.burr) continue;
         ToolState then = heard_;

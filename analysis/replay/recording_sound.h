@@ -18,12 +18,12 @@ class RecordingSound {
     /// 12 hours; a WAV file holds 4 GiB.
     static constexpr double longest_s = 12.0 * 3600.0;
 
-    /// Throws std::runtime_error where the file cannot be written.
+    /// Throws std::runtime_error if the file cannot be written.
     explicit RecordingSound(const std::filesystem::path& file);
-    /// The sound up to this state; from there on the tool is as it says. Throws std::runtime_error where the
+    /// The sound up to this state; from there on the tool is as it says. Throws std::runtime_error if the
     /// sound cannot be written or grows too long.
     void add(const Playhead& playhead);
-    /// Makes it the file, which is as it was until then. Throws std::runtime_error where that fails.
+    /// Makes it the file, which is as it was until then. Throws std::runtime_error if that fails.
     void close();
 
   private:

@@ -23,7 +23,8 @@ Levels levels_of(const Bone& bone) {
     return levels;
 }
 
-/// Of the session that ends with this bone, which had `levels`; these become what it has.
+/// Adds the volumes that the session which ends with this bone removed. `levels`: the bone's before the
+/// session; on return those of `bone`.
 void add_removed(RecordingSummary& summary, const Bone& bone, Levels& levels) {
     const Levels before = std::exchange(levels, levels_of(bone));
     const auto removed_mm3 = [&](std::size_t label) {

@@ -20,15 +20,16 @@ struct RecordingSummary : RecordingCounts {
     double duration_s = 0.0;
     std::map<std::string, double> milled_s{};       ///< by burr: how long it turned
     double removed_mm3 = 0.0;                       ///< since the recording began
-    std::map<std::string, double> by_tissue_mm3{};  ///< of these; by the scene's names, "unlabelled" the rest
-    std::uint64_t bone_checksum = 0;                ///< of what is left
+    std::map<std::string, double> by_tissue_mm3{};  ///< the parts of that; by the scene's names, "unlabelled"
+                                                    ///< the rest
+    std::uint64_t bone_checksum = 0;                ///< the remaining bone's
     bool has_goodbye = false;                       ///< the session ended before the recording did
     bool is_truncated = false;                      ///< the file ends within a packet
     std::string error{};                            ///< why it is not read further; empty at the end
 };
 
 /// Reads a recording through, every checksum with it; `on_state` is called behind each state frame. Throws
-/// RecordingError where there is no bone in it; what is wrong later is said in `error`.
+/// RecordingError if there is no bone in it; later faults are reported in `error`.
 RecordingSummary summarise(const std::filesystem::path& file,
                            const std::function<void(const Playhead&)>& on_state);
 

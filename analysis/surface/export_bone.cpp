@@ -19,7 +19,7 @@ namespace osteomill {
 
 namespace {
 
-/// What is done of an export before its parts, as they take for a large bone.
+/// The share of an export that is done before each of its parts, by their durations for a large bone.
 constexpr double done_before_surface = 0.4;
 constexpr double done_before_writing = 0.8;
 

@@ -15,8 +15,9 @@ struct ExportOptions {
     std::filesystem::path bone;
     std::filesystem::path output;
     std::optional<double> threshold_hu{};
-    std::optional<double> cell_mm{};  ///< of the surface: the bone's own spacing, or about so long
-    std::optional<std::filesystem::path> original{};  ///< write what is gone of it, and no surface
+    std::optional<double> cell_mm{};  ///< the surface's cell: the bone's own spacing, or about so long
+    std::optional<std::filesystem::path> original{};  ///< write the bone that is gone from this one, and no
+                                                      ///< surface
 };
 
 /// Throws std::invalid_argument with one line for wrong usage.
@@ -24,8 +25,8 @@ ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const
                                                      const std::string& version);
 
 /// Writes the file and says in a line (`say`) what is in it. `progress` is called before each part of the
-/// work; what it throws ends the work, and nothing was written. Throws std::exception with one line for a
-/// file that holds no bone, bones of two grids, a bone that was not carved from the original, an output that
+/// work; if it throws, the work ends and nothing is written. Throws std::exception with one line for a file
+/// that holds no bone, bones of two grids, a bone that was not carved from the original, an output that
 /// cannot be written.
 void export_bone(const ExportOptions& options, const std::function<void(const std::string&)>& say,
                  const ReportProgress& progress);

@@ -28,7 +28,7 @@ bool is_mesh_ending(const std::string& ending);
 inline constexpr std::string_view mesh_endings = ".stl, .ply or .obj";
 inline constexpr std::array mesh_ending_list{".stl", ".ply", ".obj"};
 
-/// Replaces the file as a whole. Throws std::runtime_error with one line that names it where it cannot be
+/// Replaces the file as a whole. Throws std::runtime_error with one line that names it if it cannot be
 /// written, std::invalid_argument for another ending.
 void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh, Link link = Link::follow);
 

@@ -123,7 +123,7 @@ SurfaceMesh surface_of(const Bone& bone, int voxels_a_cell) {
     {
         const FloatGrid::Ptr field =
             voxels_a_cell == 1 ? field_of(bone) : coarse_field_of(bone, voxels_a_cell);
-        // As OpenVDB's library has it compiled, which its class VolumeToMesh is not.
+        // OpenVDB's library has this function compiled, but not its class VolumeToMesh.
         openvdb::tools::volumeToMesh(*field, points, quads, half);
     }
     if (points.size() > std::numeric_limits<std::uint32_t>::max())

@@ -31,8 +31,8 @@ constexpr std::chrono::seconds longest_wait_for_reader{2};
     throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(reason));
 }
 
-/// What is no regular file is held open to the end: then no other opening of it waits. A pipe that nobody
-/// reads would hold it up for ever, and with it the signals that end a program.
+/// A path that is no regular file is held open to the end, so that no later opening of it waits. A pipe that
+/// nobody reads would block for ever, and with it the signals that end a program.
 int open_direct(const fs::path& path, const fs::path& named) {
     const auto until = std::chrono::steady_clock::now() + longest_wait_for_reader;
     int descriptor = -1;
@@ -107,7 +107,7 @@ WriteTarget write_target(const fs::path& path, Link link) {
     WriteTarget target{.path = path};
     if (link == Link::replace) return target;
     if (const std::string why = why_no_target(path); !why.empty()) throw std::runtime_error(why);
-    std::error_code ignored;  // what cannot be looked at cannot be written either, and that is reported
+    std::error_code ignored;  // a path that cannot be examined cannot be written either, and that is reported
     const fs::file_status status = fs::status(path, ignored);
     target.is_direct = fs::exists(status) && !fs::is_regular_file(status);
     if (!target.is_direct) target.path = end_of_links(path);

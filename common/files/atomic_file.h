@@ -15,20 +15,20 @@
 
 namespace osteomill {
 
-/// What a link under the file's own name means.
+/// How a link under the file's own name is treated.
 enum class Link {
-    follow,  ///< of a name that a user gave: the target of the link is replaced, if there is one
-    replace  ///< of a name that this program chose, in a folder that may be from elsewhere: the link is
+    follow,  ///< for a name that a user gave: the target of the link is replaced, if there is one
+    replace  ///< for a name that this program chose, in a folder that may be from elsewhere: the link is
              ///< replaced
 };
 
-/// Where a file lies: "." where its path does not say.
+/// The folder of a file: "." if its path names none.
 std::filesystem::path folder_of(const std::filesystem::path& path);
 
-/// What a link at this path leads to in the end, also where nothing is there yet.
+/// The path that a link here finally leads to, even if nothing is there yet.
 std::filesystem::path end_of_links(std::filesystem::path path);
 
-/// Where a file's content is to lie at last.
+/// The place where a file's content shall finally lie.
 struct WriteTarget {
     std::filesystem::path path;  ///< links resolved, where they are followed
     bool is_direct = false;      ///< no regular file (/dev/null, a pipe): written itself, without a part
@@ -42,8 +42,8 @@ std::string why_no_target(const std::filesystem::path& path);
 
 class AtomicFile {
   public:
-    /// Makes an empty part. Throws std::runtime_error with one line where that cannot be, and for a pipe that
-    /// no program reads.
+    /// Makes an empty part. Throws std::runtime_error with one line if that cannot be, and for a pipe that no
+    /// program reads.
     explicit AtomicFile(const std::filesystem::path& path, Link link = Link::follow);
     /// Takes over a part that is there.
     AtomicFile(const std::filesystem::path& path, WriteTarget target, const std::filesystem::path& part);
@@ -52,9 +52,9 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    /// Where to write, by whatever means; to be closed before commit().
+    /// The path to write to, by whatever means; to be closed before commit().
     const std::filesystem::path& part() const { return part_; }
-    /// As it was requested.
+    /// The path as requested.
     const std::filesystem::path& path() const { return path_; }
     /// Writes behind what was written so, or over it from the beginning on. Throw std::runtime_error with one
     /// line that names the file and the reason.
@@ -76,8 +76,8 @@ class AtomicFile {
     WriteTarget target_;
     std::filesystem::path part_;
     bool owns_part_;
-    int folder_ = -1;      // of the part and the target: it may get another name while the part is written
-    int descriptor_ = -1;  // of the part, locked, where this has made it; of what is written itself
+    int folder_ = -1;      // holds the part and the target: it may get another name while the part is written
+    int descriptor_ = -1;  // the locked part, if this object made it; else the file that is written directly
 };
 
 /// Removes parts of this file that killed programs left behind: parts of the name above that are not locked.
@@ -87,8 +87,8 @@ void remove_abandoned_parts(const std::filesystem::path& path, Link link = Link:
 /// Replaces the file by `text` as a whole. Throws std::runtime_error as AtomicFile does.
 void write_atomic_file(const std::filesystem::path& path, std::string_view text, Link link = Link::follow);
 
-/// Opens a file to write whose name nothing has yet; -1 and errno where that cannot be, EEXIST for
-/// whatever is there, a link, too.
+/// Opens a file to write whose name nothing has yet; -1 and errno if that cannot be, EEXIST for whatever is
+/// there, a link, too.
 int open_new(const std::filesystem::path& path);
 
 }  // namespace osteomill

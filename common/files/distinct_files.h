@@ -1,5 +1,5 @@
-// Files of a run that must differ: of two outputs at one path one would be lost, and so would an input at the
-// path of an output. Every program, and the module of Python, asks here before it writes.
+// Files of a run that must differ: two outputs at one path would lose one of them, and an output at the path
+// of an input would overwrite it. Every program, and the Python module, checks this before it writes.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ std::vector<NamedFile> files_written_in(const std::string& option, const std::fi
                                         std::span<const char* const> names);
 
 /// Throws std::invalid_argument with one line for the first two that are one file, also by way of links or of
-/// another spelling of a folder, where either of them is written; where one is what the other is called while
+/// another spelling of a folder, if either of them is written; where one is what the other is called while
 /// it is written (NAME.part.EXT); where one is written into a folder that is read; and for a link to write to
 /// that leads to nothing. Devices and pipes may be written to by all.
 void require_distinct(std::span<const NamedFile> files);

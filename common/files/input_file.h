@@ -14,13 +14,13 @@
 
 namespace osteomill {
 
-/// What a file should be, for messages ("a trajectory in CSV"), and its most bytes.
+/// The kind that a file should be, for messages ("a trajectory in CSV"), and its most bytes.
 struct InputKind {
     const char* what = "a file";
     std::uint64_t most_bytes = UINT64_MAX;
 };
 
-// Of what is read whole. An hour at 1 kHz is a trajectory of 250 MB.
+// Files that are read whole. A trajectory of an hour at 1 kHz has 250 MB.
 inline constexpr InputKind trajectory_kind{"a trajectory in CSV", 256U << 20U};
 inline constexpr InputKind controls_kind{"a script of controls in CSV", 16U << 20U};
 inline constexpr InputKind table_kind{"a table in CSV", 64U << 20U};
@@ -28,7 +28,7 @@ inline constexpr InputKind json_kind{"a JSON file", 256U << 20U};
 inline constexpr InputKind operators_kind{"a list of the subjects of certificates", 1U << 20U};
 inline constexpr InputKind private_key_kind{"a private key", 1U << 20U};
 inline constexpr InputKind pem_kind{"a PEM file", 1U << 20U};
-/// Of a hundred thousand certificates.
+/// Enough for a hundred thousand certificates.
 inline constexpr InputKind revoked_kind{"a list of revoked certificates", 16U << 20U};
 inline constexpr InputKind bridge_key_kind{"a key of the bridge", 4095};
 
@@ -51,11 +51,11 @@ class InputFile {
     bool has_changed() const;
 
     /// Reads into `bytes` from an offset; how many there were, fewer only at the file's end. Throws
-    /// std::runtime_error where the disk fails.
+    /// std::runtime_error if the disk fails.
     std::size_t read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
     /// Its first bytes, at most so many.
     std::vector<std::uint8_t> first_bytes(std::uint64_t most) const;
-    /// All of it. Throws std::runtime_error where there are more bytes than its kind may have.
+    /// All of it. Throws std::runtime_error if there are more bytes than its kind may have.
     std::string text() const;
 
   private:
@@ -70,7 +70,7 @@ class InputFile {
 std::string read_text(const std::filesystem::path& path, const InputKind& kind);
 
 /// The same of a secret, which is its owner's alone; a key of root's may also be read by its group, as
-/// distributions keep those of services (root:ssl-cert, 0640). Throws also where others may read or write it.
+/// distributions keep those of services (root:ssl-cert, 0640). Throws also if others may read or write it.
 std::string read_secret(const std::filesystem::path& path, const InputKind& kind);
 
 }  // namespace osteomill

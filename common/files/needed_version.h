@@ -9,11 +9,11 @@
 
 namespace osteomill {
 
-/// Of scenes; bone files have it as osteomill_needs.
+/// The key in scenes; bone files have it as osteomill_needs.
 inline constexpr const char* needed_version_key = "needs";
 
 /// The end of a line for people, "needs Osteomill 0.4 or later, this is 0.3.0", if `needed`, such as "0.4" or
-/// "1.2.3", is above this program's version; likewise if it is no version at all.
+/// "1.2.3", is above this program's version, or if it is no version at all.
 std::optional<std::string> why_not_for_this_version(std::string_view needed);
 
 }  // namespace osteomill

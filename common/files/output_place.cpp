@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Opens and locks; -1 and errno EWOULDBLOCK where another has it, -1 and another one where no lock can be
-/// made. Whoever ends removes the file that is locked: a lock of a file without a name is none.
+/// Opens and locks; -1 and errno EWOULDBLOCK if another has it, -1 and another one if no lock can be made.
+/// Whoever ends removes the file that is locked: a lock of a file without a name is none.
 int locked(const fs::path& file) {
     for (;;) {
         const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
@@ -37,7 +37,7 @@ int locked(const fs::path& file) {
     }
 }
 
-/// Where a folder is whose name has gone: the kernel knows its new one; nothing where it was removed.
+/// The present path of a folder that was renamed, as the kernel knows it; nothing if it was removed.
 std::optional<fs::path> moved_to(int folder) {
     struct stat facts {};
     if (folder < 0 || ::fstat(folder, &facts) != 0 || facts.st_nlink == 0) return std::nullopt;
@@ -56,7 +56,7 @@ std::vector<fs::path> rescue_folders(const fs::path& gone) {
     return folders;
 }
 
-/// Of a name that nothing has yet, in the first of the folders that can be made and written.
+/// A path that nothing has yet, in the first of the folders that can be made and written.
 std::optional<fs::path> rescue_place(const fs::path& target) {
     std::error_code failed;
     for (const fs::path& folder : rescue_folders(folder_of(target))) {

@@ -1,7 +1,7 @@
-// Place of a file that a session writes at its end: reserved for it from the start, and found again where its
+// Place of a file that a session writes at its end: reserved for it from the start, and found again if its
 // folder was moved or removed meanwhile.
 //
-// A file beside it, .NAME.lock, is locked (flock) and goes with this; what a killed program has left of it
+// A file beside it, .NAME.lock, is locked (flock) and goes with this; the file that a killed program leaves
 // blocks nobody.
 #pragma once
 
@@ -14,18 +14,18 @@ namespace osteomill {
 
 class OutputPlace {
   public:
-    /// Links are followed. Throws std::runtime_error in one line where another session has reserved it, and
-    /// where nothing can be written there. What is no regular file (/dev/null, a pipe) is not reserved.
+    /// Links are followed. Throws std::runtime_error in one line if another session has reserved it, and if
+    /// nothing can be written there. A path that is no regular file (/dev/null, a pipe) is not reserved.
     explicit OutputPlace(std::filesystem::path file);
     ~OutputPlace();
     OutputPlace(const OutputPlace&) = delete;
     OutputPlace& operator=(const OutputPlace&) = delete;
 
-    /// As it was requested.
+    /// The path as requested.
     const std::filesystem::path& file() const { return file_; }
-    /// Where to write now: where it was requested while that folder is there; else in the folder where it was
-    /// moved to; of one that was removed, in FOLDER.rescued beside it, or in the user's folder of data, which
-    /// is made. Any thread.
+    /// The path to write to now: the requested one while its folder is there. If the folder was moved, the
+    /// file goes to its new place; if it was removed, to FOLDER.rescued beside it or, failing that, to the
+    /// user's data folder, which is made. Any thread.
     std::filesystem::path now() const;
     /// One line for people, once each time that the folder has gone. Any thread.
     std::string news();
@@ -40,7 +40,7 @@ class OutputPlace {
     int lock_ = -1;
     mutable std::mutex mutex_;
     mutable std::optional<std::filesystem::path> rescue_;  ///< where it goes since its folder was removed
-    bool was_there_ = true;                                ///< its folder, at the last look
+    bool was_there_ = true;                                ///< its folder, at the last check
 };
 
 }  // namespace osteomill

@@ -15,23 +15,23 @@ namespace osteomill {
 
 class SessionFile {
   public:
-    /// Makes an empty part. Throws std::runtime_error with one line where that cannot be, or another session
-    /// is writing it.
+    /// Makes an empty part. Throws std::runtime_error with one line if that cannot be, or another session is
+    /// writing it.
     explicit SessionFile(const std::filesystem::path& path);
     /// Removes the part unless it was committed or kept.
     ~SessionFile();
     SessionFile(const SessionFile&) = delete;
     SessionFile& operator=(const SessionFile&) = delete;
 
-    /// As it was requested.
+    /// The path as requested.
     const std::filesystem::path& path() const { return file_->path(); }
-    /// Where to write, by whatever means; to be closed before commit(). What is no regular file (/dev/null, a
-    /// pipe) is written directly.
+    /// The path to write to, by whatever means; to be closed before commit(). A path that is no regular file
+    /// (/dev/null, a pipe) is written directly.
     const std::filesystem::path& part() const { return file_->part(); }
-    /// Where the part of a session that was killed is now, if there was one.
+    /// The present path of the part that a killed session left, if there was one.
     const std::optional<std::filesystem::path>& torn() const { return torn_; }
 
-    /// As AtomicFile's.
+    /// These do the same as AtomicFile's.
     void commit() { file_->commit(); }
     void keep_part() noexcept { file_->keep_part(); }
 
@@ -41,7 +41,7 @@ class SessionFile {
     int lock_ = -1;  // a descriptor of the part, for as long as it is this session's; -1 where there is none
 };
 
-/// Where a session's file is written before it is done: NAME.part.EXT beside `path`.
+/// The path of a session's file before it is done: NAME.part.EXT beside `path`.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
 /// One line for people about a part of `path` that was moved to `torn`.

@@ -15,7 +15,7 @@
 namespace osteomill {
 
 /// Takes off what stands around a line: a carriage return, and of the file's first line the mark of UTF-8.
-/// Throws std::runtime_error, in words, where the mark is UTF-16's.
+/// Throws std::runtime_error, in words, if the mark is UTF-16's.
 inline void strip_line(std::string& line, bool is_first) {
     constexpr std::string_view utf8_mark = "\xef\xbb\xbf";
     if (is_first && begins_as_utf16(line)) throw std::runtime_error("is text in UTF-16; save it as UTF-8");
@@ -49,7 +49,7 @@ class TableLines {
         return false;
     }
     const std::string& line() const { return line_; }
-    /// Of the line, from 1.
+    /// The line's number, from 1.
     int number() const { return number_; }
 
     /// Throws std::runtime_error, "NAME:LINE: WHY".

@@ -17,7 +17,7 @@ constexpr std::uint16_t newest_version = 3;
 constexpr std::size_t extended_header_bytes = 12;
 static_assert(IgtlStream::longest_name == IGTL_HEADER_NAME_SIZE);
 
-/// A field of fixed width; nothing where it is no printable text.
+/// A field of fixed width; nothing if it is no printable text.
 template <std::size_t width>
 std::optional<std::string> text_of(const char (&field)[width]) {
     const std::string text(field, std::find(field, field + width, '\0'));
@@ -26,7 +26,7 @@ std::optional<std::string> text_of(const char (&field)[width]) {
     return is_plain ? std::optional(text) : std::nullopt;
 }
 
-/// Sets the parts of a body in `message`, without the extended header of protocol 2 and later. False where
+/// Sets the parts of a body in `message`, without the extended header of protocol 2 and later. False if
 /// sizes contradict each other.
 bool set_parts(IgtlMessageView& message, std::span<const std::uint8_t> body, std::uint16_t version) {
     message.content = body;

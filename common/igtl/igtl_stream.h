@@ -1,6 +1,6 @@
 // Splitter of an OpenIGTLink stream of bytes into messages. Headers, byte order and CRC are libopenigtlink's
-// (openigtlink.org, protocol versions 1 to 3: of the later ones the extended header and the metadata are
-// separated). Other messages are skipped without being kept, whatever their size.
+// (openigtlink.org, protocol versions 1 to 3; the later ones' extended header and metadata are separated).
+// Other messages are skipped without being kept, whatever their size.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace osteomill {
 /// A message whose CRC is right; the spans live for the call.
 struct IgtlMessageView {
     std::string type;
-    std::string name;         ///< of the device
+    std::string name;         ///< the device's name
     std::uint64_t stamp = 0;  ///< 32 bits of seconds, 32 of their fraction; 0: it says none
     std::span<const std::uint8_t> content{};
     std::span<const std::uint8_t> metadata_header{};
@@ -25,14 +25,14 @@ struct IgtlMessageView {
 /// Big endian, as all of OpenIGTLink.
 std::uint64_t number_at(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t width);
 
-/// The text of a STRING message; nothing where its sizes contradict each other.
+/// The text of a STRING message; nothing if its sizes contradict each other.
 std::optional<std::string> text_of_string_message(std::span<const std::uint8_t> content);
 
 class IgtlStream {
   public:
-    /// A volume of 512^3 voxels of 16 bits, as an imager may send between what is wanted, and room.
+    /// A volume of 512^3 voxels of 16 bits, as an imager may send between wanted messages, and a margin.
     static constexpr std::uint64_t longest_skipped_bytes = std::uint64_t{1} << 30;
-    /// Of a message that is wanted: a matrix or a line of text, with metadata.
+    /// The longest message that is read: a matrix or a line of text, with metadata.
     static constexpr std::uint64_t longest_read_bytes = 4096;
     /// Characters of a name.
     static constexpr std::size_t longest_name = 20;

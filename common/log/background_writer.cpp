@@ -27,7 +27,7 @@ bool can_be_written_to(int descriptor) {
     return ::poll(&watched, 1, 0) > 0;
 }
 
-/// Of the first bytes of `text`; errno where it fails. Waits where it must.
+/// Writes the first bytes of `text`; returns errno if that fails. Waits if it must.
 int write_some(int descriptor, const char* text, std::size_t bytes, std::size_t& written) {
     for (;;) {
         const ssize_t count = ::write(descriptor, text, std::min(bytes, most_at_once_bytes));
@@ -45,7 +45,7 @@ int write_some(int descriptor, const char* text, std::size_t bytes, std::size_t&
 
 }  // namespace
 
-/// What the thread and its owner share; it lives as long as either of them.
+/// State that the thread and its owner share; it lives as long as either of them.
 struct BackgroundWriter::Shared {
     Shared(int its_descriptor, std::size_t its_capacity_bytes)
         : descriptor(its_descriptor), capacity_bytes(its_capacity_bytes) {}

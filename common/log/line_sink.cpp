@@ -19,8 +19,7 @@ constexpr std::array<const char*, SPDLOG_LEVEL_OFF + 1> colours{
     "\033[37m", "\033[36m", "\033[32m", "\033[33m\033[1m", "\033[31m\033[1m", "\033[1m\033[41m", ""};
 constexpr const char* no_colour = "\033[m";
 
-/// spdlog's own asynchronous logger waits for its thread at the end, and its sinks throw where a stream
-/// fails.
+/// spdlog's own asynchronous logger waits for its thread at the end, and its sinks throw if a stream fails.
 class LineSink final : public spdlog::sinks::base_sink<std::mutex> {
   public:
     explicit LineSink(std::shared_ptr<LineStream> stream) : stream_(std::move(stream)) {}

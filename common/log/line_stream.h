@@ -30,7 +30,7 @@ class LineStream {
 
     // Any thread; none of these waits for the descriptor but finish().
 
-    /// `text`: one or more whole lines, or one that is to be overwritten; of this program's own words.
+    /// `text`: one or more whole lines, or one that is to be overwritten; text of this program only.
     void write(std::string text);
     /// One line, whatever is in it: printable (plain_text.h), and a line break behind it. `level`, as of a
     /// log, is for JSON.
@@ -40,7 +40,7 @@ class LineStream {
     bool has_caught_up() const { return writer_.is_idle(); }
     /// Whether a line can be overwritten.
     bool is_terminal() const { return is_terminal_ && !is_json_; }
-    /// Waits as BackgroundWriter::finish does; what comes later is forgotten.
+    /// Waits as BackgroundWriter::finish does; later lines are discarded.
     void finish();
 
   private:

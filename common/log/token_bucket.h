@@ -13,7 +13,7 @@ class TokenBucket {
     /// Full at first. `most` is what it holds, at least 1.
     TokenBucket(double per_s, double most) : per_s_(per_s), most_(most), tokens_(most) {}
 
-    /// False where there is none left.
+    /// False if there is none left.
     bool take(Time now) {
         tokens_ = std::min(most_, tokens_ + per_s_ * std::chrono::duration<double>(now - filled_).count());
         filled_ = now;

@@ -29,7 +29,7 @@ AddressParts parts_of_address(const std::string& text);
 /// std::invalid_argument with one line that says what would be right.
 ListenAddress parse_listen_address(const std::string& text);
 
-/// Where a server is to be reached.
+/// The address of a server.
 struct ServerAddress {
     std::string host = "127.0.0.1";
     std::uint16_t port = 7010;
@@ -38,7 +38,7 @@ struct ServerAddress {
 /// that says what would be right.
 ServerAddress parse_server_address(const std::string& text);
 
-/// As it is typed.
+/// The address as one types it.
 std::string to_text(const ListenAddress& where);
 
 /// Whether only this machine can reach it.

@@ -14,7 +14,7 @@ namespace osteomill {
 /// extension names none.
 bool may_act_as(const X509& certificate, TlsContext::Role role);
 
-/// Throws std::runtime_error, in one line, where the certificate has expired, does not hold yet, or lacks the
+/// Throws std::runtime_error, in one line, if the certificate has expired, does not hold yet, or lacks the
 /// extended key usage of the role: serverAuth or clientAuth. `file` is where it came from.
 void require_fit(const X509& certificate, const std::filesystem::path& file, TlsContext::Role role);
 

@@ -22,7 +22,7 @@ std::size_t count(const std::string& text, const std::string& what) {
     return found;
 }
 
-/// All zero where there is no file.
+/// All zero if there is no file.
 struct stat look_at(const std::filesystem::path& file) {
     struct stat found {};
     if (::stat(file.c_str(), &found) != 0) found = {};
@@ -31,7 +31,7 @@ struct stat look_at(const std::filesystem::path& file) {
 
 using Number = std::unique_ptr<ASN1_INTEGER, decltype(&ASN1_INTEGER_free)>;
 
-/// That of the extension; null where the list has none.
+/// That of the extension; null if the list has none.
 Number number_of(const X509_CRL& list) {
     return {static_cast<ASN1_INTEGER*>(X509_CRL_get_ext_d2i(&list, NID_crl_number, nullptr, nullptr)),
             &ASN1_INTEGER_free};

@@ -115,7 +115,7 @@ class TlsStream final : public StreamOver<ssl::stream<tcp::socket>> {
         std::array<char, 65> name{};  // X.520's longest common name
         X509_NAME_get_text_by_NID(X509_get_subject_name(certificate), NID_commonName, name.data(),
                                   static_cast<int>(name.size()));
-        // It goes into logs; the lab may have signed what it did not look at.
+        // It goes into logs, and the lab may have signed it without reading it.
         std::string text = name.data();
         std::replace_if(
             text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');

@@ -19,7 +19,7 @@ class TlsContext;
 
 class Stream {
   public:
-    /// What arrived; the view holds until the handler returns.
+    /// The bytes that arrived; the view is valid until the handler returns.
     using ReadHandler = std::function<void(boost::system::error_code, std::span<const std::uint8_t>)>;
     using WriteHandler = std::function<void(boost::system::error_code)>;
     /// `failure`: empty, or why there is no connection, in words about the other end.
@@ -54,7 +54,7 @@ class Stream {
     virtual boost::asio::ip::tcp::socket& socket() = 0;
 };
 
-/// ADDRESS:PORT of the other end; "a client" where it has gone.
+/// ADDRESS:PORT of the other end; "a client" if it has gone.
 std::string describe_end(const boost::asio::ip::tcp::socket& socket);
 
 /// The serving end of a connection that was accepted. `tls`: null for none; outlives the stream.

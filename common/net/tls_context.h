@@ -1,7 +1,7 @@
 // Context that all TLS connections of a program share: its own identity, and the CAs it trusts.
 //
 // TLS 1.3 and nothing older. Both ends show a certificate of the lab's CA; one that does not is refused. No
-// sessions are resumed, so a certificate is looked at on every connection.
+// sessions are resumed, so a certificate is checked on every connection.
 #pragma once
 
 #include <boost/asio/ssl/context.hpp>
@@ -16,8 +16,8 @@ class TlsContext {
   public:
     enum class Role { server, client };
 
-    /// Throws std::runtime_error, in one line, where a file cannot be read or holds something else, where the
-    /// key is not the certificate's or not kept to its owner, and where the certificate is not for the role,
+    /// Throws std::runtime_error, in one line, if a file cannot be read or holds something else, if the
+    /// key is not the certificate's or not kept to its owner, and if the certificate is not for the role,
     /// has expired or is revoked: see own_certificate.h and revocation_lists.h.
     TlsContext(const TlsFiles& files, Role role);
 

@@ -18,7 +18,7 @@ bool is_refusal(const boost::system::error_code& error);
 /// Whether it would end the same way again as long as the certificates of both ends stay what they are.
 bool is_about_certificates(const boost::system::error_code& error);
 
-/// Of any error of a stream.
+/// A description of any error of a stream.
 std::string describe_stream_error(const boost::system::error_code& error);
 
 }  // namespace osteomill

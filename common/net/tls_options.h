@@ -24,7 +24,7 @@ class TlsOptions {
     /// After parsing. Throws std::invalid_argument, in one line, unless there are the first three or
     /// none.
     std::optional<TlsFiles> files() const;
-    /// Likewise: those that were named, for require_distinct.
+    /// The files that were named, for require_distinct.
     std::vector<NamedFile> files_read() const;
 
   private:

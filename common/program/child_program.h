@@ -21,14 +21,14 @@ class ChildProgram {
 
     /// Reads new output, and whether it has ended; never waits. True if there is news.
     bool poll();
-    /// What it wrote to both of its streams, of late.
+    /// The newest part of the output on both of its streams.
     const std::string& output() const { return output_; }
     /// The last line of that which says something.
     std::string last_line() const;
     bool is_running() const { return !status_.has_value(); }
-    /// Nothing while it runs; of one that a signal ended minus that signal.
+    /// Nothing while it runs; minus the signal's number if a signal ended it.
     const std::optional<int>& status() const { return status_; }
-    /// As CTRL-C does.
+    /// Asks it to end, the way CTRL-C does.
     void ask_to_end() const;
 
     static constexpr std::size_t most_output_bytes = 64 * 1024;

@@ -20,7 +20,8 @@ struct ParseResult {
     std::string text;
 };
 
-/// What `read` makes of an option. What it refuses with std::invalid_argument is said with the option's name.
+/// The value that `read` makes of an option. If it throws std::invalid_argument, the message names the
+/// option.
 template <typename Read>
 auto said_of_option(const char* option, Read&& read) {
     try {

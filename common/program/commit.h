@@ -5,8 +5,8 @@
 
 namespace osteomill {
 
-/// Twelve digits or more, and a + where the sources differed from it; "unknown" where they were built outside
-/// of git.
+/// Twelve digits or more, and a + if the sources differed from it; "unknown" if they were built outside of
+/// git.
 std::string_view built_from_commit();
 
 }  // namespace osteomill

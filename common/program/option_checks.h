@@ -20,7 +20,7 @@
 
 namespace osteomill {
 
-/// Behind an argument "[a,b]", which is a name, while CLI11 takes it apart: it would make two of it where an
+/// Behind an argument "[a,b]", which is a name, while CLI11 takes it apart: it would make two of it if an
 /// option may be given several. No argument holds this letter.
 inline constexpr char whole_mark = '\1';
 inline constexpr const char* without_value = "is given without a value";
@@ -53,9 +53,9 @@ inline void prepare(CLI::App& app) {
     for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) prepare(*subcommand);
 }
 
-/// As CLI11's own, but for arguments that are no plain text (plain_text.h), which are refused: they name
-/// files and people, and such names go into logs, reports and recordings; and but for "[a,b]", which is a
-/// name. Throws CLI::ParseError.
+/// Parses as CLI11 does, with two differences. It refuses arguments that are no plain text (plain_text.h),
+/// because they name files and people, and such names go into logs, reports and recordings. And it takes
+/// "[a,b]" for a name. Throws CLI::ParseError.
 inline void parse_arguments(CLI::App& app, int argc, const char* const* argv) {
     std::vector<std::string> arguments;
     for (int i = argc - 1; i > 0; --i) {  // as CLI11 wants them, the last first
@@ -88,8 +88,8 @@ inline CLI::Option* add_texts(CLI::App& app, const std::string& option, std::vec
         ->each([&texts](const std::string& text) { texts.push_back(text); });
 }
 
-/// An option that `take` reads the text of. What it refuses it throws as std::invalid_argument, in words that
-/// go on behind the option's name.
+/// An option whose text `take` reads. `take` refuses a value with std::invalid_argument, whose message
+/// continues a line that begins with the option's name.
 inline CLI::Option* add_read(CLI::App& app, const std::string& option,
                              std::function<void(const std::string&)> take, const std::string& help) {
     const auto refuse_in_words = [option, take = std::move(take)](const std::string& text) {

@@ -15,7 +15,7 @@ struct ProgramOutput {
     /// For people; the log goes there, too.
     std::shared_ptr<LineStream> err = std::make_shared<LineStream>(STDERR_FILENO);
 
-    /// Last: waits for both for a bounded time. What comes later is forgotten.
+    /// Last: waits for both for a bounded time. Later output is discarded.
     void finish() const {
         out->finish();
         err->finish();

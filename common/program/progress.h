@@ -12,7 +12,7 @@ namespace osteomill {
 /// Called with how much is done, 0 to 1, ascending, from one thread.
 using ReportProgress = std::function<void(double done)>;
 
-/// "40 s left", "3 min left", "2 h 5 min left"; "" where nothing is left.
+/// "40 s left", "3 min left", "2 h 5 min left"; "" if nothing is left.
 std::string time_left(double left_s);
 
 class ProgressLine {
@@ -29,7 +29,7 @@ class ProgressLine {
     ProgressLine& operator=(const ProgressLine&) = delete;
 
     /// Says the percentage and, once the work has taken two seconds, the time left: by the pace since the
-    /// first report, which may begin above 0 where a part was done before.
+    /// first report, which may begin above 0 if a part was done before.
     void report(double done);
     ReportProgress reporter() {
         return [this](double done) { report(done); };

@@ -21,7 +21,7 @@ inline constexpr int exit_success = 0;
 inline constexpr int exit_failure = 1;
 inline constexpr int exit_wrong_usage = 2;
 
-/// What was printed has arrived; else says why not. A reader that has enough may leave.
+/// Success if all that was printed has arrived; else prints why not. A reader that has enough may leave.
 inline int exit_code_of_prints(const char* name) {
     if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || errno == EPIPE) return exit_success;
     std::fprintf(stderr, "%s: standard output: %s\n", name, std::strerror(errno));
@@ -29,7 +29,7 @@ inline int exit_code_of_prints(const char* name) {
 }
 
 /// Returns the exit code. `parse()` gives a ParseResult (command_line.h) and throws std::invalid_argument for
-/// wrong usage; `run(options, output)` throws for a failure. Ends also where a terminal holds up what is
+/// wrong usage; `run(options, output)` throws for a failure. Ends also if a terminal holds up what is
 /// said, at most a moment later.
 template <typename Parse, typename Run>
 int run_program(const char* name, const Parse& parse, const Run& run) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array stop_signals{SIGINT, SIGTERM, SIGHUP};
 
-std::atomic<bool> stop_requested{false};  // what a signal handler may touch
+std::atomic<bool> stop_requested{false};  // a signal handler may use nothing else
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void handle(int signal, void (*handler)(int)) {

@@ -1,4 +1,4 @@
-// The signals that end a program, as a flag: what it has to save is saved first.
+// The signals that end a program, as a flag, so that it can save its data first.
 #pragma once
 
 #include <atomic>

@@ -17,13 +17,14 @@ namespace osteomill {
 /// When a frame was sent, UTC. In a server's recording: when the session began, plus the session's time.
 using Stamp = std::chrono::sys_time<std::chrono::nanoseconds>;
 
-/// What a pcap file has before each packet: two numbers of time, the bytes kept, the bytes that there were.
+/// The header before each packet of a pcap file: two numbers of time, the bytes kept, the bytes that there
+/// were.
 inline constexpr std::size_t packet_header_bytes = 16;
 
-/// Where a packet lies in its file.
+/// A packet's place in its file.
 struct PacketPlace {
     std::uint64_t number = 1;        ///< as Wireshark counts
-    std::uint64_t offset_bytes = 0;  ///< of its header
+    std::uint64_t offset_bytes = 0;  ///< where its header begins
 };
 
 struct Packet {

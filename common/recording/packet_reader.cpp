@@ -24,7 +24,7 @@ constexpr std::int64_t latest_s = 7'258'118'400;  // nanoseconds since 1970 in 6
 constexpr std::size_t kept_bytes_offset = 8;  // in a packet's header
 constexpr std::size_t whole_bytes_offset = 12;
 
-/// What libpcap reads at most of one packet before it gives up.
+/// The most bytes of one packet that libpcap reads before it gives up.
 constexpr std::size_t largest_packet_read_bytes = 256 * 1024;
 
 /// Bounds the search for packets in a file that is made to look as if it had one at every byte.
@@ -90,7 +90,7 @@ std::optional<Packet> PacketReader::next() {
 }
 
 /// Whether a packet that cannot be read hides others: looks for one with a sound seal behind its beginning.
-/// Of files that a recorder wrote; those of editcap (pcapng, or of another byte order) are taken for torn.
+/// Works on files that a recorder wrote; those of editcap (pcapng, or of another byte order) count as torn.
 bool PacketReader::is_followed_by_packets(const PacketPlace& place) const {
     std::ifstream file(file_, std::ios::binary);
     file.seekg(static_cast<std::streamoff>(place.offset_bytes));

@@ -19,15 +19,15 @@ class PacketReader {
     /// something else.
     explicit PacketReader(std::filesystem::path file);
 
-    /// The next packet, or nothing at the end: of the file, or of what is whole of it (see is_truncated).
-    /// Throws RecordingError for what is no packet of a recording, and for a packet that claims to go beyond
-    /// the end of the file although whole ones follow it: its header is damaged.
+    /// The next packet; nothing at the end of the file, or of its undamaged part (see is_truncated). Throws
+    /// RecordingError for a packet that is not of a recording, and for one that claims to go beyond the end
+    /// of the file although whole ones follow it: its header is damaged.
     std::optional<Packet> next();
 
     /// Once next() has come to the end: whether the file ends within a packet, as a crash leaves it.
     bool is_truncated() const { return is_truncated_; }
 
-    /// Where the next packet lies.
+    /// The place of the next packet.
     PacketPlace place() const;
     /// Goes on from there: a place() of this file.
     void seek(const PacketPlace& place);

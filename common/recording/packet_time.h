@@ -1,4 +1,4 @@
-// Time of a packet against the time that its frame states. Frames are sealed, packets are not: where the two
+// Time of a packet against the time that its frame states. Frames are sealed, packets are not: if the two
 // differ, the recording was damaged or moved in time.
 #pragma once
 

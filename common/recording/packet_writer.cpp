@@ -20,7 +20,7 @@ class PacketWriter::Format {
         : format_(pcap_open_dead_with_tstamp_precision(DLT_USER0, static_cast<int>(largest_frame_bytes),
                                                        PCAP_TSTAMP_PRECISION_NANO)) {
         std::FILE* memory = ::open_memstream(&bytes_, &size_);
-        // Where it makes no output of the stream, libpcap has closed it.
+        // If it makes no output of the stream, libpcap has closed it.
         if (format_ != nullptr && memory != nullptr) output_ = pcap_dump_fopen(format_, memory);
         if (output_ == nullptr) throw std::bad_alloc();
     }
@@ -32,7 +32,7 @@ class PacketWriter::Format {
     Format(const Format&) = delete;
     Format& operator=(const Format&) = delete;
 
-    /// What a file begins with, before the first packet; valid until that.
+    /// The bytes a file begins with, before the first packet; valid until that packet.
     std::string_view file_header() { return flushed(); }
 
     /// A packet with its header; valid until the next.
@@ -104,8 +104,8 @@ int PacketWriter::write_all(std::string_view bytes) {
 void PacketWriter::fail(int reason) {
     const int descriptor = ::fileno(opened_.get());
     const auto whole = static_cast<off_t>(whole_bytes_);
-    // A packet that is torn would be no harm at the end, but some tools complain of it. Where it cannot be
-    // cut off it stays, until another is written over it.
+    // A packet that is torn would be no harm at the end, but some tools complain of it. If it cannot be cut
+    // off, it stays until another is written over it.
     [[maybe_unused]] const auto ignored =
         ::ftruncate(descriptor, whole) + ::lseek(descriptor, whole, SEEK_SET);
     throw RecordingError(file_.string() + ": no more than " + std::to_string(packets_) +

@@ -9,7 +9,7 @@
 namespace osteomill {
 
 Playhead::Playhead(std::filesystem::path file) : reader_(file) {
-    std::error_code unknown;  // of a pipe
+    std::error_code unknown;  // a pipe has no size
     if (const auto bytes = std::filesystem::file_size(file, unknown); !unknown && bytes > 0)
         file_bytes_ = bytes;
     read_ahead();

@@ -14,21 +14,21 @@
 
 namespace osteomill {
 
-/// What was read.
+/// How much has been read.
 struct RecordingCounts {
-    std::uint64_t frames = 0;  ///< of all kinds: packets
+    std::uint64_t frames = 0;  ///< all kinds; a packet each
     std::uint64_t states = 0;
     std::uint64_t bytes = 0;
-    std::uint64_t state_bytes = 0;   ///< of these, the state frames; nearly all others are the snapshot's
-    std::uint64_t ticks = 0;         ///< of the haptic loop; 0 where the recording holds none
-    std::uint64_t missed_ticks = 0;  ///< that should be there
-    std::uint64_t tick_bytes = 0;    ///< that they take in the state frames
+    std::uint64_t state_bytes = 0;   ///< in the state frames; nearly all others are the snapshot's
+    std::uint64_t ticks = 0;         ///< ticks of the haptic loop; 0 if the recording holds none
+    std::uint64_t missed_ticks = 0;  ///< ticks that should be there
+    std::uint64_t tick_bytes = 0;    ///< the ticks' part of the state frames
     std::uint64_t checksums_verified = 0;
 };
 
 class Playhead {
   public:
-    /// Goes to the first bone. Throws RecordingError where there is none.
+    /// Goes to the first bone. Throws RecordingError if there is none.
     explicit Playhead(std::filesystem::path file);
 
     enum class Step {
@@ -42,23 +42,23 @@ class Playhead {
     /// stated is verified. Throws RecordingError, with packet and byte, for what cannot be right.
     Step step(double until_s);
 
-    /// Of the last frame, since the first; never goes back within a recording.
+    /// The last frame's time, since the first; never goes back within a recording.
     double time_s() const { return time_s_; }
-    /// Of the frame that step() would take; nothing at the end, and where that cannot be read.
+    /// The time of the frame that step() would read; nothing at the end, or if that frame cannot be read.
     std::optional<double> next_time_s() const;
     const SessionInfo& session() const { return session_; }
     const Bone& bone() const { return replica_->bone(); }
     std::uint64_t bone_checksum() const { return replica_->checksum(); }
-    /// What has changed in the bone since the last call, or since it came.
+    /// The changes of the bone since the last call, or since the bone came.
     std::vector<BrickChange> take_changes() { return replica_->take_changes(); }
     /// Nothing before the session's first state frame.
     const ToolState* tool() const { return has_state_ ? &state_.tool : nullptr; }
-    /// What the last state frame said; before the first it says nothing.
+    /// The last state frame's content; empty before the first.
     const SessionState& state() const { return state_; }
-    /// The protected structures of the session of which the recording says where they are; the others are
-    /// where the bone has their label. All that follow the bone at once are there with it.
+    /// The protected structures of the session whose place the recording states; the others are where the
+    /// bone has their label. All that follow the bone at once are there with it.
     const std::vector<Structure>& structures() const { return structures_; }
-    /// Of the haptic loop, up to the last state frame and behind the one before; none in a recording that
+    /// The haptic loop's ticks between the last state frame but one and the last; none in a recording that
     /// does not hold them.
     const std::vector<TickSample>& ticks() const { return ticks_.ticks; }
     /// The changes of the state frame applied last; and of the next one, if the next is a state frame.
@@ -69,7 +69,7 @@ class Playhead {
 
     /// Since the recording was opened.
     const RecordingCounts& counts() const { return counts_; }
-    /// Of the file, 0 to 1.
+    /// The share of the file that has been read, 0 to 1.
     double share_read() const {
         return std::min(1.0, static_cast<double>(counts_.bytes) / static_cast<double>(file_bytes_));
     }
@@ -101,8 +101,8 @@ class Playhead {
     std::optional<RecordedEvent> next_;
     std::optional<RecordingError> what_comes_next_is_wrong_;  // said when it is its turn
     RecordedTime before_next_time_;
-    RecordedTime time_;    // of next_
-    double time_s_ = 0.0;  // of the frame before
+    RecordedTime time_;    // for next_
+    double time_s_ = 0.0;  // time of the last frame
 
     SessionInfo announced_;  // becomes session_ when its bone has come
     SessionInfo session_;

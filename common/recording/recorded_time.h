@@ -1,5 +1,5 @@
-// The time of a recording: seconds since its first frame. Where recordings were joined, each session follows
-// the one before at once, whenever it was recorded.
+// The time of a recording: seconds since its first frame. If recordings were joined, each session follows the
+// one before at once, whenever it was recorded.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace osteomill {
 
 class RecordedTime {
   public:
-    /// Of the next frame; never earlier than the one before.
+    /// The next frame's time; never earlier than the one before.
     double next_s(Stamp stamp, bool begins_session) {
         if (begins_session || !session_began_) {
             session_began_ = stamp;

@@ -1,4 +1,4 @@
-// The outline of a recording: how long it is, and the moments to look at.
+// The outline of a recording: its duration, and the moments worth seeing.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ struct RecordedMoment {
 struct RecordingOutline {
     double duration_s = 0.0;                ///< from the first frame to the last that can be read
     std::vector<RecordedMoment> moments{};  ///< in their order
-    bool has_view = false;                  ///< it says from where the one who moved the tool looked
+    bool has_view = false;                  ///< it states the operator's viewpoint
 };
 
 /// Reads all frames, but no bone. Throws RecordingError for a file that is no recording.

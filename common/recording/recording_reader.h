@@ -13,7 +13,7 @@ namespace osteomill {
 struct RecordedEvent {
     PacketPlace place;
     Stamp stamp;
-    std::size_t bytes = 0;  ///< of the frame
+    std::size_t bytes = 0;  ///< size of the frame
     SessionEvent event;
 };
 
@@ -22,7 +22,7 @@ class RecordingReader {
     /// Throws RecordingError as PacketReader does.
     explicit RecordingReader(std::filesystem::path file) : packets_(std::move(file)) {}
 
-    /// What the next frame says, or nothing at the end. A hello begins another session, whatever was before:
+    /// The next frame's event, or nothing at the end. A hello begins another session, whatever was before:
     /// recordings may be joined. Throws RecordingError, with packet and byte, for a frame that is corrupt,
     /// out of order, of another time than its packet's, or of another major version of the protocol.
     std::optional<RecordedEvent> next();

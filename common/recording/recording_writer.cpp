@@ -22,7 +22,7 @@ SessionFile begun(const std::filesystem::path& file) try {
 
 }  // namespace
 
-/// What the thread and its owner share; it lives as long as either of them.
+/// State that the thread and its owner share; it lives as long as either of them.
 struct RecordingWriter::Shared {
     struct Waiting {
         Stamp stamp;

@@ -26,7 +26,7 @@
 
 namespace osteomill {
 
-/// What became of a recording.
+/// The outcome of a recording.
 struct RecordingReport {
     std::filesystem::path file;  ///< where it lies by now
     std::uint64_t frames = 0;
@@ -37,16 +37,16 @@ struct RecordingReport {
 };
 
 /// One line about a recording that has ended with an error: what, and where that which was written lies and
-/// can be read. Empty where all frames are in the file.
+/// can be read. Empty if all frames are in the file.
 std::string ending_of(const RecordingReport& report);
 
-/// What there is to tell of a recording under way.
+/// News of a recording under way.
 enum class RecordingNews {
     stands_still,  ///< nothing more can be written, for now or for good
     goes_on,       ///< again
 };
 
-/// What a recording does when nothing more can be written.
+/// The behaviour of a recording when nothing more can be written.
 enum class WhenDiskIsFull {
     end,        ///< there: frames that come later are forgotten
     try_again,  ///< until it succeeds or the recording is closed
@@ -88,11 +88,10 @@ class RecordingWriter {
     /// Whether the last attempt to write has failed.
     bool has_failed() const;
 
-    /// Writes what still waits, with one last attempt where the disk is full, and ends the thread; gives the
-    /// recording up where the disk stands still. What is pushed later is forgotten.
+    /// Writes what still waits, with one last attempt if the disk is full, and ends the thread; gives the
+    /// recording up if the disk stands still. Later pushes are discarded.
     void close();
-    /// Closes first, and makes the part the file, unless frames are missing. What goes wrong shows in the
-    /// report.
+    /// Closes first, and makes the part the file, unless frames are missing. Failures show in the report.
     void commit();
     /// Closes first; the destructor then deletes the file: it is worthless.
     void discard();

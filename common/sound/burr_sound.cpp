@@ -31,7 +31,8 @@ constexpr double grain_level = 0.35;
 constexpr double growl_level = 0.12;
 constexpr double run_out_beat = 0.3;
 constexpr double flutter_share = 1.5;
-/// Of the tooth note, where the force is even or its model has no edges: burrs are not that even.
+/// The least share of the tooth note, even if the force is even or its model has no edges: burrs are not that
+/// even.
 constexpr double even_share = 0.4;
 /// A load of a twentieth halves the whine.
 constexpr double drowns = 20.0;
@@ -101,7 +102,7 @@ void BurrSound::hear(const SoundCue& cue) noexcept {
 }
 
 BurrSound::Heard BurrSound::heard_of(const SoundCue& cue) const noexcept {
-    // Where nothing is cut the last cut fades with the colour that it had.
+    // If nothing is cut, the last cut fades with the colour that it had.
     if (!(cue.force_n > 0.0))
         return {.fall = wanted_.fall, .strain = cue.strain, .grain_hz = wanted_.grain_hz};
     const double load = loudness(cue.force_n);

@@ -1,4 +1,4 @@
-// The sound of a burr, sample by sample: what a microphone beside the handpiece would hear. Four parts:
+// The sound of a burr, sample by sample, as a microphone beside the handpiece would hear it. Four parts:
 //
 // - Tooth note, the force within the tooth period: a row of harmonics of edges * revolutions, each r times
 //   the one below, with r = ripple / (2 force), as of a train of pulses (Poisson's kernel). Louder with the
@@ -49,10 +49,10 @@ class BurrSound {
         double b_ = 0.0;
     };
 
-    /// What an ear makes of a cue; all on their way to what the newest says.
+    /// The quantities of a cue that an ear hears; all move towards the newest cue's.
     struct Heard {
         double load = 0.0;   // loudness of the force, 0 to 1
-        double tooth = 0.0;  // of the tooth note: an even force has less of it
+        double tooth = 0.0;  // loudness of the tooth note: an even force has less of it
         double fall = 0.0;   // r, from harmonic to harmonic
         double strain = 0.0;
         double grain_hz = 1000.0;

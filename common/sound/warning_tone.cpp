@@ -13,10 +13,10 @@ namespace {
 
 constexpr double step_s = 1.0 / BurrSound::rate_hz;
 constexpr double edge_s = 0.01;
-/// Of the fundamental and its harmonics; their sum is 1.
+/// Amplitudes of the fundamental and its harmonics; their sum is 1.
 constexpr std::array parts{0.4, 0.25, 0.15, 0.12, 0.08};
 
-/// Of a pulse that began so long ago, 0 to 1.
+/// The loudness of a pulse that began so long ago, 0 to 1.
 double envelope(double since_s) {
     if (since_s >= WarningTone::pulse_s) return 0.0;
     const double to_end_s = std::min(since_s, WarningTone::pulse_s - since_s);

@@ -1,5 +1,5 @@
 // The tone that warns of a protected structure, sample by sample: short pulses, which a burr's even note does
-// not drown; twice a second where the burr is near, five times where it touches.
+// not drown; twice a second if the burr is near, five times if it touches.
 //
 // A pulse has a fundamental of 880 Hz and the first harmonics, so that it is heard through a small
 // loudspeaker and by those who no longer hear high notes (IEC 60601-1-8 asks alarms for 150 to 1000 Hz with
@@ -20,7 +20,7 @@ class WarningTone {
     static constexpr double touch_period_s = 0.2;
     static constexpr double pulse_s = 0.1;
     static constexpr double loudest = 0.3;
-    /// It stops where no new state has come for so long.
+    /// It stops if no new state has come for so long.
     static constexpr double patience_s = 0.5;
 
     /// From the next sample on. A pulse that has begun ends first.

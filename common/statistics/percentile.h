@@ -9,7 +9,7 @@
 namespace osteomill {
 
 /// `share` from 0 to 1. Definition 7 of Hyndman and Fan, "Sample quantiles in statistical packages", The
-/// American Statistician 50 (1996). 0 where there are no values.
+/// American Statistician 50 (1996). 0 if there are no values.
 inline double percentile(std::span<const double> values, double share) {
     if (values.empty()) return 0.0;
     std::vector<double> partly_sorted(values.begin(), values.end());

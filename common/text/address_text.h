@@ -16,7 +16,7 @@ inline std::string without_passwords(const std::string& text) {
     return std::regex_replace(std::regex_replace(text, of_address, "$1***@"), of_setting, "$1***");
 }
 
-/// Whether an address or a list of settings for libpq has one; also where letters are written as %XX.
+/// Whether an address or a list of settings for libpq has one; also if letters are written as %XX.
 inline bool holds_password(const std::string& address) {
     std::string plain;
     for (std::size_t i = 0; i < address.size(); ++i) {
@@ -30,7 +30,7 @@ inline bool holds_password(const std::string& address) {
             plain += address[i];
         }
     }
-    // What follows a host is a port, up to the path.
+    // Digits behind a host are a port, up to the path.
     static const std::regex password(R"(://[^/@:?]*:(?!\d{0,5}([/?,]|$))[^@]*@|password\s*=)",
                                      std::regex::icase);
     return std::regex_search(address, password) || std::regex_search(plain, password);

@@ -6,7 +6,7 @@
 
 namespace osteomill {
 
-/// One line, printable (plain_text.h); in quotes where it holds a comma, a quote or a blank at an end. A text
+/// One line, printable (plain_text.h); in quotes if it holds a comma, a quote or a blank at an end. A text
 /// that begins as a formula does (=, +, -, @), after blanks, too, gets an apostrophe before it, as
 /// spreadsheets mark text. For texts alone: numbers go into a cell as they are.
 std::string csv_cell(std::string_view text);

@@ -1,5 +1,6 @@
-// JSON from elsewhere, whose depth is bounded before it is parsed: what walks through a value afterwards (to
-// flatten, copy or print it) calls itself once a level, and a file of brackets alone would use up the stack.
+// JSON from elsewhere, whose depth is bounded before it is parsed. Code that walks through a value afterwards
+// (to flatten, copy or print it) calls itself once a level, so a file of brackets alone would use up the
+// stack.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace osteomill {
 /// Many times what any file of this project has.
 inline constexpr std::size_t deepest_json = 100;
 
-/// How deep lists and objects lie in one another; of a text that is no JSON, some upper bound.
+/// How deep lists and objects are nested; some upper bound if the text is no JSON.
 inline std::size_t depth_of_json(std::string_view text) {
     std::size_t depth = 0;
     std::size_t deepest = 0;
@@ -22,7 +23,7 @@ inline std::size_t depth_of_json(std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char letter = text[i];
         if (in_text && letter == '\\')
-            ++i;  // what follows ends no text
+            ++i;  // the next character ends no text
         else if (letter == '"')
             in_text = !in_text;
         else if (!in_text && (letter == '[' || letter == '{'))
@@ -33,8 +34,8 @@ inline std::size_t depth_of_json(std::string_view text) {
     return deepest;
 }
 
-/// Throws std::runtime_error in one line that begins with `name` where the text is too deep, and
-/// nlohmann::json::exception where it is no JSON.
+/// Throws std::runtime_error in one line that begins with `name` if the text is too deep, and
+/// nlohmann::json::exception if it is no JSON.
 template <typename Json = nlohmann::json>
 Json parse_foreign_json(std::string_view text, const std::string& name) {
     if (depth_of_json(text) > deepest_json)

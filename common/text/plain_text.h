@@ -15,13 +15,13 @@ namespace osteomill {
 /// wrong, to go on behind the text's name: "is no UTF-8 (byte 2 is \xe4)".
 std::optional<std::string> why_not_plain(std::string_view text);
 
-/// Throws std::invalid_argument where it is not plain: "WHAT 'Z\xe4hne' is no UTF-8 (byte 2 is \xe4)".
+/// Throws std::invalid_argument if it is not plain: "WHAT 'Z\xe4hne' is no UTF-8 (byte 2 is \xe4)".
 void require_plain(std::string_view what, std::string_view text);
 
 /// The text, each byte of a control character and each that is no UTF-8 as "\x1b".
 std::string printable(std::string_view text);
 
-/// The same of its first 200 bytes; what is longer is cut between characters and ends in "...".
+/// The same of its first 200 bytes; a longer text is cut between characters and ends in "...".
 std::string one_line(std::string_view text);
 
 }  // namespace osteomill

@@ -40,7 +40,7 @@ inline std::vector<std::string> words_of(const std::string& text) {
     return {std::istream_iterator<std::string>(line), {}};
 }
 
-/// What stands between commas, without blanks around it; one empty cell of an empty line.
+/// The texts between commas, without blanks around them; an empty line has one empty cell.
 inline std::vector<std::string> cells_of(std::string_view line) {
     std::vector<std::string> cells;
     for (std::size_t from = 0;;) {
@@ -51,7 +51,7 @@ inline std::vector<std::string> cells_of(std::string_view line) {
     }
 }
 
-/// Nothing where the text is anything but a number of that type.
+/// Nothing if the text is anything but a number of that type.
 template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
     Number number{};
@@ -60,13 +60,13 @@ std::optional<Number> parse_number(std::string_view text) {
     return number;
 }
 
-/// A finite number with a point, in any locale; nothing where anything else stands there.
+/// A finite number with a point, in any locale; nothing if anything else stands there.
 inline std::optional<double> finite_number(std::string_view text) {
     const std::optional<double> number = parse_number<double>(text);
     return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
-/// Also "nan" and "inf"; nothing where anything else stands there.
+/// Also "nan" and "inf"; nothing if anything else stands there.
 inline std::optional<double> real_number(const std::string& text) {
     char* end = nullptr;
     const double number = std::strtod(text.c_str(), &end);

@@ -34,8 +34,8 @@ class DifferenceSearch {
     /// `bone` is the copy; the same one is to be passed to next().
     explicit DifferenceSearch(const Bone& bone);
 
-    /// What to ask next, of the copy as it now is; nothing when all that differs has been found. To be called
-    /// when the request before has been answered.
+    /// The next question about the copy as it now is; nothing once all differences have been found. To be
+    /// called when the request before has been answered.
     std::optional<v2::CompareBone> next(const Bone& bone, const RunningChecksum& checksum);
 
     /// The answer. Refuses an unexpected one, and parts that were not in the request.

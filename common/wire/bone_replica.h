@@ -33,9 +33,9 @@ class BoneReplica {
     /// Gives a stored brick other fractions, as when a recording is wound back.
     void set_fractions(BrickIndex brick, BrickFractions fractions);
 
-    /// What has changed since the last call: the voxels that changes covered, and those that were set to
-    /// another fraction; brick by brick, ascending. A voxel that was restored is in a change of that kind,
-    /// whatever else came over it; a brick may have one of each.
+    /// The changes since the last call: the voxels that changes covered, and those that were set to another
+    /// fraction; brick by brick, ascending. A voxel that was restored is in a change of that kind, even if it
+    /// changed otherwise, too; a brick may have one change of each kind.
     std::vector<BrickChange> take_changes();
 
     const Bone& bone() const { return bone_; }

@@ -12,7 +12,7 @@ namespace osteomill {
 
 namespace {
 
-/// 64 kB: fits a frame even where nothing compresses.
+/// 64 kB: fits a frame even if nothing compresses.
 constexpr std::size_t voxels_per_piece = 32 * 1024;
 
 WireError ct_refused(const std::string& what) {
@@ -31,7 +31,8 @@ v2::CtPiece CtPacker::pack(const CtVolume& ct, std::size_t& first_voxel) {
     if (first_voxel == 0) *piece.mutable_grid() = to_message(ct.grid);
     piece.set_first_voxel(first_voxel);
     const std::size_t count = std::min(voxels_per_piece, ct.hu.size() - first_voxel);
-    // Of numbers of two bytes the differences of neighbours shrink to half of what they do.
+    // The differences of neighbouring voxels, two bytes each, compress to half the size of the values
+    // themselves.
     std::vector<std::uint8_t> bytes(2 * count);
     std::int16_t before = 0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// What the checksum of a frame shows of a replica.
+/// The result of checking a replica against a frame's checksum.
 enum class ReplicaCheck {
     none,     ///< the frame stated none
     equal,    ///< the replica has it

@@ -25,7 +25,7 @@ inline constexpr std::size_t largest_client_frame_bytes = 8 * 1024;
 
 /// Appends one frame. Throws std::length_error for a message over the limit: the sender is to cut it first.
 void append_frame(const google::protobuf::MessageLite& message, std::string& stream);
-/// Likewise, of a message that has been serialised.
+/// Does the same with a message that has been serialised.
 void append_frame(std::string_view message, std::string& stream);
 
 /// Finds the frames in a stream that arrives in pieces of any size. It holds what has arrived and not yet

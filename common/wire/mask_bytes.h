@@ -17,7 +17,7 @@ inline void append(const VoxelMask& mask, std::vector<std::uint8_t>& bytes) {
             bytes.push_back(static_cast<std::uint8_t>(word >> 8 * k));
 }
 
-/// Of the first mask_bytes, which must be there.
+/// The mask in the first mask_bytes of `bytes`, which must be there.
 inline VoxelMask mask_at(std::span<const std::uint8_t> bytes) {
     VoxelMask mask;
     for (std::size_t n = 0; n < VoxelMask::word_count; ++n) {

@@ -19,7 +19,7 @@
 
 namespace osteomill {
 
-/// Before compression. Even where nothing compresses they fit a frame, and half a second of a link of
+/// Before compression. Even if nothing compresses they fit a frame, and half a second of a link of
 /// 1 Mbit/s.
 inline constexpr std::size_t largest_packed_changes_bytes = 64 * 1024;
 

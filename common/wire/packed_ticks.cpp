@@ -16,9 +16,10 @@ namespace {
 
 /// A quarter larger than what takes ten times as long.
 constexpr int tick_compression_level = 3;
-/// Of most_ticks_of_message where each number takes the longest varint, with room for more quantities.
+/// The size of most_ticks_of_message ticks if each number takes the longest varint, and space for more
+/// quantities.
 constexpr std::size_t largest_unpacked_bytes = 64 * 1024;
-/// Of protocol 2.2, which every recording with ticks has.
+/// The quantities of protocol 2.2, which every recording with ticks has.
 constexpr std::size_t quantities_of_before = 21;
 
 WireError ticks_refused(const std::string& what) {

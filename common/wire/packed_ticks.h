@@ -19,7 +19,7 @@
 
 namespace osteomill {
 
-/// What the longest pause between two states of a tool at rest holds. Even where nothing compresses so many
+/// The ticks of the longest pause between two states of a tool at rest. Even if nothing compresses, so many
 /// fit a frame beside the largest changes.
 inline constexpr std::size_t most_ticks_of_message = 128;
 

@@ -17,7 +17,8 @@ class RunningChecksum {
 
     std::uint64_t value() const { return sum_; }
 
-    /// What `count` bricks from `first` on add to it, whether stored or not; `bone` is the one it began with.
+    /// The part of the checksum that `count` bricks from `first` on contribute, whether stored or not; `bone`
+    /// is the one it began with.
     std::uint64_t sum_of(const Bone& bone, BrickIndex first, std::uint64_t count) const;
 
   private:

@@ -33,8 +33,8 @@ ToolDriver driver_from(v2::ToolDriver driver) {
     return v2::ToolDriver_IsValid(driver) ? static_cast<ToolDriver>(driver) : ToolDriver::unknown;
 }
 
-/// Of a burr whose diameter is checked; nothing where the message makes no head. A shape that only a newer
-/// server knows is drawn as a ball.
+/// The head of a burr whose diameter is already checked; nothing if the message makes no head. A shape that
+/// only a newer server knows is drawn as a ball.
 std::optional<BurrHead> head_from(const v2::BurrDescription& message) {
     if (!message.has_head()) return BurrHead{};
     const v2::BurrHead& head = message.head();

@@ -15,10 +15,10 @@
 
 namespace osteomill {
 
-/// What a seal adds to a message: a tag of one byte, and 32 bits.
+/// The bytes that a seal adds to a message: a tag of one byte, and 32 bits.
 inline constexpr std::size_t seal_bytes = 5;
 
-/// What a recording adds to a sealed frame: a tag of one byte, and 64 bits.
+/// The bytes that a recording adds to a sealed frame: a tag of one byte, and 64 bits.
 inline constexpr std::size_t recorded_time_bytes = 9;
 
 /// Appends the frame, which is not sealed yet, with its seal, behind its length. Throws std::length_error for

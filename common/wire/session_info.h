@@ -24,7 +24,7 @@ struct SessionInfo {
     bool accepts_operator = false;  ///< the server runs with --device client
     double force_limit_n = 0.0;
     double reach_mm = longest_reach_mm;  ///< from the burr to an operator's target, at most
-    bool has_ct = false;                 ///< the server has a CT for people to look at
+    bool has_ct = false;                 ///< the server has a CT to display
     bool accepts_controls = false;       ///< the server takes a SessionControl
     bool records_view = false;           ///< the server takes a Viewpoint, for its recording
     bool holds_ticks = false;            ///< a recording: its states hold every tick of the haptic loop
@@ -35,7 +35,7 @@ struct SessionInfo {
     std::map<std::string, std::string> settings{};  ///< as haptic_server --json names them
     std::string scene_toml{};  ///< the whole scene, which whoever reads it checks; empty: not said
 
-    /// The burr of that number; null where the server has announced none.
+    /// The burr of that number; null if the server has announced none.
     const Burr* burr_of(std::size_t number) const { return number < burrs.size() ? &burrs[number] : nullptr; }
 };
 

@@ -56,15 +56,15 @@ struct SaidGoodbye {
 /// The server speaks another major version; nothing after this can be understood.
 struct SpeaksOtherProtocol {
     std::uint32_t major = 0;
-    std::string program_version{};  ///< of the program that says so
+    std::string program_version{};  ///< version of the program that sends it
 };
 
-/// Another piece of the CT; what it makes is the receiver's business.
+/// Another piece of the CT, which the receiver assembles.
 struct CtPieceArrived {
     v2::CtPiece piece;
 };
 
-/// Of a protected structure, what has come is complete; nothing: there will be more of it.
+/// A protected structure that is complete; nothing: more of it will come.
 struct StructureArrived {
     std::optional<Structure> structure;
 };
@@ -88,7 +88,7 @@ class SessionReceiver {
     /// to another place. The receiver must be live or the session over.
     void go_on_behind(std::uint64_t sequence);
 
-    /// Of the snapshot that is coming or came last.
+    /// Bricks of the snapshot that is coming or came last.
     std::uint32_t bricks_received() const { return bricks_received_; }
     std::uint32_t bricks_announced() const { return bricks_announced_; }
 
@@ -110,7 +110,7 @@ class SessionReceiver {
     std::size_t burr_count_ = 0;
     std::vector<Tissue> tissues_;
     StructureAssembler structures_;
-    glm::ivec3 size_bricks_{0};  // of the bone
+    glm::ivec3 size_bricks_{0};  // the bone's size
     std::uint32_t bricks_received_ = 0;
     std::uint32_t bricks_announced_ = 0;
 };

@@ -117,7 +117,7 @@ std::variant<SnapshotAssembler, WireError> SnapshotAssembler::begin(const v2::Sn
             message.heterogeneous()
                 ? BoneBuilder::heterogeneous(grid, message.stiffness_per_code(), message.labelled())
                 : BoneBuilder::homogeneous(grid, message.homogeneous_stiffness(), message.labelled());
-        // What is announced and does not come costs addresses, not memory.
+        // Bricks that are announced and never come cost addresses, not memory.
         builder.reserve_bricks(message.brick_count());
         return SnapshotAssembler(std::move(builder), message, size_in_bricks(grid));
     } catch (const std::invalid_argument& error) {

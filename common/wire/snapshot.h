@@ -1,6 +1,6 @@
 // A snapshot of the bone in and out of messages, in pieces that fit a frame.
 //
-// Everything that arrives is checked before it is used; what does not fit is refused in one line.
+// Everything that arrives is checked before it is used; anything wrong is refused in one line.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ namespace osteomill {
 /// channels it is 1400 cm^3 of bone, twice a skull.
 inline constexpr std::size_t most_bytes_of_bone = std::size_t{4} << 30U;
 
-/// Uncompressed channels in one SnapshotBricks. Compressed they fit a frame even where nothing compresses.
+/// Uncompressed channels in one SnapshotBricks. Compressed they fit a frame even if nothing compresses.
 inline constexpr std::size_t largest_snapshot_piece_bytes = 120 * 1024;
 
-/// Throws std::invalid_argument where the bone is larger than that.
+/// Throws std::invalid_argument if the bone is larger than that.
 void require_sendable(const Bone& bone);
 
 v2::SnapshotBegin snapshot_begin(const Bone& bone);

@@ -1,4 +1,4 @@
-// A session's state out of a state frame; what the frame says of the bone is in packed_changes.h.
+// A session's state, decoded from a state frame; packed_changes.h decodes the frame's changes of the bone.
 #pragma once
 
 #include <cstddef>

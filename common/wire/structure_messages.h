@@ -14,10 +14,10 @@
 
 namespace osteomill {
 
-/// In one message; even where nothing compresses it fits a frame.
+/// In one message; even if nothing compresses it fits a frame.
 inline constexpr std::size_t most_bricks_of_structure_piece = 128;
-/// Of all structures together: 128 MiB of masks, 1 dm^3 at 0.1 mm. A mask's own size on the wire bounds
-/// nothing.
+/// The most bricks of all structures together: 128 MiB of masks, 1 dm^3 at 0.1 mm. A mask's size on the wire
+/// bounds nothing.
 inline constexpr std::size_t most_structure_bricks = std::size_t{1} << 18U;
 
 /// All messages of these structures. Throws std::invalid_argument for more bricks than are sent.
@@ -31,8 +31,8 @@ class StructureAssembler {
     StructureAssembler(const std::vector<Tissue>& tissues, const Grid& grid);
 
     /// The structure when its last piece has come, else nothing. A piece of one that is complete changes
-    /// nothing: a recording may be wound back. Refuses what makes no sense; what came of that structure is
-    /// then forgotten.
+    /// nothing: a recording may be wound back. Refuses a piece that makes no sense, and then forgets that
+    /// structure's earlier pieces.
     std::variant<std::optional<Structure>, WireError> take(const v2::StructureBricks& piece);
     /// Some pieces will not come: forgets the structure that is not complete.
     void miss();
@@ -45,8 +45,8 @@ class StructureAssembler {
     Grid grid_{};
     std::uint64_t grid_bricks_ = 0;
     std::optional<std::size_t> under_way_;
-    std::vector<StructureBrick> bricks_;  // of that
-    std::size_t taken_bricks_ = 0;        // of complete ones
+    std::vector<StructureBrick> bricks_;  // the incoming structure's
+    std::size_t taken_bricks_ = 0;        // the complete structures'
 };
 
 v2::StructureDistance to_message(const StructureDistance& distance);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double narrowest_deg = 1.0;
 constexpr double widest_deg = 170.0;
-/// What single precision leaves of a unit quaternion, with room.
+/// The error that single precision makes in a unit quaternion, with a margin.
 constexpr double rounding = 1e-3;
 
 }  // namespace

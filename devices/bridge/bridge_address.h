@@ -21,7 +21,7 @@ using BridgeAddress = std::variant<BridgePath, ListenAddress>;
 /// right, also for a path that is too long for a socket.
 BridgeAddress parse_bridge_address(const std::string& text);
 
-/// As it is typed.
+/// The address as one types it.
 std::string to_text(const BridgeAddress& where);
 
 /// Whether only this machine can reach it.

@@ -106,14 +106,15 @@ void BridgeArm::take_pose(std::uint64_t now_ns) {
     if (!sensor_) sensor_.emplace(0.0);
     sensor_->read(state.position_mm, seconds(now_ns - sensed_ns_));
     sensed_ns_ = now_ns;
-    // The arm's own estimate is of the handle; where that is not the tool, turning it moves the tool, too.
+    // The arm's own estimate is of the handle; if that is not the tool, turning it moves the tool, too.
     const bool is_at_tool = tool_from_handle_mm_ == glm::dvec3(0.0);
     state.velocity_mm_per_s = is_at_tool && (pose.status & OMB_HAS_VELOCITY) != 0
                                   ? vector_of(pose.velocity_mm_per_s)
                                   : sensor_->velocity_mm_per_s();
     state.pedal = {.is_down = (pose.buttons & OMB_PEDAL) != 0, .speaker = host_.session()};
     const bool next_pressed = (pose.buttons & OMB_NEXT_BURR) != 0;
-    // Of another arm nothing is known before its first pose: a key that it holds already asks for nothing.
+    // Before another arm's first pose nothing is known of its keys: one that is held down already asks for
+    // nothing.
     if (std::exchange(session_, host_.session()) != host_.session()) was_next_pressed_ = next_pressed;
     if (next_pressed && !was_next_pressed_) burr_ = (burr_ + 1) % parts_.burr_count;
     was_next_pressed_ = next_pressed;

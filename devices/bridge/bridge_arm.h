@@ -42,14 +42,14 @@ class BridgeArm final : public HapticDevice {
     bool await(const std::function<bool()>& gives_up);
 
     const BridgeAddress& address() const { return socket_.address(); }
-    /// What half of the messages took to the arm and back when it joined, the arm's own wait included.
+    /// The median time of a message to the arm and back when it joined, the arm's own wait included.
     double round_trip_s() const { return round_trip_s_.load(); }
 
     /// Device space.
     glm::dvec3 workspace_middle_mm() const;
 
     std::string name() const override;
-    /// The arm's own; of its stiffness what holds with the delay that was measured.
+    /// The arm's own limits, with the stiffness lowered to what the measured delay allows.
     DeviceLimits limits() const override;
     /// An arm has joined already: await() has been called.
     void start() override {}
@@ -57,7 +57,7 @@ class BridgeArm final : public HapticDevice {
     void write(const glm::dvec3& force_n) noexcept override;
     void stop() noexcept override;
     const char* notice() const noexcept override { return notice_.load(std::memory_order_relaxed); }
-    /// What came over the bridge; once stopped.
+    /// Counts of the messages over the bridge; to be read once stopped.
     const BridgeCounts& counts() const { return host_.counts(); }
 
   private:
@@ -67,14 +67,14 @@ class BridgeArm final : public HapticDevice {
     BridgeForce wanted(std::uint64_t now_ns) const;
     void tell_who_waits();
 
-    // Of the thread.
+    // The thread's own.
     DatagramSocket socket_;
     Parts parts_;
     BridgeHost host_;
     std::optional<PositionSensor> sensor_;
     std::uint64_t sensed_ns_ = 0;
     bool was_next_pressed_ = false;
-    std::uint64_t session_ = 0;  // of the newest pose
+    std::uint64_t session_ = 0;  // the newest pose's session
     std::size_t burr_ = 0;
     glm::dvec3 tool_from_handle_mm_{0.0};  // device space, as the arm stands now
     std::uint64_t force_ns_ = 0;           // when the loop left the newest
@@ -87,7 +87,7 @@ class BridgeArm final : public HapticDevice {
     std::atomic<const char*> notice_{""};
     std::atomic<bool> stops_{false};
 
-    // Of the loop, and of the thread that waits before it runs.
+    // Owned by the loop, and by the thread that waits before it runs.
     omb_arm arm_{};
     std::thread thread_;
 };

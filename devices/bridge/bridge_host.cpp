@@ -124,7 +124,7 @@ void BridgeHost::try_to_join(const omb_header& header, const std::uint8_t* messa
     if (!may_join(from, now_ns)) return;
     omb_pose pose;
     omb_get_pose(message, &pose);
-    // Of this welcome or an earlier one somebody has joined already; or it is stale.
+    // Somebody has joined already by this welcome or an earlier one; or the pose is stale.
     if (pose.echo_sequence <= welcome_ || now_ns - pose.echo_clock_ns > gone_ns) return;
     const std::size_t statement = header.session % statements_kept;
     const omb_arm& arm = statements_[statement].arm;
@@ -176,8 +176,8 @@ void BridgeHost::take_pose(const omb_header& header, const std::uint8_t* message
     heard_ns_ = now_ns;
     request_clock_ns_ = header.clock_ns;
     awaits_answer_ = true;
-    // What we sent, and how long it lay there, is all counted by one clock each: no clocks need agree.
-    // An arm whose clock goes in steps, or fast, may say that it kept it for longer than it was away.
+    // Each end counts its own interval by its own clock, so the clocks need not agree. An arm whose clock
+    // goes in steps, or fast, may say that it kept the message for longer than it was away.
     const std::uint64_t away_ns = now_ns - pose.echo_clock_ns;
     const std::uint64_t kept_ns = std::min({away_ns, pose.kept_ns, longest_kept_ns});
     const std::uint64_t round_trip_ns = away_ns - kept_ns;

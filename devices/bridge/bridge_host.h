@@ -27,7 +27,7 @@ using BridgeMessage = std::array<std::uint8_t, OMB_MESSAGE_BYTES>;
 /// Who sent a datagram, as the system names them; compared, never read.
 using PeerAddress = std::vector<std::uint8_t>;
 
-/// What to tell the arm now.
+/// The force to send to the arm now.
 struct BridgeForce {
     glm::dvec3 force_n{0.0};      ///< on the hand, device space
     glm::dvec3 torque_n_mm{0.0};  ///< on the hand, about what the arm's poses place
@@ -39,7 +39,7 @@ struct BridgeCounts {
     std::uint64_t poses = 0;         ///< taken
     std::uint64_t lost = 0;          ///< numbers that never came
     std::uint64_t out_of_order = 0;  ///< came twice, or after a newer one
-    std::uint64_t refused = 0;       ///< of another key, session, version or size
+    std::uint64_t refused = 0;       ///< wrong key, session, version or size
     std::uint64_t late = 0;          ///< poses that had been under way for too long
     std::uint64_t impossible = 0;    ///< numbers that no arm can mean
     std::uint64_t other_arms = 0;    ///< hellos of another arm while one is served
@@ -63,8 +63,8 @@ class BridgeHost {
     /// `random` gives numbers that nobody can guess.
     BridgeHost(const omb_key& key, const std::function<std::uint64_t()>& random);
 
-    /// What to send back to `from` at once; nullopt: nothing. Takes what is no message, too. Does not throw
-    /// but for memory.
+    /// Reads a datagram, which need not be a message, and returns the message to send back to `from` at once;
+    /// nullopt: none. Throws only if memory is short.
     std::optional<BridgeMessage> take(std::span<const std::uint8_t> datagram, const PeerAddress& from,
                                       std::uint64_t now_ns);
 
@@ -93,7 +93,7 @@ class BridgeHost {
     /// The arm has said goodbye, or nothing for long.
     bool is_gone(std::uint64_t now_ns) const { return session_ == 0 || now_ns - heard_ns_ > gone_ns; }
 
-    /// What half of the last messages took to the arm and back; nullopt before there are enough.
+    /// The median time of the last messages to the arm and back; nullopt before there are enough.
     std::optional<double> round_trip_median_s() const;
 
     /// The reason of the last refusal of the arm's hello, a text with static lifetime; empty without one.
@@ -125,7 +125,7 @@ class BridgeHost {
     void measure(std::uint64_t round_trip_ns);
 
     omb_key key_;
-    omb_key secret_{};  // of the cookies
+    omb_key secret_{};  // the cookies' key
     std::vector<Statement> statements_{statements_kept};
     PeerAddress peer_;
     std::uint64_t session_ = 0;
@@ -151,7 +151,7 @@ class BridgeHost {
 /// The reason for which no arm can be like this, a text with static lifetime; nullptr for a possible one.
 const char* why_impossible(const omb_arm& arm);
 
-/// Whether all its numbers are finite and the quaternion, where there is one, is a rotation.
+/// Whether all its numbers are finite and the quaternion, if there is one, is a rotation.
 bool is_possible(const omb_pose& pose);
 
 }  // namespace osteomill

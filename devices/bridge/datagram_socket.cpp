@@ -35,7 +35,7 @@ const sockaddr* generic(const sockaddr_un& address) {
     return reinterpret_cast<const sockaddr*>(&address);
 }
 
-/// What bind() gives a path of ours.
+/// The mode that bind() gives a path of ours.
 constexpr mode_t own_mode = S_IFSOCK | S_IRWXU;
 
 /// A socket of ours that nobody listens at any more is removed.

@@ -25,7 +25,7 @@ class DatagramSocket {
     DatagramSocket(const DatagramSocket&) = delete;
     DatagramSocket& operator=(const DatagramSocket&) = delete;
 
-    /// The port, where the system chose it.
+    /// The port, if the system chose it.
     const BridgeAddress& address() const { return where_; }
 
     /// Waits for a datagram or for wake(), `longest_wait_ms` at most. Returns the datagram's length, or the
@@ -36,14 +36,14 @@ class DatagramSocket {
     /// Ends a receive() of another thread, or the next. Real-time safe.
     void wake() noexcept { wake_.wake(); }
 
-    /// What cannot be sent now is lost.
+    /// Sends the datagram; if it cannot be sent now, it is lost.
     void send(std::span<const std::uint8_t> datagram, const PeerAddress& to) noexcept;
 
   private:
     BridgeAddress where_;
     int socket_ = -1;
     WakeUp wake_;
-    // Of the path: at the end it may be another's.
+    // They identify our socket file: at the end the path may be another's.
     dev_t path_device_ = 0;
     ino_t path_inode_ = 0;
 };

@@ -41,7 +41,7 @@ class ClientDevice final : public HapticDevice {
     void stop() noexcept override { held_arm_.set_motor_force(glm::dvec3(0.0)); }
     /// The hand stays where it is and holds still until the next command.
     void set_mapping(const DeviceMapping& mapping) noexcept override;
-    /// What was clamped, once for each kind.
+    /// A notice of each kind of clamping, once.
     const char* notice() const noexcept override { return limit_.notice(); }
 
   private:

@@ -100,7 +100,7 @@ void HaplyArm::run() {
 
 void HaplyArm::converse(HaplyConnection& connection) {
     field_ = HaplyForceField::values;
-    sent_force_ = {};  // what the connection before was sent ended with it
+    sent_force_ = {};  // a force sent on an earlier connection ended with it
     unanswered_ = 1;   // the first message comes by itself
     understood_ = requested_ = first_request_ = Clock::now();
     while (!stops_.load(std::memory_order_relaxed)) {

@@ -101,11 +101,11 @@ class HaplyArm final : public HapticDevice {
     void end(HaplyConnection& connection);
     void say(const char* notice) noexcept { notice_.store(notice, std::memory_order_relaxed); }
 
-    // Of the thread.
+    // The thread's own.
     Parts parts_;
-    std::string device_id_;  // of the first arm that was seen; another is not taken for it
+    std::string device_id_;  // the first arm that was seen; another is ignored
     HaplyForceField field_ = HaplyForceField::values;
-    bool has_arm_ = false;      // as of the newest message
+    bool has_arm_ = false;      // whether the newest message has it
     bool is_arm_able_ = false;  // and calibrated, with power
     bool is_calibrated_ = true;
     bool has_power_ = true;
@@ -122,7 +122,7 @@ class HaplyArm final : public HapticDevice {
     bool has_force_ = false;
     FadingForce sent_force_;
     Clock::time_point requested_;
-    Clock::time_point first_request_;  // of what is unanswered: an answer is no older
+    Clock::time_point first_request_;  // the oldest unanswered request: an answer is no older
     Clock::time_point understood_;     // the newest message that made sense
     int unanswered_ = 0;               // messages of ours
     std::string text_;

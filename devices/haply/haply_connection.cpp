@@ -20,7 +20,7 @@ struct HaplyConnection::Socket {
     asio::io_context context{1};
     websocket::stream<asio::ip::tcp::socket> stream{context};
     beast::flat_buffer buffer{longest_message};
-    std::size_t taken = 0;  // of the buffer, by the caller
+    std::size_t taken = 0;  // bytes of the buffer that the caller has read
     bool is_open = false;
     bool is_reading = false;   // a read is under way
     bool has_message = false;  // one has ended, and nobody has taken what came
@@ -37,7 +37,7 @@ struct HaplyConnection::Socket {
         }
         return true;
     }
-    /// What is under way ends at once, and with an error.
+    /// Operations under way end at once, with an error.
     void close() {
         boost::system::error_code ignored;
         stream.next_layer().close(ignored);

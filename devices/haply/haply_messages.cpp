@@ -19,7 +19,7 @@ using nlohmann::json;
 constexpr std::size_t longest_id = 64;
 constexpr double fastest_m_per_s = 100.0;
 
-/// The value under a key; null where there is none.
+/// The value under a key; null if there is none.
 const json& at(const json& object, const char* key) {
     static const json nothing;
     if (!object.is_object()) return nothing;
@@ -54,7 +54,7 @@ std::optional<glm::dquat> rotation(const json& value) {
     return size > 0.9 && size < 1.1 ? std::optional(result / size) : std::nullopt;
 }
 
-/// What can stand in a message of ours without more ado.
+/// A name that our messages can contain as it is.
 std::optional<std::string> identity(const json& value) {
     if (!value.is_string()) return std::nullopt;
     const auto& text = value.get_ref<const std::string&>();

@@ -22,7 +22,7 @@
 
 namespace osteomill {
 
-/// The arm, as stated in one message. What a message does not say of its status is empty.
+/// The arm, as stated in one message. A status that the message does not state is empty.
 struct HaplyInverse3 {
     std::string device_id;
     glm::dvec3 position_m{0.0};
@@ -52,8 +52,9 @@ struct HaplyState {
 /// Positions beyond it are no arm's.
 inline constexpr double farthest_m = 5.0;
 
-/// What a message says of the arm `device_id`, or of the first where that is empty. Nullopt: it is no state,
-/// or what it says of the arm or its grip means nothing (no numbers, no rotation). Throws nothing.
+/// The state of the arm `device_id` in a message, or of the first arm if `device_id` is empty. Nullopt: the
+/// message is no state, or its values for the arm or the grip are unusable (no numbers, no rotation). Throws
+/// nothing.
 std::optional<HaplyState> parse_haply_state(std::string_view text, std::string_view device_id) noexcept;
 
 /// A force on the cursor of an arm, as `text`. A component that is not finite is zero.

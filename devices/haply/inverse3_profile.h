@@ -5,8 +5,7 @@
 // Positions and forces are those of the cursor, about which the grip turns: that is where the burr's centre
 // is, so turning the grip does not move the burr.
 //
-// No document of the maker's was found that has all of this; where a number is our own, it is
-// on the safe side.
+// No document of the maker's was found that has all of this; if a number is our own, it is on the safe side.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -24,7 +23,7 @@ struct Inverse3Profile {
     double apparent_mass_kg = 0.15;
     /// Our own, on the coarse side.
     double position_step_mm = 0.02;
-    /// Device space. Where the maker's example sends the cursor to ("Control Commands").
+    /// Device space. The maker's example sends the cursor there ("Control Commands").
     glm::dvec3 workspace_middle_mm{0.0, -120.0, 150.0};
     /// From the burr's tip to the shank in the grip's frame: a grip points along its +y ("06. Combined").
     glm::dvec3 spindle_axis_in_grip{0.0, -1.0, 0.0};

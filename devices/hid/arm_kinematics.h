@@ -24,7 +24,7 @@ class ArmKinematics {
   public:
     explicit ArmKinematics(const ArmProfile& profile);
 
-    /// Of the bodies A, B, C. Real-time safe, like all here.
+    /// Angles of the bodies A, B, C. Real-time safe, like all functions here.
     glm::dvec3 angles_rad(const std::array<int, 3>& counts) const noexcept;
     glm::dvec3 position_mm(const glm::dvec3& angles_rad) const noexcept;
     /// Columns: d position / d A, B, C, in mm per rad.
@@ -33,8 +33,8 @@ class ArmKinematics {
     /// Motor currents that make the tip push with `force_n`; not capped.
     glm::dvec3 currents_a(const glm::dvec3& angles_rad, const glm::dvec3& force_n) const noexcept;
 
-    /// The force at the tip of motors with these currents: the inverse of currents_a. Where the arm is
-    /// stretched or folded some forces do not reach the motors, and the result is not finite.
+    /// The force at the tip of motors with these currents: the inverse of currents_a. If the arm is stretched
+    /// or folded, some forces do not reach the motors, and the result is not finite.
     glm::dvec3 force_n(const glm::dvec3& angles_rad, const glm::dvec3& currents_a) const noexcept;
 
     /// Unit vector from tip to shank: the profile's fixed axis, or what the stylus's counters say,
@@ -48,11 +48,11 @@ class ArmKinematics {
   private:
     ArmProfile profile_;
     glm::dvec3 rad_per_count_;
-    glm::dvec3 amperes_per_nmm_;  // of torque on a body
+    glm::dvec3 amperes_per_nmm_;  // current per torque on a body
 };
 
 /// The currents as they are, or all made smaller alike so that none exceeds `most_a`: the force gets weaker
-/// and keeps its direction. What is not finite is no current at all. Real-time safe.
+/// and keeps its direction. Currents that are not finite become zero. Real-time safe.
 glm::dvec3 capped_currents_a(const glm::dvec3& currents_a, double most_a) noexcept;
 
 }  // namespace osteomill

@@ -40,15 +40,15 @@ class ArmLink {
   public:
     enum class State { waking, uncalibrated, waiting, driving, gone };
 
-    /// The device answers one report per report: where nothing comes for this long, it waits for ours.
+    /// The device answers one report per report: if nothing comes for this long, it waits for ours.
     static constexpr double wake_after_s = 0.010;
-    /// Two exchanges that failed: what it says is too old to answer with a force.
+    /// Two exchanges that failed: the arm's last report is then too old to answer with a force.
     static constexpr double silent_after_s = 0.020;
     static constexpr double given_up_after_s = 0.5;
     /// A force that has not been renewed for this long ends.
     static constexpr double longest_force_age_s = 0.020;
     static constexpr double small_force_n = 0.1;
-    /// What a hand that holds the arm at its calibration position may move meanwhile.
+    /// How far a hand that holds the arm at its calibration position may move it meanwhile.
     static constexpr int calibration_tolerance_counts = 100;
 
     /// The connection outlives the link, which begins at `now_s`.
@@ -103,9 +103,9 @@ class ArmLink {
     glm::dvec3 angles_rad_{0.0};
 
     bool is_answer_due_ = false;
-    double report_s_;  // of the newest report
-    double sent_s_;    // of our last one
-    double wanted_s_;  // of the newest force
+    double report_s_;  // time of the newest report
+    double sent_s_;    // time of our last report
+    double wanted_s_;  // time of the newest force
     bool has_force_ = false;
     glm::dvec3 wanted_n_{0.0};
 };

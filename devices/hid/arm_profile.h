@@ -31,7 +31,7 @@ struct ArmJoint {
 
 /// Three encoders that tell how the stylus is held.
 struct StylusEncoders {
-    std::array<int, 3> counts_per_rev{};     ///< of the counters d, e, f
+    std::array<int, 3> counts_per_rev{};     ///< for the counters d, e, f
     std::array<double, 3> directions{};      ///< +1 or -1
     glm::dvec3 spindle_axis{1.0, 0.0, 0.0};  ///< unit, from tip to shank, in the stylus
 };
@@ -42,7 +42,7 @@ enum class CalibrationMethod {
     at_power_up  ///< it was there when it was plugged in
 };
 
-/// What the switch on the stylus does.
+/// The use of the switch on the stylus.
 enum class SwitchUse { pedal, pedal_and_clutch };
 
 struct ArmProfile {
@@ -59,7 +59,7 @@ struct ArmProfile {
     double max_current_a = 0.0;
     SwitchUse switch_use = SwitchUse::pedal;
     std::optional<StylusEncoders> stylus;  ///< none: the spindle's direction is fixed
-    glm::dvec3 fixed_axis{0.0, 0.0, 1.0};  ///< unit, device space; what it is then
+    glm::dvec3 fixed_axis{0.0, 0.0, 1.0};  ///< unit, device space; the axis in that case
 };
 
 }  // namespace osteomill

@@ -7,7 +7,7 @@ namespace osteomill {
 
 namespace {
 
-/// Where count d tells of the switch, and by how much it is raised then.
+/// The pressed switch adds the offset to count d, which is then above the threshold.
 constexpr int switch_threshold = 5000;
 constexpr int switch_offset = 10'000;
 

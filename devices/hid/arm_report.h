@@ -37,7 +37,7 @@ struct ArmInput {
 /// neither 0 nor 1. Real-time safe.
 std::optional<ArmInput> decode_arm_report(std::span<const std::uint8_t> report) noexcept;
 
-/// What is handed to hidapi: a zero byte for "not numbered", then the report.
+/// The bytes for hidapi: a zero byte for "not numbered", then the report.
 struct ArmOutput {
     std::array<std::uint8_t, 15> storage{};
     std::size_t size = 0;

@@ -15,7 +15,7 @@ namespace osteomill {
 
 namespace {
 
-/// What a device can be used as; empty for a keyboard and the like.
+/// The use that a device can have; empty for a keyboard and the like.
 std::string use_of(const HidDeviceInfo& device) {
     std::vector<std::string> profiles;
     for (const std::string& name : shipped_profile_names())

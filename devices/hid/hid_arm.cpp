@@ -11,7 +11,7 @@ namespace osteomill {
 
 namespace {
 
-/// An arm answers within a millisecond or two; this is how long the thread sleeps where it does not.
+/// An arm answers within a millisecond or two; this is how long the thread sleeps if it does not.
 constexpr int longest_wait_ms = 5;
 
 class ArmConversation final : public HidConversation {
@@ -25,7 +25,7 @@ class ArmConversation final : public HidConversation {
           link_(profile, *connection_, clock_s_()),
           readings_(readings),
           forces_(forces) {
-        forces_.refresh();  // what was wanted of the arm before it was unplugged is not meant for it now
+        forces_.refresh();  // a force wanted before it was unplugged is not meant for it now
     }
 
     bool exchange() noexcept override {

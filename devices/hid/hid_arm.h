@@ -35,7 +35,7 @@ class HidArm final : public HapticDevice {
     HidWorker worker_;                 // last: its thread uses the others
 };
 
-/// Where the tip is at the calibration position, device space.
+/// The tip's position at the calibration position, device space.
 glm::dvec3 home_position_mm(const ArmProfile& profile);
 
 /// Whether a device is the arm of a profile.

@@ -51,7 +51,7 @@ class HidTransport {
   public:
     virtual ~HidTransport() = default;
 
-    /// What is plugged in now. Not real-time safe, like open.
+    /// The devices that are plugged in now. Not real-time safe, like open.
     virtual std::vector<HidDeviceInfo> list() = 0;
 
     /// Throws HidOpenError.

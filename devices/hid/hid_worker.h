@@ -46,8 +46,8 @@ class HidWorker {
     explicit HidWorker(HidWorkerParts parts) : parts_(std::move(parts)) {}
     ~HidWorker() { stop(); }
 
-    /// Opens the device and starts the thread. Throws std::runtime_error where there is none, HidOpenError
-    /// where it cannot be opened.
+    /// Opens the device and starts the thread. Throws std::runtime_error if there is none, HidOpenError
+    /// if it cannot be opened.
     void start();
 
     /// Ends the conversation and the thread. Safe in any state.
@@ -62,7 +62,7 @@ class HidWorker {
     void run();
 
     HidWorkerParts parts_;
-    std::unique_ptr<HidConversation> conversation_;  // of the thread, while it runs
+    std::unique_ptr<HidConversation> conversation_;  // the thread's own, while it runs
     std::atomic<const char*> notice_{""};
     std::atomic<bool> stops_{false};
     std::thread thread_;

@@ -20,7 +20,7 @@ struct FreeList {
     void operator()(hid_device_info* list) const { hid_free_enumeration(list); }
 };
 
-/// Product names are for people to read: what is not plain text becomes a question mark.
+/// Product names are for people to read: characters that are not plain text become question marks.
 std::string plain_text(const wchar_t* text) {
     std::string plain;
     for (; text != nullptr && *text != L'\0'; ++text)

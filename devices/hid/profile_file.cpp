@@ -23,7 +23,7 @@ constexpr AllowedRange diameter_range_m{0.001, 1.0};
 constexpr AllowedRange torque_constant_range{0.001, 5.0};
 constexpr AllowedRange force_range_n{0.1, 40.0};
 constexpr AllowedRange stiffness_range_n_per_m{10.0, 20'000.0};
-/// What the amplifiers of this family give at most (3 A full scale).
+/// The most current of this family's amplifiers is 3 A (full scale).
 constexpr AllowedRange current_range_a{0.01, 3.0};
 constexpr AllowedRange mass_range_kg{0.005, 5.0};
 constexpr std::int64_t most_counts = 32'767;  // the report's int16

@@ -23,7 +23,7 @@
 
 namespace osteomill {
 
-/// What the thread that reads the mouse hands to the haptic loop.
+/// A reading that the mouse's thread hands to the haptic loop.
 struct SpaceMouseReading {
     SpaceMouseState state;
     bool is_plugged = false;

@@ -1,5 +1,5 @@
-// Meaning of the one switch on a stylus: the pedal, or, where the profile lets it, the clutch. Pressed it
-// is the pedal. Pressed twice within double_press_s and held it is the clutch, until it is let go.
+// Meaning of the one switch on a stylus: the pedal, or, if the profile lets it, the clutch. Pressed it is the
+// pedal. Pressed twice within double_press_s and held it is the clutch, until it is let go.
 #pragma once
 
 #include "devices/hid/arm_profile.h"

@@ -26,7 +26,7 @@ struct PointPair {
 
 struct PointRegistration {
     DeviceMapping mapping;            ///< tracker to patient LPS; its scale is 1
-    std::vector<double> residual_mm;  ///< of each pair
+    std::vector<double> residual_mm;  ///< one for each pair
     double rms_mm = 0.0;
     std::size_t worst = 0;  ///< the pair with the largest
 };

@@ -10,10 +10,10 @@
 //
 // Between samples i and i + 1 the position is the cubic with their positions and, as slopes there, those of
 // the parabolas through each and its neighbours (Catmull-Rom, for uneven times); the orientation is slerp.
-// That takes one sample more than those two, hence the second period. Of a circle of 2 mm, once a second,
-// sampled at 20 Hz it misses 0.5 um where straight lines would miss 25. Slopes are no steeper than a hand is
-// fast, and the cubic stays within most_bulge_mm of the straight line: the burr goes nowhere where no sample
-// was near.
+// The slopes need one sample more than those two, hence the second period. On a circle of 2 mm, once a
+// second, sampled at 20 Hz, the cubic is off by 0.5 um; straight lines would be off by 25. Slopes are no
+// steeper than a hand is fast, and the cubic stays within most_bulge_mm of the straight line: the burr goes
+// nowhere where no sample was near.
 //
 // Samples less than least_apart_s apart count as one, the first: the difference is the tracker's noise, not
 // motion. A sample that a hand cannot have reached is skipped; if the next confirms it, the marker really is
@@ -58,7 +58,8 @@ class SampledMotion {
     static constexpr double least_apart_s = 0.5 / fastest_rate_hz;
     /// Half a voxel of 0.1 mm.
     static constexpr double most_bulge_mm = 0.05;
-    /// What noise and a long lever from marker to burr may add to fastest_hand_mm_per_s between two samples.
+    /// The distance between two samples that noise and a long lever from marker to burr may add to
+    /// fastest_hand_mm_per_s.
     static constexpr double noise_mm = 1.0;
     /// A wrist that flicks; and the noise of a small marker.
     static constexpr double fastest_turn_rad_per_s = 20.0;
@@ -83,11 +84,10 @@ class SampledMotion {
     /// all here.
     void take(Sample sample) noexcept;
 
-    /// Where the tool is at `now_s` (the clock of arrival_s; never decreases); nothing while it is
-    /// lost.
+    /// The tool's pose at `now_s` (the clock of arrival_s; never decreases); nothing while it is lost.
     std::optional<Pose> at(double now_s) noexcept;
 
-    /// Of the playback behind the samples' clock, at the last at(); what a hand waits for its picture.
+    /// The playback's delay behind the samples' clock at the last at(): a hand waits so long for its picture.
     double delay_s() const noexcept { return delay_s_; }
     double period_s() const noexcept { return period_s_; }
     /// At the last at().
@@ -101,7 +101,7 @@ class SampledMotion {
     const Sample& newest() const noexcept { return nth(count_ - 1); }
     void begin_anew() noexcept;
     bool was_set(const Sample& sample) const noexcept;
-    /// As the samples' times have it.
+    /// The verdict that the samples' times give.
     ClockFault judge_clock() const noexcept;
     void learn_period(double difference_s) noexcept;
     void learn_lateness(const Sample& sample, double since_last_s) noexcept;

@@ -23,7 +23,7 @@
 
 namespace osteomill {
 
-/// Of a tracked handpiece, in the frame of its marker.
+/// A tracked handpiece, in its marker's frame.
 struct TrackedHandpiece {
     glm::dvec3 burr_centre_mm{0.0};
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit vector from tip to shank
@@ -36,8 +36,8 @@ struct TrackerSetup {
     std::vector<PointPair> points;
 };
 
-/// Throws std::runtime_error in one line, with file and, where it is of one, its line: what is missing, wrong
-/// or out of range, and what registered() refuses.
+/// Throws std::runtime_error in one line, with the file and, if known, the line in it, for entries that are
+/// missing, wrong or out of range, and for pairs that registered() refuses.
 TrackerSetup parse_tracker_setup(std::string_view toml, const std::string& name);
 TrackerSetup read_tracker_setup(const std::filesystem::path& path);
 

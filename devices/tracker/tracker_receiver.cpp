@@ -18,7 +18,7 @@ namespace {
 
 constexpr int longest_wait_ms = 20;
 constexpr int between_tries_ms = 200;
-/// A connection that gives no sample for so long is made anew: its other end may be gone without a word.
+/// A connection that gives no sample for so long is made anew: its other end may be gone without notice.
 constexpr double longest_silence_s = 3.0;
 constexpr double sample_age_for_notice_s = 0.5;
 

@@ -20,7 +20,7 @@ class TrackerReceiver {
         ListenAddress server;           ///< where the tracker's server listens
         std::string name;               ///< whose TRANSFORMs; empty: the first that is seen
         std::string pedal;              ///< whose STRINGs; empty: nobody's
-        std::function<double()> now_s;  ///< any clock; what silence is measured and the pedal is dated with
+        std::function<double()> now_s;  ///< any clock; it measures silence and dates the pedal
         std::function<void()> on_thread_start = [] {};
     };
 
@@ -32,7 +32,7 @@ class TrackerReceiver {
     void start();
     void stop() noexcept;
 
-    /// What came: a sample, or what the pedal's owner says.
+    /// An arrived item: a sample, or a state of the pedal.
     struct Item {
         TrackerSample sample{};
         bool is_pedal = false;

@@ -24,7 +24,7 @@ std::string text_of(std::span<const std::uint8_t> bytes) {
 }
 
 /// Whether the metadata leaves the marker seen: PlusServer writes "TransformStatus" and "TransformValid", its
-/// later versions "Status". What is cut off says nothing.
+/// later versions "Status". Metadata that are cut off count as absent.
 bool says_seen(const IgtlMessageView& parts) {
     constexpr std::size_t count_bytes = 2, entry_bytes = 8;  // lengths of key and value, an encoding between
     if (parts.metadata_header.size() < count_bytes) return true;

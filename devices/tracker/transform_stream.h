@@ -3,7 +3,7 @@
 //
 // TRANSFORM: a rotation in float32, column by column, then the position in mm. A marker that is hidden is no
 // sample: some servers then send the identity, to the bit (where no marker is), newer ones say so
-// in metadata ("TransformStatus" that is not "OK"). STRING: text; the pedal is down where it is "1", "on",
+// in metadata ("TransformStatus" that is not "OK"). STRING: text; the pedal is down if it is "1", "on",
 // "true" or "down" in either case.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace osteomill {
 
-/// Where the marker was, in the tracker's space.
+/// A pose of the marker in the tracker's space.
 struct TrackerSample {
     double stamp_s = 0.0;  ///< the sender's clock; 0: it says none
     glm::dvec3 position_mm{0.0};
@@ -46,7 +46,7 @@ class TransformStream {
     TransformStream(const TransformStream&) = delete;
     TransformStream& operator=(const TransformStream&) = delete;
 
-    /// As IgtlStream::feed.
+    /// Does the same as IgtlStream::feed.
     bool feed(std::span<const std::uint8_t> bytes) { return stream_.feed(bytes); }
     /// The stream begins anew; name and counts stay.
     void restart() { stream_.restart(); }

@@ -1,5 +1,4 @@
-// Finding of haptic_server --check: what was looked at, what is wrong with it, what that costs, what mends
-// it.
+// Finding of haptic_server --check: the thing checked, its fault, the fault's cost, the remedy.
 #pragma once
 
 #include <string>
@@ -10,7 +9,7 @@ namespace osteomill {
 struct CheckRow {
     std::string what;    ///< such as "page locking"
     std::string found;   ///< as it is: "allowed", "not allowed"
-    std::string cost{};  ///< what is felt of it; empty: nothing is wrong
+    std::string cost{};  ///< the effect that a user notices; empty: nothing is wrong
     std::string mend{};  ///< a command, or where none helps what to do
     /// A session goes without: it costs comfort, not safety or data.
     bool can_wait = false;

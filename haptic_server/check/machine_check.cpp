@@ -17,13 +17,13 @@ namespace osteomill {
 
 namespace {
 
-/// A thousandth of a tick's period: what the loop's own spin before its deadline hides is far more.
+/// A thousandth of a tick's period; the loop's own spin before its deadline hides far more.
 constexpr double dear_clock_ns = 1000.0;
 constexpr double tick_us = 1000.0;
 /// A state that takes longer to leave is felt in the latest wake-ups.
 constexpr double deep_idle_us = 100.0;
 
-/// Without its last line's end; nullopt where there is no such file.
+/// Without its last line's end; nullopt if there is no such file.
 std::optional<std::string> said_by(const std::filesystem::path& file) {
     std::ifstream in(file);
     if (!in) return std::nullopt;

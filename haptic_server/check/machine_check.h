@@ -1,4 +1,4 @@
-// Checks of the machine that haptic_server --check makes: what keeps the loops from being in time.
+// Checks of the machine that haptic_server --check makes, for conditions that make the loops late.
 #pragma once
 
 #include <filesystem>
@@ -25,15 +25,15 @@ struct CheckedMachine {
     std::string program;               ///< the file that was started
     RealTimeRights rights{};
     std::function<WakeUps()> measure_wake_ups;
-    std::function<double()> measure_clock_ns;  ///< what reading the clock once takes
+    std::function<double()> measure_clock_ns;  ///< the time that one reading of the clock takes
 };
 
 /// This one. Measuring takes half a second.
 CheckedMachine this_machine();
 
 /// Real-time priority and its share, page locking, wake-ups, preemption, frequency and idle states, the clock
-/// source, the GPU; in this order. What the kernel does not say (a virtual machine has no frequencies) is
-/// left out.
+/// source, the GPU; in this order. Facts that the kernel does not state (a virtual machine has no
+/// frequencies) are left out.
 std::vector<CheckRow> check_machine(const CheckedMachine& machine);
 
 /// A row for the arms and 3D mice that are plugged in. Tries to open each.

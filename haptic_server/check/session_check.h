@@ -20,7 +20,7 @@ struct CheckedSession {
     std::optional<TlsFiles> tls{};
     std::filesystem::path records_in = ".";  ///< the folder, which is there
     std::chrono::system_clock::time_point now = std::chrono::system_clock::now();
-    /// Throws std::filesystem::filesystem_error where there is no such folder.
+    /// Throws std::filesystem::filesystem_error if there is no such folder.
     std::function<std::uintmax_t(const std::filesystem::path&)> free_bytes =
         [](const std::filesystem::path& folder) { return std::filesystem::space(folder).available; };
 };

@@ -17,7 +17,7 @@ bool are_digits(std::string_view text) {
                        [](unsigned char letter) { return std::isdigit(letter) != 0; });
 }
 
-/// Without the port, the brackets of an IPv6 address and the dot of a name that is whole; empty where it is
+/// Without the port, the brackets of an IPv6 address and the dot of a name that is whole; empty if it is
 /// malformed.
 std::string name_of(std::string_view host) {
     if (host.starts_with('[')) {

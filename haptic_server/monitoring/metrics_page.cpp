@@ -86,7 +86,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
         });
     }
 
-    /// The name that it was asked for by, where that is not its own.
+    /// The name that it was asked for by, if that is not its own.
     std::optional<std::string> strange_host() const {
         const auto [first, last] = request_.equal_range(http::field::host);
         for (auto field = first; field != last; ++field) {

@@ -19,7 +19,7 @@ namespace osteomill {
 
 class TickMeter final : public SampleLog<TickSample> {
   public:
-    /// Upper bounds, s; of the last bucket none. A tick is late for the hand from 1 ms on.
+    /// Upper bounds, s; the last bucket has none. A tick is late for the hand from 1 ms on.
     static constexpr std::array latency_bounds_s{5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 2e-4,
                                                  5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 5e-2};
 
@@ -46,7 +46,7 @@ class TickMeter final : public SampleLog<TickSample> {
     void drain() override {}
     void drain_all() override {}
 
-    /// Of the newest tick. One thread's.
+    /// The newest tick's reading. To be called by one thread only.
     Reading read() noexcept {
         readings_.refresh();
         return readings_.front();

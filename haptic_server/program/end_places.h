@@ -18,12 +18,12 @@ class EndPlaces {
 
     /// Null: no bone is saved.
     const OutputPlace* save_bone() const { return save_bone_ ? &*save_bone_ : nullptr; }
-    /// Where they are to be written now.
+    /// The paths to write them to now.
     OutputFiles now() const;
 
     /// Twice a second.
     bool look_is_due() const { return std::chrono::steady_clock::now() >= next_look_; }
-    /// A line for each thing that has gone wrong since the last look: a folder is gone, or the file that the
+    /// A line for each thing that has gone wrong since the last call: a folder is gone, or the file that the
     /// bone is from is no longer what was loaded.
     std::vector<std::string> look(const BoneSource& source);
 

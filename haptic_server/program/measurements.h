@@ -11,28 +11,28 @@
 
 namespace osteomill {
 
-/// What the bone cost before the first tick.
+/// The bone's cost before the first tick.
 struct BoneCost {
-    std::size_t memory_bytes = 0;  ///< of the milling loop's bone: see memory_bytes()
+    std::size_t memory_bytes = 0;  ///< the milling loop's bone: see memory_bytes()
     double bone_mm3 = 0.0;
     double startup_s = 0.0;  ///< from the program's start until the session could begin and clients connect
 };
 
-/// `peak_resident_bytes`: of the whole program, the streaming loop's copy of the bone with it.
+/// `peak_resident_bytes` counts the whole program, with the streaming loop's copy of the bone.
 nlohmann::ordered_json measurements(const MillingSessionReport& report, const BoneCost& bone,
                                     std::uint64_t peak_resident_bytes, const Scene& scene,
                                     const MillingSessionOptions& options);
 
-/// What the percentiles were taken from, by loop: lists of pairs of a duration in microseconds and how many
-/// lasted as long, or less and longer than those of the pair before.
+/// The histograms behind the percentiles, by loop. Each is a list of pairs: a duration in microseconds, and
+/// how many ticks lasted at most that long and longer than the pair before.
 nlohmann::ordered_json histograms_us(const MillingSessionReport& report);
 
 /// Adds what came of each protected structure, as "structures", and what watching them took in memory, as
-/// "structures_memory_bytes"; nothing where none is.
+/// "structures_memory_bytes"; nothing if none is.
 void add_structures(nlohmann::ordered_json& json, const StructureWatch& structures, const Scene& scene);
 
-/// What became of a recording, under "recording": file, frames, bytes, pauses (for which the disk was full),
-/// error (null where there is none).
+/// The outcome of a recording, under "recording": file, frames, bytes, pauses (while the disk was full),
+/// error (null if there is none).
 nlohmann::ordered_json recorded(const RecordingReport& recording);
 
 /// Replaces the file as a whole. Throws std::runtime_error with one line naming the file.

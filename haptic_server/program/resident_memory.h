@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-/// The most bytes that were resident at once: VmHWM of the text of /proc/self/status; std::nullopt where it
+/// The most bytes that were resident at once: VmHWM of the text of /proc/self/status; std::nullopt if it
 /// has none. (getrusage would also count what the program that started this one had resident.)
 std::optional<std::uint64_t> peak_resident_bytes(std::istream& status);
 

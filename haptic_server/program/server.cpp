@@ -44,7 +44,7 @@ void require_place_for(const std::optional<std::filesystem::path>& file) {
     if (!write_target(*file, Link::follow).is_direct) AtomicFile{*file};
 }
 
-/// Throws where something is wrong, once all of it was said.
+/// Throws if something is wrong, after reporting all of it.
 void check(const ServerOptions& options, const ProgramOutput& output) {
     std::filesystem::path records_in = options.record.value_or("").parent_path();
     while (!records_in.empty() && !std::filesystem::exists(records_in)) records_in = records_in.parent_path();
@@ -59,7 +59,7 @@ void check(const ServerOptions& options, const ProgramOutput& output) {
     if (must_be_mended(rows)) throw std::runtime_error("the machine is not ready for a session: see above");
 }
 
-/// Nothing where nobody looks on and nothing is recorded. Reads the files of TLS and the list of operators.
+/// Nothing if nobody looks on and nothing is recorded. Reads the files of TLS and the list of operators.
 std::optional<ShownOptions> shown_options(const ServerOptions& options, const std::string& version) {
     StreamingOptions streaming = streaming_options(options.listen.value_or(ListenAddress{}), options.access);
     if (options.operators) streaming.operators.emplace(*options.operators);
@@ -85,7 +85,8 @@ std::vector<NamedFile> all_files(const ServerOptions& options, const SessionScen
     return files;
 }
 
-/// The spring that the hand is on, and why no stiffer; what makes forces others than bone's.
+/// The spring that the hand is on, and why it is no stiffer; and settings that make the forces differ from
+/// bone's.
 void say_what_is_felt(const DeviceLimits& arm, const Scene& scene, LineStream& out) {
     if (arm.gives_force)
         out.write(fmt::format("the hand is on a spring of {:.3g} N/mm: {}\n", arm.max_stiffness_n_per_mm,
@@ -158,7 +159,7 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
     const MakeDevice make_device = options.device.prepare();
     SessionScene scene = load_session_scene(options.scene);
     require_distinct(all_files(options, scene));
-    // From here on there is something to end in order; what came before, a signal ends at once.
+    // From here on the program has to end in order; before, a signal ends it at once.
     const std::atomic<bool>& stop = stop_flag();
     say_what_was_removed_before(scene.source, *output.err);
     BoneCost cost{.memory_bytes = memory_bytes(scene.bone), .bone_mm3 = bone_volume_mm3(scene.bone)};

@@ -24,18 +24,18 @@ struct ServerOptions {
     LogFiles logs;
     std::optional<ListenAddress> listen;  ///< nullopt: nobody is served
     Access access;
-    std::optional<ListenAddress> metrics;    ///< where Prometheus may ask; of this machine
+    std::optional<ListenAddress> metrics;    ///< where Prometheus may ask; on this machine
     std::vector<std::string> metrics_hosts;  ///< names by which it may be asked, beside localhost
     bool logs_json = false;
     std::optional<std::filesystem::path> operators;  ///< who of the clients may move the tool; nullopt: any
     std::optional<std::filesystem::path> controls;   ///< a script of them
-    std::optional<std::filesystem::path> record;     ///< of a report, too: recording_in() its folder
+    std::optional<std::filesystem::path> record;     ///< with a report, too: recording_in() its folder
     bool records_ticks = true;                       ///< not only states
     OutputFiles outputs;
     std::vector<NamedFile> files;  ///< all that were named, to read and to write
     std::string trainee;
-    std::string case_name;        ///< for people; empty: of no case
-    bool checks_machine = false;  ///< and does nothing else
+    std::string case_name;        ///< for people; empty: the scene is of no case
+    bool checks_machine = false;  ///< checks, and does nothing else
 };
 
 using CommandLine = ParseResult<ServerOptions>;

@@ -60,7 +60,7 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
                    const ProgramOutput& output) {
     ShownSession* shown = assembly.shown();
     const MillingSessionReport report = assembly.session().report();
-    // What matters most first, and nothing waits for a client that is slow to read the end.
+    // The outputs that matter most come first, and nothing waits for a client that is slow to read the end.
     FirstFailure failure;
     failure.of([&] {
         if (files.save_bone)

@@ -21,8 +21,8 @@ struct OutputFiles {
 };
 
 /// Once the session has run: writes everything although one of them fails, ends streaming, and throws the
-/// first failure as std::runtime_error. `settings`: as session_settings has them; `peak_bytes`: of the
-/// program's memory.
+/// first failure as std::runtime_error. `settings`: those of session_settings; `peak_bytes`: the program's
+/// peak memory.
 void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const BoneCost& cost,
                    std::uint64_t peak_bytes, const nlohmann::ordered_json& settings,
                    const ProgramOutput& output);

@@ -33,7 +33,7 @@ void StatusLine::show_fault(const ToolState& tool) {
 void StatusLine::show_wait(const ToolState& tool) {
     if (tool.notice == wait_) return;
     wait_ = tool.notice;
-    if (wait_.empty()) return;  // what was requested is there to see
+    if (wait_.empty()) return;  // the requested state is there
     finish();
     out_.say(fmt::format("{:7.1f} s   {}", tool.time_s, wait_.text()));
 }

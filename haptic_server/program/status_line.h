@@ -22,10 +22,10 @@ class StatusLine {
     StatusLine(LineStream& out, bool is_terminal) : out_(out), is_terminal_(is_terminal) {}
 
     /// To be called often; `now` is the time of people, not of the session. `done`: how much of a session is
-    /// done that runs as fast as it can, 0 to 1, where that is known; each line says it, and there is one
+    /// done that runs as fast as it can, 0 to 1, if that is known; each line says it, and there is one
     /// whenever a tenth has been done, too.
     void show(const ToolState& tool, Clock::time_point now, std::optional<double> done = std::nullopt);
-    /// What the device says of itself, on a line of its own whenever that changes; empty: nothing.
+    /// Shows the device's notice on a line of its own whenever it changes; empty: nothing.
     void show_notice(const ToolState& tool, std::string_view notice);
     /// Ends the status line.
     void finish();

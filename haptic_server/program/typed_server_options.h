@@ -13,7 +13,7 @@ class App;
 namespace osteomill {
 
 struct TypedServerOptions {
-    ServerOptions options;  ///< so far; what else was typed is to be checked, or converted
+    ServerOptions options;  ///< so far; the other typed values are yet to be checked or converted
     std::string case_name;
     std::vector<std::string> changes;
     std::string burr;

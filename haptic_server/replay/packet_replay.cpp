@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Becomes the program that draws, which lies beside this one. Throws where it cannot be run.
+/// Becomes the program that draws, which lies beside this one. Throws if it cannot be run.
 [[noreturn]] void become_render_client(const osteomill::ReplayOptions& options) {
     const std::string program =
         std::filesystem::read_symlink("/proc/self/exe").replace_filename("render_client").string();

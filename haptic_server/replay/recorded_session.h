@@ -14,8 +14,8 @@
 
 namespace osteomill {
 
-/// Shows one session, from where the playhead is to that session's end. It waits for its first viewer. What
-/// cannot be read ends it; see error().
+/// Shows one session, from where the playhead is to that session's end. It waits for its first viewer. Data
+/// that cannot be read end it; see error().
 class RecordedSession final : public StreamSource {
   public:
     using Clock = std::chrono::steady_clock;
@@ -29,7 +29,7 @@ class RecordedSession final : public StreamSource {
 
     /// Any thread. Whether all was shown.
     bool is_over() const { return is_over_.load(); }
-    /// Once it is over, after the server has been stopped: one line; empty where nothing was wrong.
+    /// Once it is over, after the server has been stopped: one line; empty if nothing was wrong.
     const std::string& error() const { return error_; }
 
   private:
@@ -40,7 +40,7 @@ class RecordedSession final : public StreamSource {
     const std::function<Clock::time_point()> now_;
     const double begins_s_;
     std::optional<Clock::time_point> began_;
-    std::vector<ControlEvent> events_;  // of the frames that one update takes together
+    std::vector<ControlEvent> events_;  // from the frames that one update reads together
     std::string error_;
     std::atomic<bool> is_over_{false};
 };

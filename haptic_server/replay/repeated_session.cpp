@@ -87,7 +87,7 @@ MillingSessionOptions options_of(const SessionInfo& session) {
     return options;
 }
 
-/// What changes a session beside its hand.
+/// Whether the event changes a session in another way than the hand does.
 bool acts_on_session(const ControlEvent& event) {
     switch (event.action) {
         case SessionAction::none:
@@ -127,7 +127,7 @@ class Repeat {
     }
 
   private:
-    /// False where something differs.
+    /// False if something differs.
     bool take_state() {
         if (!playhead_.session().holds_ticks) throw NotRepeatable("it holds no ticks");
         for (const ControlEvent& event : playhead_.state().events)

@@ -17,7 +17,7 @@ struct RepeatedSession {
     std::uint64_t ticks = 0;   ///< that were compared
     std::uint64_t states = 0;  ///< whose bone was compared
     bool is_equal = false;     ///< all of them, to the bit
-    /// Where they are not: of the first tick that differs.
+    /// If they differ: the first tick that does.
     std::optional<std::uint64_t> tick{};
     double time_s = 0.0;
     std::string difference{};  ///< which number, as recorded and as computed; or why it cannot be repeated
@@ -26,8 +26,8 @@ struct RepeatedSession {
     std::string line() const;
 };
 
-/// Throws RecordingError where the file is no recording. `on_progress`: 0 to 1, now and then; what it throws
-/// ends it.
+/// Throws RecordingError if the file is no recording. `on_progress`: 0 to 1, now and then; if it throws, the
+/// repetition ends.
 RepeatedSession repeat_session(const std::filesystem::path& file,
                                const std::function<void(double)>& on_progress);
 

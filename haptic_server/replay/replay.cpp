@@ -91,7 +91,7 @@ void read(const ReplayOptions& options, const std::atomic<bool>& stop) {
         write_atomic_file(
             *options.json,
             to_json(summary).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-    // Whoever asks for the text waits for it, and ends the program where nobody takes it.
+    // Whoever asks for the text waits for it, and ends the program if nobody takes it.
     end_on_signals();
     if (options.info) fmt::print("{}", to_text(summary));
     if (!summary.error.empty()) throw std::runtime_error(summary.error);
@@ -123,7 +123,7 @@ void go_to(Playhead& playhead, double from_s) {
             fmt::format("--from-s {}: the recording lasts {:.3f} s", from_s, playhead.time_s()));
 }
 
-/// False where there is none.
+/// False if there is none.
 bool go_to_next_session(Playhead& playhead) {
     for (;;) {
         const Playhead::Step step = playhead.step(std::numeric_limits<double>::infinity());

@@ -10,7 +10,7 @@ namespace osteomill {
 
 /// Reads the recording, or shows it to clients until its end or `stop`. Prints "listening on ADDRESS:PORT" on
 /// standard output once clients can connect. Throws std::exception with one line for what stands in the way,
-/// also where only the later part of a recording cannot be read: after what could be.
+/// also if only the later part of a recording cannot be read: after what could be.
 void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, const ProgramOutput& output);
 
 }  // namespace osteomill

@@ -19,18 +19,18 @@ struct ReplayOptions {
     double from_s = 0.0;
     bool info = false;  ///< print what is in the recording
     std::optional<std::filesystem::path> json;
-    std::optional<std::filesystem::path> csv;  ///< of ticks, where the recording holds them
+    std::optional<std::filesystem::path> csv;  ///< one row per tick, if the recording holds ticks
     std::optional<std::filesystem::path> states_csv;
     std::optional<std::filesystem::path> trajectory;  ///< for haptic_server --trajectory
-    std::optional<std::filesystem::path> surface;     ///< of the bone that is left
-    std::optional<std::filesystem::path> difference;  ///< what was removed since the recording began
-    std::optional<std::filesystem::path> sound;       ///< of the burr, as WAV
+    std::optional<std::filesystem::path> surface;     ///< the surface of the bone that is left
+    std::optional<std::filesystem::path> difference;  ///< the bone removed since the recording began
+    std::optional<std::filesystem::path> sound;       ///< the burr's sound, as WAV
     std::optional<std::filesystem::path> hdf5;        ///< for Python and MATLAB
-    Hdf5Layout layout = Hdf5Layout::osteomill;        ///< of that
+    Hdf5Layout layout = Hdf5Layout::osteomill;        ///< the HDF5 file's layout
     std::optional<std::filesystem::path> report;      ///< folder for the session's report
     std::optional<std::filesystem::path> film;        ///< for render_client, which draws it
 
-    /// Whether it is only looked into, and shown to nobody.
+    /// Whether the recording is only evaluated, and shown to nobody.
     bool only_reads() const;
 };
 

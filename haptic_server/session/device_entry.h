@@ -37,10 +37,10 @@ struct DeviceParts {
     bool is_finished() const { return simulated != nullptr && simulated->is_finished(); }
 };
 
-/// What a device is made for.
+/// The context in which a device is made.
 struct DeviceContext {
     const Scene& scene;
-    std::optional<Grip> grip;       ///< of a simulated hand; nothing: the simulated one is on rails
+    std::optional<Grip> grip;       ///< a simulated hand's grip; nothing: the simulated hand is on rails
     const std::atomic<bool>& stop;  ///< ends a wait for an arm
     /// Called with messages for people while an arm is awaited.
     std::function<void(const std::string&)> say = [](const std::string&) {};

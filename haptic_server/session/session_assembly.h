@@ -30,8 +30,7 @@ struct SessionOptions {
     std::optional<ShownOptions> shown{};          ///< absent: no clients, no recording
 };
 
-/// The scene with its device placed on the patient, where it leaves that to the device. Placed once, it
-/// stays.
+/// The scene with its device placed on the patient, if it leaves that to the device. Placed once, it stays.
 SessionScene seated(SessionScene scene, const DeviceParts& device);
 
 class SessionAssembly {
@@ -40,7 +39,7 @@ class SessionAssembly {
 
     /// Places the device on the patient, if the scene leaves that to it. `device` holds a device. Throws
     /// std::runtime_error or std::invalid_argument in one line if a part refuses its options, and for a
-    /// session on the virtual clock that would never end, and where a file to write is one that the scene is
+    /// session on the virtual clock that would never end, and if a file to write is one that the scene is
     /// made of.
     SessionAssembly(SessionScene scene, DeviceParts device, SessionOptions options);
     SessionAssembly(const SessionAssembly&) = delete;
@@ -64,11 +63,11 @@ class SessionAssembly {
 
     // Or, on the virtual clock, in this order and in steps.
     void start() { session_->start(); }
-    /// Returns how many ticks were made: fewer than `ticks` where the session's duration is over.
+    /// Returns how many ticks were made: fewer than `ticks` if the session's duration is over.
     std::uint64_t advance(std::uint64_t ticks);
     void end();
 
-    /// Of a session on the virtual clock, 0 to 1.
+    /// The completed share of a session on the virtual clock, 0 to 1.
     double done(double time_s) const;
 
   private:

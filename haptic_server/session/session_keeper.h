@@ -15,7 +15,7 @@ namespace osteomill {
 
 class SessionKeeper {
   public:
-    /// Writes a bone, or its surface where there is an ending of mesh_endings; says in one line what is wrong
+    /// Writes a bone, or its surface if there is an ending of mesh_endings; says in one line what is wrong
     /// with it, or nothing. Called on a thread of its own.
     using Save = std::function<std::string(const Bone&, const std::string& mesh_ending)>;
 
@@ -29,8 +29,8 @@ class SessionKeeper {
     /// left of the bone until it is written; one at a time.
     SessionControls::Requests requests();
 
-    /// Any thread: in the log, and to clients, as the answer to a save. What has gone wrong with saving
-    /// or recording is said when it happens.
+    /// Any thread: in the log, and to clients, as the answer to a save. A failure to save or record is
+    /// reported when it happens.
     void tell(const std::string& line);
     /// Any thread.
     bool finish_requested() const { return wants_end_.load(); }

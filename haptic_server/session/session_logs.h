@@ -15,10 +15,10 @@ struct LogFiles {
 
 class SessionLogs {
   public:
-    /// Begins the files. Throws std::runtime_error in one line where one cannot be.
+    /// Begins the files. Throws std::runtime_error in one line if one cannot be.
     SessionLogs(const LogFiles& files, bool has_shank);
 
-    /// Null where none is requested.
+    /// Null if none is requested.
     ForceLog* force() { return force_ ? &*force_ : nullptr; }
     MillingLog* milling() { return milling_ ? &*milling_ : nullptr; }
 

@@ -22,7 +22,7 @@ namespace osteomill {
 
 namespace {
 
-/// Of a choice that names only a bone, one without a place for the tool yet.
+/// Loads the chosen scene; if the choice names only a bone, the scene has no place for the tool yet.
 Scene load_scene(const SceneChoice& choice) {
     Scene scene;
     if (choice.bone && !choice.name) {
@@ -50,7 +50,7 @@ Scene load_scene(const SceneChoice& choice) {
     return scene;
 }
 
-/// A bone that was chosen by itself may be saved over: what is saved continues it.
+/// A bone that was chosen by itself may be saved over: the saved bone continues it.
 std::vector<NamedFile> files_read(const SceneChoice& choice, const Scene& scene) {
     std::vector<NamedFile> files;
     const bool is_file = choice.name && std::ranges::find(phantom_names, *choice.name) == phantom_names.end();

@@ -18,10 +18,10 @@ namespace osteomill {
 
 struct ShownOptions {
     StreamingOptions streaming{};            ///< whom, where, and what is recorded
-    ControlScript script{};                  ///< what is requested at its time without anybody
+    ControlScript script{};                  ///< requests that come at given times without anybody
     const OutputPlace* save_bone = nullptr;  ///< where a client may have the bone saved; outlives the session
-    std::string words_at_finish{};           ///< what is answered to who ends the session
-    bool accepts_controls = true;            ///< of clients
+    std::string words_at_finish{};           ///< the answer to the client that ends the session
+    bool accepts_controls = true;            ///< from clients
     // The session as clients and recordings see it.
     std::string version{};
     std::string trainee{};
@@ -39,7 +39,7 @@ class ShownSession {
 
     StreamingServer& server() { return server_; }
     bool finish_requested() const { return keeper_.finish_requested(); }
-    /// What is wrong with saving or recording, to the log and to clients.
+    /// Reports a failure to save or record to the log and to clients.
     void tell(const std::string& line) { keeper_.tell(line); }
 
     /// Begins to say goodbye, and waits for a bone that is being saved. Call once the session has ended.

@@ -33,7 +33,7 @@ class AccessOptions {
 };
 
 /// The access of a server at `where`. Reads the files of TLS, and throws std::runtime_error, in one
-/// line, where they are no good.
+/// line, if they are no good.
 StreamingOptions streaming_options(const ListenAddress& where, const Access& access);
 
 }  // namespace osteomill

@@ -18,13 +18,13 @@ using boost::system::error_code;
 
 namespace {
 
-/// What the system may hold for one client on top of the frame under way. By default it grows to megabytes,
-/// seconds of frames: a slow client would see old news and the feed would never learn that it is slow. Enough
-/// for 60 MB/s at a round trip of 4 ms.
+/// The bytes that the system may hold for one client on top of the frame under way. By default it grows to
+/// megabytes, seconds of frames: a slow client would see old news and ClientFeed would never learn that it is
+/// slow. Enough for 60 MB/s at a round trip of 4 ms.
 constexpr int send_buffer_bytes = 256 * 1024;
 
-/// What of that may wait for its turn behind what is on its way. So over a slow link a frame is made late
-/// rather than sent old: half a second at 64 kbit/s, where the send buffer would hold half a minute.
+/// The part of that which may wait behind the bytes in flight. So over a slow link a frame is made late
+/// rather than sent old: half a second at 64 kbit/s, while the send buffer would hold half a minute.
 constexpr int most_unsent_bytes = 4 * 1024;
 using UnsentBytes = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
 
@@ -33,8 +33,8 @@ using UnsentBytes = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSEN
 constexpr std::chrono::milliseconds longest_stall{30'000};
 using StallTimeout = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_USER_TIMEOUT>;
 
-/// What a client that speaks TLS begins with: a record of kind 22, version 3.x. As a frame it would be one of
-/// 22 bytes that begins with field number 0, which protobuf does not have.
+/// Whether a client begins as TLS does: with a record of kind 22, version 3.x. Read as a frame, that would
+/// have 22 bytes and begin with field number 0, which protobuf does not have.
 bool is_tls_greeting(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= 2 && bytes[0] == 0x16 && bytes[1] == 0x03;
 }

@@ -1,4 +1,5 @@
-// One client's connection: writes its feed's frames, one at a time, and reads the client's messages.
+// One client's connection: writes the frames of its ClientFeed, one at a time, and reads the client's
+// messages.
 #pragma once
 
 #include <functional>
@@ -34,15 +35,15 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
     /// The stream's handshake is over.
     ClientConnection(std::shared_ptr<Stream> stream, ClientFeed feed);
 
-    /// Reads, and writes the feed's first frame, its hello; the rest after serve().
+    /// Reads, and writes the first frame, the hello; the rest after serve().
     void start(Callbacks callbacks);
-    /// Writes whatever the feed has to say, from now on.
+    /// Writes all frames of the ClientFeed from now on.
     void serve();
     ClientFeed& feed() { return feed_; }
     AnsweredStates& answers() { return answers_; }
-    /// Asks the feed for a state frame (ClientFeed::request_state) and writes it, as pump() does.
+    /// Requests a state frame (ClientFeed::request_state) and writes it, as pump() does.
     void show(SessionState state, bool with_checksum);
-    /// Writes the next frame, unless one is under way; call after the feed has got something new.
+    /// Writes the next frame, unless one is under way; call after the ClientFeed has got something new.
     void pump();
     /// How long the client's machine has had all of the end, by its acknowledgements; zero before. Called
     /// again and again.

@@ -1,4 +1,4 @@
-// Feed of one client, frame by frame: hello, a snapshot, state frames, goodbye. No sockets, no clock.
+// Frames for one client, in order: hello, a snapshot, state frames, goodbye. No sockets, no clock.
 //
 // The snapshot is taken from the mirror piece by piece, only as fast as the client reads, while milling goes
 // on. A change to a brick that is still to be sent needs no extra message: the brick will be sent in its
@@ -28,7 +28,7 @@
 
 namespace osteomill {
 
-/// Room to compress in, which all feeds of a thread share.
+/// Buffers to compress in, which all ClientFeeds of a thread share.
 struct FeedPackers {
     SnapshotPacker snapshot;
     ChangePacker changes;
@@ -38,7 +38,7 @@ struct FeedPackers {
 class ClientFeed {
   public:
     /// `hello` is the client's first frame, `structures` are the messages of the protected structures, sent
-    /// after the snapshot. All but `hello` outlive the feed.
+    /// after the snapshot. All but `hello` outlive this object.
     ClientFeed(v2::Hello hello, const BoneReplica& mirror, FeedPackers& packers,
                std::span<const v2::StructureBricks> structures = {});
 
@@ -79,7 +79,7 @@ class ClientFeed {
     std::optional<WireError> compare(const v2::CompareBone& request);
 
     /// Requests the end: the remaining changes, a last state with a checksum, then goodbye; goodbye at once
-    /// where the last state said all that there is (`has_said_all`).
+    /// if the last state said all that there is (`has_said_all`).
     void finish(std::string reason, bool has_said_all = false);
 
     /// The next frame, as bytes for the stream; nothing while there is nothing to send. Changes that exceed a
@@ -95,7 +95,7 @@ class ClientFeed {
     /// Whether that frame contains everything that was new when a state was last requested.
     bool has_sent_all() const { return newest_state_ > 0 && !wants_state_; }
 
-    /// What it remembers for the client.
+    /// The changes that wait for the client.
     const PendingChanges& pending() const { return pending_; }
 
   private:

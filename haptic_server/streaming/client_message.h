@@ -19,9 +19,9 @@ namespace osteomill {
 struct MessagingClient {
     ToolLease::ClientId id = 0;
     ClientFeed& feed;            ///< may have something to say afterwards
-    AnsweredStates& answers;     ///< of what the client has been sent
+    AnsweredStates& answers;     ///< for the states that the client has been sent
     ToolLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
-    std::size_t burr_count = 0;  ///< of the session
+    std::size_t burr_count = 0;  ///< the session's burrs
     /// Takes the client's requests for the session; null: none are accepted now.
     const std::function<void(const SessionControl&)>* control = nullptr;
     std::optional<Viewpoint>* view = nullptr;  ///< where it looks from; null: nobody wants to know

@@ -1,4 +1,4 @@
-// All clients connected to a streaming server: their identity, their rights, and their feeds.
+// All clients connected to a streaming server: their identity, their rights, and their frames.
 //
 // A connection is unidentified until its hello, and is served from then on. One client may move the tool, see
 // ToolLease. All calls are on the thread of the connections' io_context.
@@ -67,8 +67,9 @@ class ConnectedClients {
     /// Log of unidentified connections; a few lines at a time.
     void log_unidentified(const std::string& line);
 
-    /// From where the one looks who moves the tool, did so last or, if none did, used the controls; of a
-    /// session that nobody steers, the first who looks on. Nothing where that one does not say.
+    /// The viewpoint of the operator: the client that moves the tool, did so last or, if none did, used the
+    /// controls. If nobody steers the session, the viewpoint of the first client. Nothing if that client does
+    /// not state it.
     std::optional<Viewpoint> view_of_operator();
 
     std::size_t count() const { return connections_.size(); }
@@ -98,8 +99,8 @@ class ConnectedClients {
     ControlLease control_lease_;  // where there is no tool lease
     std::function<void(const SessionControl&)> control_;
     LeaseHistory lease_history_;
-    std::map<Id, std::optional<Viewpoint>> views_;  // of those who said
-    std::optional<Id> steered_last_;                // and is still connected
+    std::map<Id, std::optional<Viewpoint>> views_;  // only clients that stated one
+    std::optional<Id> steered_last_;                // set while that client is connected
 
     std::map<Id, std::shared_ptr<ClientConnection>> connections_;
     /// Those of the connections that have not said hello. They are sent one and no more, so that a stranger

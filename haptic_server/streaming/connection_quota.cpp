@@ -20,7 +20,7 @@ Origin origin_of(const boost::asio::ip::address& address) {
 
 std::optional<ConnectionQuota::Id> ConnectionQuota::next_to_go() const {
     if (held_.size() < most_) return std::nullopt;
-    // Of those who hold equally many, whose oldest is the oldest.
+    // Ties go to the holder that has the oldest connection.
     const auto most = std::ranges::max_element(holders_, [](const auto& a, const auto& b) {
         if (a.second.size() != b.second.size()) return a.second.size() < b.second.size();
         return *a.second.begin() > *b.second.begin();

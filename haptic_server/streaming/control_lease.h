@@ -1,7 +1,6 @@
 // Lease on the controls (pause, undo, marks) of a session whose tool no client moves, such as one with an
 // arm. The first client that uses a control has it until it leaves, or until it has used none for half a
-// minute and another does. Where a client moves the tool, the lease on the tool decides instead
-// (tool_lease.h).
+// minute and another does. If a client moves the tool, the lease on the tool decides instead (tool_lease.h).
 #pragma once
 
 #include <chrono>

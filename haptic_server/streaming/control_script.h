@@ -1,5 +1,5 @@
-// Controls of a session that are due at given times, from a CSV file: what a person does with the tool bar,
-// for tests and studies that repeat to the bit.
+// Controls of a session that are due at given times, from a CSV file. They replace a person at the tool bar
+// in tests and studies that repeat to the bit.
 //
 //     t_s,action,text
 //     4.0,mark,before the second stroke

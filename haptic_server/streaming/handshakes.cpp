@@ -9,7 +9,7 @@ using boost::system::error_code;
 
 namespace {
 
-/// What a client says at a time is short.
+/// A client's messages during a handshake are short.
 constexpr std::size_t read_bytes = 4096;
 
 }  // namespace

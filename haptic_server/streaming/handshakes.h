@@ -33,7 +33,7 @@ class Handshakes {
                Callbacks callbacks, std::size_t most_at_once = unidentified_quota());
 
     void begin(boost::asio::ip::tcp::socket socket);
-    /// Hangs up on all that are under way; without a word to anybody.
+    /// Closes all that are under way, silently.
     void cancel();
 
   private:
@@ -62,7 +62,7 @@ class Handshakes {
     Callbacks callbacks_;
     Id last_id_ = 0;
     std::map<Id, Handshake> under_way_;
-    ConnectionQuota quota_;  // of these
+    ConnectionQuota quota_;  // for connections that have not shaken hands yet
 };
 
 }  // namespace osteomill

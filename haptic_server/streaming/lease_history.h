@@ -15,7 +15,7 @@ namespace osteomill {
 class LeaseHistory {
   public:
     /// A line for the client that has let go since the last call, then one for the client that has the tool
-    /// now; none where nothing changed. `peer_of` gives the name of a client that is connected.
+    /// now; none if nothing changed. `peer_of` gives the name of a client that is connected.
     template <typename PeerOf>
     std::vector<std::string> update(std::optional<ToolLease::ClientId> holder, PeerOf&& peer_of) {
         std::vector<std::string> lines;
@@ -29,7 +29,7 @@ class LeaseHistory {
 
   private:
     std::optional<ToolLease::ClientId> holder_;
-    std::string peer_;  // of that client, which may have gone
+    std::string peer_;  // that client's address; it may have gone
 };
 
 }  // namespace osteomill

@@ -8,7 +8,7 @@
 
 namespace osteomill {
 
-/// Bound and listening. Throws std::runtime_error, in one line, where the address is none, cannot be had, or
+/// Bound and listening. Throws std::runtime_error, in one line, if the address is none, cannot be had, or
 /// would serve other machines in the clear without being asked to.
 boost::asio::ip::tcp::acceptor listen(boost::asio::io_context& io, const StreamingOptions& options);
 

@@ -18,7 +18,7 @@
 
 namespace osteomill {
 
-/// What is sent to clients of a scene.
+/// The session info about a scene that clients are sent.
 SessionInfo session_info(const Scene& scene, bool accepts_operator, double force_limit_n,
                          std::string program_version);
 

@@ -1,7 +1,7 @@
 // Changes of the bone that a client has yet to be sent, brick by brick, each in its turn.
 //
 // The turn goes round the grid: after a brick comes the next above it that is waiting, and after the last
-// the first. So a brick waits for each other one at most once, even where bricks before it keep changing
+// the first. So a brick waits for each other one at most once, even if bricks before it keep changing
 // faster than the client reads.
 //
 // Bounded: one entry of about 60 bytes for each stored brick that is waiting, and a mask of 512 bytes for

@@ -67,7 +67,7 @@ std::string SessionControls::act(const Waiting& waiting, const Bone& bone, const
     const SessionControl& control = waiting.control;
     const bool needs_bone = control.action == SessionAction::save ||
                             control.action == SessionAction::finish || control.action == SessionAction::place;
-    // What needs no bone waits for its turn alone.
+    // A control that needs no bone waits only for its turn.
     const bool can_wait = waiting.frames < longest_wait_frames;
     if (!is_stroke_action(control.action) && !is_bone_whole() && (needs_bone || can_wait))
         return bone_is_under_way;

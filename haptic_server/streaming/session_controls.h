@@ -37,7 +37,7 @@ class SessionControls {
         /// `text`: as what; empty for the bone itself.
         std::function<std::string(const Bone&, const std::string& text)> save{};
         std::function<std::string()> finish{};
-        /// What has gone wrong with saving since the last call, a line each. May be empty.
+        /// The failures to save since the last call, a line each. The function may be empty.
         std::function<std::vector<std::string>()> save_news{};
         /// The answer to Finish, such as where the report will be.
         std::string finish_words{};
@@ -53,7 +53,7 @@ class SessionControls {
     };
     /// Most requests that wait; more are refused.
     static constexpr std::size_t most_waiting = 64;
-    /// Of a streaming server, at 30 Hz: less than a second until the client has its answer.
+    /// At a streaming server's 30 Hz the client has its answer in less than a second.
     static constexpr int longest_wait_frames = 25;
 
     /// The one writer of gate.stillness and gate.spindle_rev_per_s, of `restored` and of `placements`; all
@@ -78,9 +78,9 @@ class SessionControls {
     struct Waiting {
         SessionControl control;
         int frames = 0;          ///< it has seen since it was requested
-        bool lifts_out = false;  ///< of place: nobody asked for it
+        bool lifts_out = false;  ///< a placement that nobody asked for
     };
-    /// What it has to wait for; empty: it is done, or refused.
+    /// The reason to wait; empty: it is done, or refused.
     std::string act(const Waiting& waiting, const Bone& bone, const ToolState& tool);
     std::string restore(SessionAction action, const Bone& bone, const ToolState& tool);
     std::string place(const Waiting& waiting, const Bone& bone, const ToolState& tool);
@@ -110,10 +110,10 @@ class SessionControls {
     Placement placement_;  // the last that was requested
     bool is_being_placed_ = false;
     bool may_be_in_bone_ = false;             // since bone came back
-    StrokeJournal::Restoration restoration_;  // of this frame
+    StrokeJournal::Restoration restoration_;  // this frame's
     std::deque<StrokeJournal::Restored> waits_for_room_;
-    std::uint64_t queued_ = 0;     // since the start
-    std::uint64_t confirmed_ = 0;  // of these, those that are in the bone
+    std::uint64_t queued_ = 0;     // bricks since the start
+    std::uint64_t confirmed_ = 0;  // the part of queued_ that is in the bone
 };
 
 }  // namespace osteomill

@@ -110,7 +110,7 @@ void SessionRecorder::take_ticks(Wait wait) {
         if (feed_.waiting_ticks() > 0) return;
         feed_.note_missed_ticks(std::exchange(missed_ticks_, 0));
     }
-    // What was dropped found the queue full: it comes behind all that is in there.
+    // Dropped ticks found the queue full, so they come behind all that are in it.
     const std::uint64_t dropped = ticks_->dropped();
     ticks_->consume_all([this](const TickSample& tick) { feed_.note_tick(tick); });
     missed_ticks_ = dropped - std::exchange(dropped_ticks_, dropped);
@@ -138,7 +138,7 @@ void SessionRecorder::hand_over(Wait wait) {
         const std::optional<std::string> frame = feed_.next();
         if (!frame) return;
         Stamp stamp = std::max(stamp_of(time_s_), stamp_);
-        // Rows of a table have times of their own: what does not fit one state is a moment later.
+        // Rows of a table have times of their own: rows that do not fit one state come a moment later.
         if (feed_.newest_state() != newest) {
             if (newest > 0 && stamp <= stamp_) stamp = stamp_ + least_between_states;
             stamp_ = stamp;

@@ -1,9 +1,9 @@
 // Recorder of a session, which acts as one more client: a client's frames go into a file.
 //
-// Its feed is that of any client, so on a slow disk changes are merged and sent later, and the streaming
-// thread never waits. A full disk acts like a slow one: the session goes on, and once there is room the next
-// frame contains all changes since. Poses of that time are missing, bone is not. Ticks wait in their queue
-// while it has room; lost ticks are counted.
+// It uses a ClientFeed like any client, so on a slow disk changes are merged and sent later, and the
+// streaming thread never waits. A full disk acts like a slow one: the session goes on, and once there is room
+// the next frame contains all changes since. Poses of that time are missing, bone is not. Ticks wait in their
+// queue while it has room; lost ticks are counted.
 #pragma once
 
 #include <atomic>
@@ -21,21 +21,21 @@ namespace osteomill {
 
 class SessionRecorder {
   public:
-    /// Writes hello, snapshot and `structures` before it returns, and throws RecordingError where that much
+    /// Writes hello, snapshot and `structures` before it returns, and throws RecordingError if that much
     /// cannot be written. `mirror`, `structures` and the queue of ticks outlive the recorder.
     SessionRecorder(const RecordTo& to, v2::Hello hello, const BoneReplica& mirror,
                     std::span<const v2::StructureBricks> structures = {});
 
-    /// As for a client: see ClientFeed.
+    /// These do what they do for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
-    /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Nothing where it says no
+    /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Nothing if it says no
     /// more than the one before, of the same time.
     void record(SessionState state, bool may_wait);
     /// Hands over the end, waits until all is written and makes it the file that was requested. Gives up on a
     /// disk that does not answer (see RecordingWriter).
     void finish(SessionState state, const std::string& reason);
 
-    /// Its error also says where the end is missing. Then what there is stays in the part.
+    /// Its error also tells if the end is missing. The recorded frames then stay in the part.
     RecordingReport report() const;
 
   private:
@@ -53,13 +53,14 @@ class SessionRecorder {
     std::uint64_t missed_ticks_ = 0;  // that ticks_ dropped and the recording has yet to tell of
     std::uint64_t dropped_ticks_ = 0;
     std::atomic<bool> is_under_way_{false};
-    // Of its own: the recording ends on another thread while clients are still sent the end.
+    // The recorder has packers of its own: the recording ends on another thread while clients are still sent
+    // the end.
     FeedPackers packers_{};
     ClientFeed feed_;
     RecordingWriter writer_;
     double time_s_ = 0.0;
     std::optional<SessionState> last_;  // that was handed over
-    Stamp stamp_{};                     // of the last state
+    Stamp stamp_{};                     // the last state's
 };
 
 }  // namespace osteomill

@@ -24,7 +24,7 @@ struct RecordTo {
     std::filesystem::path file;
     Stamp began;  ///< when the session's time is zero
     bool with_ticks = true;
-    /// Where the haptic loop leaves them, for the recording alone; null: nowhere.
+    /// The queue in which the haptic loop leaves them, for the recording alone; null: none.
     SampleQueue<TickSample>* ticks = nullptr;
     /// For people, when the recording can no longer be written; any thread. Empty: into the log.
     std::function<void(const std::string& line)> tell{};
@@ -36,7 +36,7 @@ struct StreamingOptions {
     std::uint16_t port = 7010;          ///< 0 lets the system choose; see StreamingServer::port
     std::shared_ptr<TlsContext> tls{};  ///< null: clients are served in the clear
     bool insecure_network = false;      ///< in the clear, and yet to other machines, too
-    /// Who may move the tool, where a client does; nothing: every client. Names nobody without TLS.
+    /// Who may move the tool, if a client does; nothing: every client. Names nobody without TLS.
     std::optional<OperatorList> operators{};
     /// Two round trips and some milliseconds of arithmetic; a client that does not hear from its server for
     /// 5 s gives up.

@@ -40,7 +40,7 @@ namespace {
 constexpr std::chrono::seconds longest_goodbye{5};
 constexpr const char* end_of_session = "the session has ended";
 
-/// Who looks is asked from where only if that is kept.
+/// Clients are asked for their viewpoint only if it is recorded.
 SessionInfo with_view(SessionInfo session, const StreamingOptions& options) {
     session.records_view = options.record.has_value();
     return session;

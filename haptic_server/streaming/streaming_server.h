@@ -27,7 +27,7 @@ namespace osteomill {
 /// Between a server and its clients, as of the last frame.
 struct StreamingTraffic {
     std::size_t clients = 0;       ///< that are connected
-    std::uint64_t sent_bytes = 0;  ///< of frames, to all clients since the start
+    std::uint64_t sent_bytes = 0;  ///< in frames, to all clients since the start
 };
 
 class StreamingServer {
@@ -68,7 +68,7 @@ class StreamingServer {
     std::uint16_t port() const;
     /// Checksum of the mirror, after end().
     std::uint64_t mirror_checksum() const;
-    /// What became of the recording, after finish_recording(); nothing where none was requested.
+    /// The outcome of the recording, after finish_recording(); nothing if none was requested.
     std::optional<RecordingReport> recording() const;
 
   private:

@@ -33,7 +33,7 @@ class StrokeJournal {
         BrickChange change;
         ByteBrick fractions;
     };
-    /// What restores any number of strokes: each brick once.
+    /// The bricks that restore any number of strokes: each once.
     using Restoration = std::map<BrickIndex, Restored>;
     /// Adds the changes that restore the bone of the last closed stroke, or remove it again. After everything
     /// already in `restoration`, `bone` is as that stroke left it, or found it. No stroke is open, and there

@@ -37,7 +37,7 @@ class ToolLease {
     void check_silence(Time now);
     /// Who has it, for the log.
     std::optional<ClientId> holder() const { return holder_; }
-    /// What to send a client, as of the last call of any of the above.
+    /// The state to send a client, as of the last call of any of the above.
     ToolDriver driver_for(ClientId client) const;
 
   private:
@@ -48,7 +48,7 @@ class ToolLease {
 
     OperatorChannel& output_;
     std::optional<ClientId> holder_;
-    // Of the holder:
+    // The holder's:
     std::optional<OperatorCommand> newest_;
     Time acted_{};  // a new target, axis or burr, or the pedal was down
     Time last_heard_{};

@@ -26,7 +26,7 @@ class Watch {
           voxels_(voxel_count(file.grid())),
           threshold_hu_(threshold_hu),
           available_bytes_(available_memory_bytes) {
-        // What bone_import wrote, it has looked at.
+        // bone_import has already checked the files that it wrote.
         if (!file.key_values().contains(hu_digest_key)) histogram_.emplace();
     }
 

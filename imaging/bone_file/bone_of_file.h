@@ -15,8 +15,8 @@
 
 namespace osteomill {
 
-/// Where neither scene nor file says from which HU on a voxel is bone: about what separates trabecular bone
-/// from soft tissue in CT.
+/// The threshold if neither scene nor file says from which HU on a voxel is bone: about the value that
+/// separates trabecular bone from soft tissue in CT.
 inline constexpr double default_threshold_hu = 300.0;
 
 /// Fills `labels` with the tissues of as many voxels (whole slices, x fastest) from slice `z` on; all are 0
@@ -26,16 +26,16 @@ using FillLabels = std::function<void(int z, std::span<std::uint8_t> labels)>;
 struct BoneOfFile {
     Bone bone;
     std::shared_ptr<const BoneFile> file;  ///< stays open, so that another under its name is not taken for it
-    std::string hu_digest;                 ///< of the file's CT numbers
+    std::string hu_digest;                 ///< digest of the file's CT numbers
     double threshold_hu = default_threshold_hu;
-    /// A line for people on what may be wrong with its CT numbers; empty where nothing is: that a file which
+    /// A line for people on what may be wrong with its CT numbers; empty if nothing is: that a file which
     /// this project did not write does not look like HU (hu_histogram.h), that all of it is bone.
     std::string doubt;
 };
 
 /// Reads the file slice by slice. The threshold is the one given, or the file's own, or the default. Throws
-/// ImagingError with one line naming the file, also where it holds no bone at all, or more than fits in
-/// `available_memory_bytes` (where known) with the copy that a session shows: as soon as that is seen.
+/// ImagingError with one line naming the file, also if it holds no bone at all, or more than fits in
+/// `available_memory_bytes` (if known) with the copy that a session shows: as soon as that is seen.
 /// Without `fill_labels` the bone is unlabelled; a carved one has the labels with which it was saved.
 BoneOfFile bone_of_file(const std::filesystem::path& path, std::optional<double> threshold_hu,
                         const StiffnessRelation& relation,

@@ -31,7 +31,7 @@ int times_as_long(const Grid& bone) {
     return times;
 }
 
-/// What is left of a brick, summed over the voxels of the picture in it, x fastest.
+/// The bone left in a brick, summed over the picture's voxels in it, x fastest.
 struct BrickSums {
     std::array<std::uint32_t, brick_voxel_count> left{};
 

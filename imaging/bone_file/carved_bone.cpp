@@ -52,7 +52,7 @@ bool has_fraction(BrickFractions fractions) {
     return std::any_of(fractions.begin(), fractions.end(), [](std::uint8_t f) { return f != 0; });
 }
 
-/// What stands before the voxels for one brick.
+/// The record of one brick, before the voxels.
 struct BrickRecord {
     BrickIndex brick = 0;
     ByteBrick fraction{};
@@ -159,7 +159,7 @@ void clear_milled(const Bone& bone, int first_z, std::span<std::int16_t> hu) {
     }
 }
 
-/// What is done to slices that were read, from `first_z` on.
+/// Changes slices that were read, from `first_z` on.
 using ChangeSlices = std::function<void(int first_z, std::span<std::int16_t> hu)>;
 
 /// The bone, and behind it the slices as `change` leaves them.
@@ -198,7 +198,7 @@ std::string text_of(const Grid& grid) {
                        grid.spacing_mm, grid.origin_mm.x, grid.origin_mm.y, grid.origin_mm.z);
 }
 
-/// Of the bone, which is finer than that of the file's voxels where those are a picture of it.
+/// The bone's grid, which is finer than the grid of the file's voxels if those are a picture of the bone.
 Grid bone_grid_of(const BoneFile& file) {
     if (!file.key_values().contains(bone_grid_key)) return file.grid();
     Grid grid;

@@ -1,4 +1,4 @@
-// A carved bone as one file: what is left of it can be looked at in 3D Slicer, and loaded again bit for bit.
+// A carved bone as one file: 3D Slicer can show the remaining bone, and it can be loaded again bit for bit.
 //
 // HU alone cannot give the bone back: fractions have 255 levels that no HU tells, and the stiffness of a
 // voxel on the surface was taken from neighbours that may be gone. So the codes are kept as they were, in the
@@ -32,31 +32,31 @@ namespace osteomill {
 inline constexpr std::int16_t milled_away_hu = air_hu;
 
 /// Writes the file beside `path` and switches to it at once. `source` gives what `bone` was built from;
-/// `key_values` go with it (the threshold among them). Throws std::invalid_argument where the grids differ,
-/// ImagingError where the file cannot be written; what stood under the name is then as it was, as it is when
-/// `source` throws.
+/// `key_values` go with it (the threshold among them). Throws std::invalid_argument if the grids differ,
+/// ImagingError if the file cannot be written; an older file of that name is then unchanged, also if `source`
+/// throws.
 void save_carved_bone(
     const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
     const std::map<std::string, std::string>& key_values = {}, const ReportProgress& report = [](double) {});
 
 /// The same for a bone that no CT numbers were made for, or whose source is gone: the voxels are a picture of
-/// it, on a grid of longer voxels where its own is large (bone_picture.h).
+/// it, on a grid of longer voxels if its own is large (bone_picture.h).
 void save_carved_bone(
     const std::filesystem::path& path, const Bone& bone, std::map<std::string, std::string> key_values = {},
     const ReportProgress& report = [](double) {});
 
 struct RestoredBone {
     Bone bone;
-    std::string hu_digest;  ///< of the CT numbers beside it
+    std::string hu_digest;  ///< digest of the CT numbers beside it
 };
 
 /// Whether a bone file holds a carved bone.
 bool is_carved(const BoneFile& file);
 
 /// The bone that was saved: equal checksum, and equal stiffness and labels wherever anything is left. The
-/// scene's threshold and stiffness relation play no part: what was carved keeps the codes that it had. Reads
-/// all of the file, the HU, too. Throws ImagingError in one line that names the channel where a digest is not
-/// the one saved, and for what 0.1 saved.
+/// scene's threshold and stiffness relation play no part: a carved bone keeps its codes. Reads all of the
+/// file, the HU, too. Throws ImagingError in one line that names the channel if a digest is not the one
+/// saved, and for files of 0.1.
 RestoredBone restore_carved_bone(const BoneFile& file);
 
 }  // namespace osteomill

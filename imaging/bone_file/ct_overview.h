@@ -1,4 +1,4 @@
-// The CT for people to look at, made of CT numbers that come slice by slice.
+// The CT for display, made of CT numbers that come slice by slice.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,8 @@
 
 namespace osteomill {
 
-/// On the slices' own grid or, where that has more than `most_voxels`, on one as many times coarser as it
-/// must be: each voxel the mean of those that it holds. Reads all slices; takes memory for the result and a
-/// slice.
+/// On the slices' own grid or, if that has more than `most_voxels`, on one as many times coarser as it must
+/// be: each voxel the mean of those that it holds. Reads all slices; takes memory for the result and a slice.
 CtVolume ct_overview(const HuSlices& slices, std::size_t most_voxels);
 
 }  // namespace osteomill

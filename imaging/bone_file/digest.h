@@ -17,7 +17,7 @@ class Digest {
 
     Digest();
     void add(std::span<const std::byte> bytes);
-    /// Of all bytes so far: 32 hexadecimal digits.
+    /// The digest of all bytes so far: 32 hexadecimal digits.
     std::string text() const;
 
   private:

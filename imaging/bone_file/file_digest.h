@@ -1,5 +1,5 @@
-// The digest of a whole NRRD file, in its own header: of every byte of header and data but the digest itself.
-// So a flipped bit is found wherever it is, also in what other programs made of the header.
+// The digest of a whole NRRD file, in its own header: it covers every byte of header and data but the digest
+// itself. So a flipped bit is found wherever it is, even after another program rewrote the header.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@ namespace osteomill {
 /// The key's line is "osteomill_digest:=" and Digest::text_length digits, all zero while the digest is taken.
 inline constexpr const char* file_digest_key = "osteomill_digest";
 
-/// As it stands before the digest is known.
+/// The placeholder in the header until the digest is known.
 inline std::string no_digest_yet() {
     return std::string(Digest::text_length, '0');
 }
 
-/// False where a file has none: it is no NRRD, is from elsewhere, or was written anew on purpose. Throws
-/// ImagingError where it has another than the file's.
+/// False if a file has none: it is no NRRD, is from elsewhere, or was written anew on purpose. Throws
+/// ImagingError if it has another than the file's.
 bool has_file_digest(const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -36,7 +36,8 @@ class GzipWriter {
     void compress_waiting();
 
     Write write_;
-    std::size_t room_bytes_;  // of what waits: asking for the number of cores takes a file
+    std::size_t room_bytes_;  // most bytes that wait; a member, because asking for the number of cores opens
+                              // a file
     std::vector<std::byte> waiting_{};
     std::uint32_t crc_ = 0;
     std::uint64_t length_ = 0;

@@ -23,7 +23,7 @@ constexpr const char* own_keys = "osteomill_";
 constexpr double printing_tolerance = 1e-6;
 constexpr const char* hint = "; run bone_import on it";
 
-/// What a bone may not leave open, although an image may.
+/// Checks the entries that a bone must have, although an image need not.
 void require_form(const NrrdHeader& header, const ImageHeader& image, const std::filesystem::path& path) {
     const auto refuse = [&](const std::string& reason) { throw ImagingError(path, reason + hint); };
     if (!image.is_placed) refuse("does not say how it lies in the patient (space)");
@@ -64,7 +64,7 @@ std::optional<double> threshold_of(const std::filesystem::path& path,
     return threshold_hu;
 }
 
-/// Of what the header means, not of how it is written.
+/// The digest of the header's meaning, however it is written.
 Digest digest_of(const NrrdForm& form) {
     const Grid& grid = form.grid;
     std::string text = fmt::format("{} {} {}, {}, {} {} {}, {}\n", grid.size_voxels.x, grid.size_voxels.y,

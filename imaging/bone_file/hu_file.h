@@ -1,8 +1,8 @@
 // A bone file: CT numbers on the bone's own grid, as bone_import writes and haptic_server loads.
 //
-// Its header holds a digest of the CT numbers, and one of itself: of sizes, spacing, origin and all keys that
-// begin with osteomill_. So one flipped bit is refused, even where gzip's CRC was made after it flipped.
-// Files from elsewhere have none and are taken as they are.
+// Its header holds two digests: one of the CT numbers, and one of itself, which covers sizes, spacing, origin
+// and all keys that begin with osteomill_. So one flipped bit is refused, even if gzip's CRC was made after
+// it flipped. Files from elsewhere have no digests and are accepted as they are.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +33,7 @@ class NrrdData {
     void read_before_voxels(std::span<std::byte> bytes) { source_.read(bytes); }
     void skip(std::uint64_t bytes) { source_.skip(bytes); }
     void read_voxels(std::span<std::int16_t> voxels);
-    /// After the last voxel: throws ImagingError where compressed data do not end there with a CRC that fits.
+    /// After the last voxel: throws ImagingError if compressed data do not end there with a CRC that fits.
     void finish() { source_.finish(); }
 
   private:
@@ -45,7 +45,7 @@ class NrrdData {
 class BoneFile {
   public:
     /// Throws ImagingError in one line for a file that is missing or too short for what its header says, and
-    /// for anything but an int16 NRRD on an isotropic, axis-aligned LPS grid; where the image is merely of
+    /// for anything but an int16 NRRD on an isotropic, axis-aligned LPS grid; if the image is merely of
     /// another form the line says to run bone_import.
     explicit BoneFile(const std::filesystem::path& path);
 
@@ -53,9 +53,9 @@ class BoneFile {
     const Grid& grid() const { return form_.grid; }
     const NrrdForm& form() const { return form_; }
     const std::map<std::string, std::string>& key_values() const { return form_.key_values; }
-    /// Of threshold_key; absent where the file has none.
+    /// The value of threshold_key; absent if the file has none.
     const std::optional<double>& threshold_hu() const { return threshold_hu_; }
-    /// Throws ImagingError, naming the key, where it is missing.
+    /// Throws ImagingError, naming the key, if it is missing.
     const std::string& value(const char* key) const;
 
     /// Whether it was written to since it was opened.
@@ -73,9 +73,8 @@ class BoneFile {
     std::optional<double> threshold_hu_;
 };
 
-/// Throws ImagingError, "its WHAT damaged: digest ..., not the ... that was saved" (WHAT: "CT
-/// numbers are"), where the file holds
-/// another digest under `key`; a file without that key has nothing to hold it against.
+/// Throws ImagingError, "its WHAT damaged: digest ..., not the ... that was saved" (WHAT: "CT numbers are"),
+/// if the file holds another digest under `key`; a file without that key has nothing to hold it against.
 void require_digest(const BoneFile& file, const char* key, const Digest& digest, const std::string& what);
 
 /// The CT numbers of a bone file, from the first slice on.
@@ -90,7 +89,7 @@ class HuReader {
     /// CRC and the digest. Throws ImagingError.
     void read(std::span<std::int16_t> hu);
     void read_to_end();
-    /// Of what has been read.
+    /// The digest of the CT numbers read so far.
     std::string digest() const { return digest_.text(); }
 
   private:

@@ -14,20 +14,20 @@
 
 namespace osteomill {
 
-/// What is not committed is gone.
+/// A file that is not committed is deleted.
 class NrrdWriter {
   public:
     /// Writes the header beside the target, and removes what one that was killed has left there. Throws
-    /// std::invalid_argument for a bad grid, ImagingError for a name that does not end in .nrrd and where
+    /// std::invalid_argument for a bad grid, ImagingError for a name that does not end in .nrrd and if
     /// nothing can be written.
     NrrdWriter(const std::filesystem::path& path, const NrrdForm& form);
     /// The next bytes: first those before the voxels, then the voxels, of each all layers, x fastest, then y,
-    /// then z, little endian. Throws std::runtime_error, with the reason, where they cannot be written.
+    /// then z, little endian. Throws std::runtime_error, with the reason, if they cannot be written.
     void add(std::span<const std::byte> bytes);
 
     /// Ends the file and switches to it at once; until then the old one is as it was. `key_values` take the
     /// place of those given at first (digests are known only now) and must be as long; where file_digest_key
-    /// is among them, it gets the file's digest. Throws std::runtime_error; std::logic_error where the bytes
+    /// is among them, it gets the file's digest. Throws std::runtime_error; std::logic_error if the bytes
     /// added are not those that the header promises.
     void commit(const std::map<std::string, std::string>& key_values);
 

@@ -15,7 +15,7 @@ std::uint8_t lost(std::uint8_t before, std::uint8_t after) {
     return static_cast<std::uint8_t>(before > after ? before - after : 0);
 }
 
-/// Of the voxels of a brick; a bone that has no such brick has nothing there.
+/// The fraction of a voxel in a brick; 0 if the bone has no such brick.
 std::uint8_t fraction_in(const Bone& bone, std::int32_t slot, std::size_t offset) {
     return slot == BoneContent::no_slot ? std::uint8_t{0} : bone.fractions(slot)[offset];
 }

@@ -9,13 +9,13 @@
 
 namespace osteomill {
 
-/// The first voxel (in the order of bricks) that `after` has more of than `before`; nothing where it can have
+/// The first voxel (in the order of bricks) that `after` has more of than `before`; nothing if it can have
 /// been carved from it. Both lie on one grid.
 std::optional<glm::ivec3> first_risen_voxel(const Bone& before, const Bone& after);
 
 /// Writes a NRRD of bytes on the bone's grid: 0 where nothing is gone, 255 where a whole voxel is. Written a
 /// layer of bricks at a time, so that memory follows a slice, not the grid. A voxel that has risen counts as
-/// 0. Throws std::invalid_argument where the grids differ, ImagingError where the file cannot be written.
+/// 0. Throws std::invalid_argument if the grids differ, ImagingError if the file cannot be written.
 void save_removed(const std::filesystem::path& path, const Bone& before, const Bone& after);
 
 }  // namespace osteomill

@@ -1,5 +1,5 @@
-// Volumes of bone removed by tissue, as a saved bone says of all sessions before: what is gone can no
-// longer be counted.
+// Volumes of bone removed by tissue in all earlier sessions, as a saved bone states them, because removed
+// bone can no longer be counted.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ inline constexpr const char* removed_key = "osteomill_removed_mm3";
 /// "0:1.25 7:0.5": label and mm^3 of whatever is above 0, ascending.
 std::string text_of_removed(const VolumesByTissue& removed_mm3);
 
-/// Nothing where the file does not tell. Throws ImagingError where what it tells makes no sense.
+/// Nothing if the file does not tell. Throws ImagingError if what it tells makes no sense.
 VolumesByTissue removed_before_mm3(const BoneFile& file);
 
 }  // namespace osteomill

@@ -21,7 +21,7 @@ namespace {
 }
 
 [[noreturn]] void run(const std::function<bool()>& step) {
-    // It outlives nobody who waits for it, and leaves no core where it falls.
+    // It outlives nobody who waits for it, and leaves no core if it falls.
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit none{};
     ::setrlimit(RLIMIT_CORE, &none);

@@ -23,8 +23,8 @@ class SharedBytes {
 };
 
 /// Runs `step` quietly in a child (fork) and waits for it: true where it came back with true, false where it
-/// came back with false, threw, or ended its process (an assertion, a signal). What it leaves behind is what
-/// it wrote into SharedBytes made before. Throws std::system_error where no process can be begun.
+/// came back with false, threw, or ended its process (an assertion, a signal). Its only result is what it
+/// wrote into SharedBytes made before. Throws std::system_error where no process can be begun.
 bool succeeds_apart(const std::function<bool()>& step);
 
 }  // namespace osteomill

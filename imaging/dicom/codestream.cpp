@@ -16,7 +16,7 @@ std::uint32_t big_endian_at(Bytes bytes, std::size_t at, std::size_t count) {
 
 std::optional<Codestream> jpeg2000(Bytes bytes) {
     // SOC, SIZ: length, capabilities, size, offset, tiles, number of components, depth of the first.
-    constexpr std::size_t most_wrapping = 4096;  // of the boxes of a JP2 file, which some write around it
+    constexpr std::size_t most_wrapping = 4096;  // bytes of the JP2 boxes that some files have around it
     for (std::size_t at = 0; at + 43 <= std::min(bytes.size(), most_wrapping); ++at) {
         if (big_endian_at(bytes, at, 4) != 0xff4fff51) continue;
         return Codestream{.columns = big_endian_at(bytes, at + 8, 4) - big_endian_at(bytes, at + 16, 4),

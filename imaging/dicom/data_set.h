@@ -19,7 +19,7 @@
 
 namespace osteomill {
 
-/// An element's bytes as text, without padding; empty where absent.
+/// An element's bytes as text, without padding; empty if absent.
 inline std::string text_of(const gdcm::DataSet& data, const gdcm::Tag& tag) {
     if (!data.FindDataElement(tag)) return {};
     const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
@@ -59,7 +59,7 @@ std::optional<std::array<double, count>> numbers_of(const gdcm::DataSet& data, c
     return numbers;
 }
 
-/// The first item of a sequence, such as a functional group; null where there is none.
+/// The first item of a sequence, such as a functional group; null if there is none.
 inline gdcm::SmartPointer<gdcm::SequenceOfItems> sequence_of(const gdcm::DataSet& data,
                                                              const gdcm::Tag& tag) {
     if (!data.FindDataElement(tag)) return nullptr;
@@ -81,7 +81,7 @@ struct Places {
     }
 };
 
-/// What a multi-frame file says of its frames.
+/// The functional groups of a multi-frame file: statements about its frames.
 class FrameGroups {
   public:
     explicit FrameGroups(const gdcm::DataSet& data)

@@ -42,7 +42,7 @@ std::size_t pixels_of_frame(const DicomFile& file) {
     return static_cast<std::size_t>(file.header.columns) * static_cast<std::size_t>(file.header.rows);
 }
 
-/// Of private kinds, and of those that are younger than it, GDCM takes no pixels. Of labels it asks for
+/// GDCM reads no pixels of private kinds, nor of kinds that are younger than GDCM. For labels it requires
 /// colours.
 bool is_known_kind(const DicomFile& file) {
     const DicomScan& scan = file.header.scan;
@@ -89,7 +89,7 @@ class AnyKindReader : public gdcm::ImageReader {
         GetFile().GetDataSet().Replace(pixels);
         return true;
     }
-    /// Where its tables are missing or torn, GDCM 3.0.21 ends the program.
+    /// GDCM 3.0.21 ends the program if the palette's tables are missing or torn.
     void forget_palette() {
         using Photometric = gdcm::Attribute<0x0028, 0x0004>;
         if (text_of(GetFile().GetDataSet(), Photometric::GetTag()) != "PALETTE COLOR") return;
@@ -119,7 +119,7 @@ void keep_all_bits(gdcm::ImageReader& reader) {
     format.SetBitsStored(bits);
     format.SetHighBit(static_cast<unsigned short>(bits - 1));
     reader.GetImage().SetPixelFormat(format);
-    // Of a part of the pixels it asks the file.
+    // If GDCM reads only some of the pixels, it takes these numbers from the file.
     const auto replace = [&](std::uint16_t element, unsigned short value) {
         gdcm::Attribute<0x0028, 0x0101> number;
         number.SetValue(value);
@@ -321,7 +321,7 @@ std::span<float> DicomFrames::frame(unsigned index) {
 }
 
 std::uint64_t DicomFrames::bytes_to_read(const DicomFile& file) {
-    // As stored, rescaled, and as float.
+    // A pixel is held as stored, rescaled, and as float.
     constexpr std::uint64_t bytes_of_a_pixel = 10;
     const std::uint64_t frame_bytes = bytes_of_a_pixel * pixels_of_frame(file);
     if (is_read_frame_by_frame(file)) return frame_bytes;

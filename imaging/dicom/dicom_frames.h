@@ -18,12 +18,12 @@ class DicomFrames {
     DicomFrames(DicomFrames&&) noexcept;
     DicomFrames& operator=(DicomFrames&&) noexcept;
 
-    /// Columns x rows values, column fastest, in HU as the file itself says (DicomValues::hu); what is
-    /// padding is not a number. They may be changed, and are there until the next call. Any order of frames.
-    /// Throws ImagingError where the pixels cannot be decoded or are not of the size that the header says.
+    /// Columns x rows values, column fastest, in HU as the file itself says (DicomValues::hu); padding is not
+    /// a number. They may be changed, and are there until the next call. Any order of frames. Throws
+    /// ImagingError if the pixels cannot be decoded or are not of the size that the header says.
     std::span<float> frame(unsigned index);
 
-    /// What reading takes of memory at most: a frame, or the whole file where it is compressed as a whole.
+    /// The most memory that reading takes: a frame, or the whole file if it is compressed as a whole.
     static std::uint64_t bytes_to_read(const DicomFile& file);
 
   private:

@@ -52,7 +52,7 @@ constexpr const char* deflated_syntax = "1.2.840.10008.1.2.1.99";
 
 /// Everything before the pixels is in here, but in odd files.
 constexpr std::uint64_t first_scanned_bytes = std::uint64_t{64} << 20U;
-/// What is held of a file whose pixels are compressed, or stand before other things.
+/// The most bytes held of a file whose pixels are compressed, or stand before other elements.
 constexpr std::uint64_t most_scanned_bytes = std::uint64_t{1} << 30U;
 
 void note(DicomHeader& header, const std::string& words) {
@@ -92,7 +92,7 @@ std::optional<SlicePlacement> placement_of(const Places& places, bool is_alone, 
                           .rows = header.rows};
 }
 
-/// What turns stored values of a frame into HU; notes where the file does not say that they are HU.
+/// The rescale from a frame's stored values to HU; adds a note if the file does not say that they are HU.
 DicomRescale rescale_of(const Places& places, DicomHeader& header) {
     const auto slope = places.find<1>(rescale_group_tag, slope_tag);
     const auto intercept = places.find<1>(rescale_group_tag, intercept_tag);
@@ -230,7 +230,7 @@ void note_doubtful_kind(const DicomScan& scan, DicomHeader& header) {
              "taken for HU unless --rescale or --intensity-window says otherwise");
 }
 
-/// Why it is no slice of a scan, where there is one beside it.
+/// Why it is no slice of a scan, if there is one beside it.
 std::string why_left_out(const DataSet& data, const DicomScan& scan, const DicomHeader& header) {
     const std::string type = text_of(data, image_type_tag);
     if (type.find("LOCALIZER") != std::string::npos) return "is a localizer (Image Type)";
@@ -246,7 +246,8 @@ std::optional<DicomScan> scan_first(const InputFile& file, std::uint64_t bytes) 
     return scan;
 }
 
-/// What GDCM may be given the file for.
+/// The scan that GDCM may safely be given; nullopt if the file is no DICOM. Throws ImagingError for a damaged
+/// file.
 std::optional<DicomScan> scan_file(const std::filesystem::path& path) {
     const InputFile file(path);
     if (!may_be_dicom(file.first_bytes(dicom_mark_bytes))) return std::nullopt;
@@ -276,7 +277,7 @@ std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path) 
                                        printable(uid.substr(0, 64))));
     gdcm::Reader reader;
     reader.SetFileName(path.c_str());
-    // Of what is deflated GDCM finds no tag to read up to where it is short.
+    // GDCM does not find the tag to stop at in short deflated data, so deflated data are read whole.
     const bool is_deflated = scan->transfer_syntax == deflated_syntax;
     if (!quietly([&] {
             return reader.CanRead() &&

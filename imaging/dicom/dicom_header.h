@@ -29,17 +29,17 @@ struct DicomHeader {
     /// Whether its JPEG 2000 codestream says that its pixels are signed, if the header says otherwise; GDCM
     /// would take the header's word and clamp.
     std::optional<bool> sign_of_codestream{};
-    /// Where each frame lies; std::nullopt of a frame that the header does not place, see `fault`.
+    /// The placement of each frame; std::nullopt for a frame that the header does not place, see `fault`.
     std::vector<std::optional<SlicePlacement>> frames;
-    double slice_gap_mm = 0.0;           ///< Spacing Between Slices; 0 where it does not say
-    double slice_thickness_mm = 0.0;     ///< likewise
+    double slice_gap_mm = 0.0;           ///< Spacing Between Slices; 0 if not stated
+    double slice_thickness_mm = 0.0;     ///< 0 if not stated
     std::vector<DicomRescale> rescales;  ///< one a frame
-    /// What had to be assumed of it, or makes its values doubtful, in words that follow its name.
+    /// The assumptions about it and the doubts about its values, as texts that follow its name.
     std::vector<std::string> notes;
     std::string fault;  ///< why the frames make no volume, in words; empty where they may
 };
 
-/// std::nullopt where the file is not DICOM at all. Throws ImagingError where it cannot be opened, begins as
+/// std::nullopt if the file is not DICOM at all. Throws ImagingError if it cannot be opened, begins as
 /// DICOM and then cannot be parsed (cut off), nests its sequences beyond reason, or has pixels that are not
 /// there or cannot be decoded (dicom_scan.h).
 std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path);

@@ -18,7 +18,7 @@ namespace osteomill {
 
 namespace {
 
-/// What a user should know of files that are read nevertheless.
+/// Notes the doubts about files that are read nevertheless.
 void note_doubts(const std::filesystem::path& folder, const DicomSeries& series, SourceImage& image) {
     const auto is_wrong = [](const DicomFile& file) { return file.header.sign_of_codestream.has_value(); };
     if (const auto wrong = std::ranges::count_if(series.files, is_wrong); wrong > 0) {
@@ -98,7 +98,7 @@ OpenedImage open_series(const std::filesystem::path& folder, const DicomSeries& 
 
 namespace {
 
-/// The only segmentation of a folder; nothing where there is none.
+/// The only segmentation of a folder; nothing if there is none.
 std::optional<std::filesystem::path> segmentation_in(const std::filesystem::path& folder) {
     std::optional<std::filesystem::path> found;
     std::error_code failed;

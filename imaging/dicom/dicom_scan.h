@@ -39,8 +39,8 @@ struct DicomScan {
     std::string frames{};                       ///< Number of Frames, as it is written
     bool has_pixel_data = false;
     bool is_encapsulated = false;
-    std::uint64_t pixel_bytes = 0;           ///< of pixel data; when encapsulated, of all fragments
-    std::optional<Codestream> codestream{};  ///< of the first fragment
+    std::uint64_t pixel_bytes = 0;           ///< size of the pixel data; when encapsulated, of all fragments
+    std::optional<Codestream> codestream{};  ///< in the first fragment
     std::vector<DicomFragment> fragments{};
     std::set<std::uint64_t> frame_offsets{};  ///< where the frames' first fragments are, if the file says so
     /// Some uncompressed pixel of 16 bits has others set above High Bit than its sign's and an overlay's.
@@ -50,8 +50,8 @@ struct DicomScan {
 /// Bytes that tell whether a file may be DICOM.
 inline constexpr std::size_t dicom_mark_bytes = 132;
 
-/// Whether the first bytes are those of DICOM: of today ("DICM" behind 128 bytes) or of long ago (an element
-/// of group 2 or 8).
+/// Whether the first bytes are those of DICOM: today's ("DICM" behind 128 bytes) or that of old files (an
+/// element of group 2 or 8).
 bool may_be_dicom(std::span<const std::uint8_t> bytes);
 
 /// std::nullopt for what is not DICOM. Throws std::invalid_argument, in words, for what begins as DICOM but

@@ -36,7 +36,7 @@ constexpr int most_layers_of_segments = 255;
 /// One layer of labels, x fastest; a segment of frames that overlap others lies in another.
 using Layer = std::vector<std::uint16_t>;
 
-/// A text of a file whose Specific Character Set (0008,0005) is `set`; as it is where that is another than
+/// A text of a file whose Specific Character Set (0008,0005) is `set`; as it is if that is another than
 /// these.
 std::string in_utf8(const std::string& text, const std::string& set) {
     static const std::map<std::string, const char*> known{
@@ -165,7 +165,8 @@ class SegmentationSource {
         }
         return described;
     }
-    /// A frame says so itself, or all do together; of a single segment it need not be said.
+    /// The segment of a frame, which the frame states itself or the shared groups state for all; a file of a
+    /// single segment need not state it.
     int segment_in(const Places& places, std::size_t frame) const {
         for (const DataSet* place : places.in) {
             const auto named = sequence_of(*place, Tag(0x0062, 0x000a));
@@ -207,7 +208,7 @@ class SegmentationSource {
         return image;
     }
 
-    /// Of a frame, one behind the other; 0 where its segment is not.
+    /// The labels of a frame's pixels, one behind the other; 0 outside its segment.
     Layer labels_of(std::size_t frame) {
         const int segment = segment_of_frame_[frame];
         const auto label = static_cast<std::uint16_t>(std::max(segment, 1));
@@ -283,13 +284,13 @@ class SegmentationSource {
     std::filesystem::path path_;
     DicomHeader header_;
     gdcm::Reader reader_;
-    const std::uint8_t* bits_ = nullptr;  // of all frames, where a pixel is one
+    const std::uint8_t* bits_ = nullptr;  // all frames' pixels, if a pixel is one bit
     std::size_t bits_of_frame_ = 0;
-    std::optional<DicomFrames> wider_{};  // where it is more
+    std::optional<DicomFrames> wider_{};  // if a pixel is more
     bool is_fractional_ = false;
     float half_of_most_ = 0.0F;
-    std::set<int> numbers_;              // of the segments that are described
-    std::vector<int> segment_of_frame_;  // 0: of a label map, whose pixels are segments
+    std::set<int> numbers_;              // the segments that are described
+    std::vector<int> segment_of_frame_;  // 0 for a label map, whose pixels are segments
     std::vector<std::size_t> slice_of_frame_;
     std::map<int, std::size_t> layer_of_segment_;
 };

@@ -68,14 +68,14 @@ class LeftOut {
     std::map<std::string, std::string> reason_of_series_;
 };
 
-/// What two copies of one slice have in common; nothing for files of several frames.
+/// The identity that two copies of one slice share; nothing for files of several frames.
 std::optional<std::pair<std::string, std::array<double, 3>>> identity_of(const DicomHeader& header) {
     if (header.instance_uid.empty() || header.frames.size() != 1 || !header.frames[0]) return std::nullopt;
     const glm::dvec3& at = header.frames[0]->position_mm;
     return std::pair(header.instance_uid, std::array{at.x, at.y, at.z});
 }
 
-/// What is no slice of a scan goes, unless there is nothing else; and so does what is there twice.
+/// Leaves out images that are no slices of a scan, unless there are no others, and second copies.
 void leave_out(std::vector<DicomFile>& images, LeftOut& left) {
     const auto is_other = [](const DicomFile& file) { return !file.header.not_of_the_scan.empty(); };
     const bool is_mixed = !std::all_of(images.begin(), images.end(), is_other);
@@ -98,7 +98,7 @@ std::vector<DicomSeries> find_series(const std::filesystem::path& folder, LeftOu
     std::vector<std::filesystem::path> paths;
     std::error_code failed;
     for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
-        // What cannot even be looked at, as a link to itself, is no file.
+        // A path that cannot even be examined, such as a link to itself, is no file.
         std::error_code unknown;
         if (entry.is_regular_file(unknown)) paths.push_back(entry.path());
         if (paths.size() > most_files)

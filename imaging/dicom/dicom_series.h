@@ -29,22 +29,23 @@ struct DicomSeries {
     std::size_t slices = 0;        ///< frames of all files
 };
 
-/// The series requested of a folder (not of the folders in it), or else the largest: of more than one slice,
-/// of CT, before others. `notes` gets a line about each that is passed over, and about each kind of file that
-/// is left out: what is no DICOM, holds no CT numbers (segmentations, reports), is no slice of a scan (a
-/// localizer, a secondary capture) beside what may be, or is a second copy of a slice. Throws ImagingError
-/// for a folder that is empty, holds no such image or more than 65535 files; where there is no series of that
-/// UID, or it is left out, or is a single slice, with all that there is; for a file that cannot be opened,
-/// and for a DICOM file that read_dicom_header refuses.
+/// The series requested of a folder (not of its subfolders), or else the largest; series of more than one
+/// slice come before others, and CT before other modalities. `notes` gets a line about each series that is
+/// passed over, and about each kind of file that is left out: one that is no DICOM, that holds no CT numbers
+/// (segmentations, reports), that is no slice of a scan (a localizer, a secondary capture) while other files
+/// may be, or that is a second copy of a slice. Throws ImagingError for a folder that is empty, holds no such
+/// image or more than 65535 files; if there is no series of that UID, or it is left out, or is a single
+/// slice, naming all series that there are; for a file that cannot be opened, and for a DICOM file that
+/// read_dicom_header refuses.
 DicomSeries choose_series(const std::filesystem::path& folder, const std::optional<std::string>& uid,
                           std::vector<std::string>& notes);
 
-/// A single DICOM file as a series of its own. Throws ImagingError where it is not DICOM or has no image.
+/// A single DICOM file as a series of its own. Throws ImagingError if it is not DICOM or has no image.
 DicomSeries series_of_file(const std::filesystem::path& path);
 
-/// Where every slice of the series lies: of multi-frame files from their functional groups. Throws
-/// ImagingError for a file without pixel data, pixel spacing or position, with several samples a pixel
-/// (RGB), that holds no CT numbers, or whose frames cannot be placed.
+/// The placement of every slice of the series; a multi-frame file states it in its functional groups. Throws
+/// ImagingError for a file without pixel data, pixel spacing or position, with several samples a pixel (RGB),
+/// without CT numbers, or with frames that cannot be placed.
 std::vector<DicomSlice> slices_of(const DicomSeries& series);
 
 }  // namespace osteomill

@@ -39,7 +39,7 @@ struct DicomValues {
     static constexpr float lowest_air_hu = -1100.0F;
     static constexpr float highest_harmless_hu = 100.0F;
 
-    /// Not a number where it is padding. The photometric interpretation has no say: MONOCHROME1 is how to
+    /// Not a number if it is padding. The photometric interpretation has no say: MONOCHROME1 is how to
     /// show it.
     float hu(std::int64_t stored, const DicomRescale& rescale) const {
         float hu = static_cast<float>(rescale.slope * static_cast<double>(stored) + rescale.intercept);

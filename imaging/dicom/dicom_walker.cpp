@@ -25,11 +25,11 @@ constexpr std::uint32_t pixel_data_tag = tag(0x7fe0, 0x0010);
 /// could be in it; so many are far from filling a stack.
 constexpr std::uint64_t most_items_in_values = 1000;
 /// Within an item that states its length GDCM computes the length of what does not, several times over at
-/// every level; where no item states its length it need not. Files state all lengths or none.
+/// every level; if no item states its length it need not. Files state all lengths or none.
 constexpr std::uint64_t most_effort = std::uint64_t{1} << 21U;
 constexpr std::uint64_t effort_of_level = 6;
 constexpr int none_open = -1;
-/// What is noted of compressed pixels takes little memory, whatever a file says.
+/// The index of compressed pixels takes little memory, whatever a file states.
 constexpr std::uint32_t most_offset_bytes = 4 * 65536;
 constexpr std::size_t most_fragments = std::size_t{1} << 20U;
 
@@ -38,7 +38,7 @@ constexpr std::size_t most_fragments = std::size_t{1} << 20U;
 std::size_t DicomWalker::walk_file(std::size_t at, const DicomSyntax& syntax,
                                    std::optional<std::uint32_t> only_group) {
     while (at < bytes_.size()) {
-        // What follows the pixels, such as a filled-up block, is GDCM's to judge.
+        // GDCM judges the bytes behind the pixels, such as a filled-up block.
         if (scan_.has_pixel_data && (bytes_.size() - at < 8 || number<std::uint64_t>(at, false) == 0)) break;
         if (only_group && number<std::uint16_t>(at, false) != *only_group) break;
         const Element element = element_at(at, syntax);
@@ -78,11 +78,12 @@ DicomWalker::Element DicomWalker::element_at(std::size_t at, const DicomSyntax& 
     element.representation = {static_cast<char>(number<std::uint8_t>(at + 4, false)),
                               static_cast<char>(number<std::uint8_t>(at + 5, false))};
     const std::string_view name(element.representation.data(), 2);
-    // GDCM takes others' lengths for longer than they are.
+    // For any other form GDCM reads a longer length than there is.
     constexpr std::string_view known{
         "AE AS AT CS DA DS DT FD FL IS LO LT OB OD OF OL OV OW PN SH SL SQ SS ST SV TM UC "
         "UI UL UN UR US UT UV"};
-    // Of private elements that old converters do not know; of "??" and blanks GDCM takes it for longer, too.
+    // Old converters write zeros as the form of private elements that they do not know. For "??" and blanks
+    // GDCM reads a longer length, too.
     const bool is_nothing = (element.tag >> 16U) % 2 == 1 && name == std::string_view("\0\0", 2);
     if (const std::size_t found = known.find(name);
         !is_nothing && (found == std::string_view::npos || found % 3 != 0))
@@ -116,14 +117,14 @@ bool DicomWalker::is(const Element& element, std::string_view representation) co
     return std::string_view(element.representation.data(), 2) == representation;
 }
 
-/// Where the element ends; goes through what is nested in it.
+/// The offset at which the element ends; walks through the elements nested in it.
 std::size_t DicomWalker::after(const Element& element, const DicomSyntax& syntax, int depth,
                                int open_levels) {
     require_representation(element);
     if (element.length == undefined_length) {
         // Also of a picture within a sequence, an icon.
         if (element.tag == pixel_data_tag) return after_fragments(element, syntax, depth == 0);
-        // Of unknown form and length: coded as implicit, whatever the file is.
+        // An element of unknown form and length is coded as implicit, whatever the file is.
         const DicomSyntax inner =
             is(element, "UN") ? DicomSyntax{.is_explicit = false, .big_endian = false} : syntax;
         return after_items(element.value, std::nullopt, inner, depth,
@@ -135,7 +136,7 @@ std::size_t DicomWalker::after(const Element& element, const DicomSyntax& syntax
         items_in_values_ += items_between(element.value, end);
         return end;
     }
-    // What begins with an item GDCM takes for a sequence where one is requested of it, in either coding.
+    // If GDCM is asked for a sequence, it accepts any value that begins with an item, in either coding.
     std::vector<DicomSyntax> codings{is_sequence ? syntax : DicomSyntax{.is_explicit = false}};
     if (is_sequence)  // private ones of old scanners are in the other order
         codings.push_back({.is_explicit = syntax.is_explicit, .big_endian = !syntax.big_endian});
@@ -153,15 +154,14 @@ std::size_t DicomWalker::after(const Element& element, const DicomSyntax& syntax
         }
         items_in_values_ = before;
     }
-    // GDCM reads it with the file, makes room for any length in it, and ends the program where it does not
-    // end.
+    // GDCM reads it with the file, makes room for any length in it, and ends the program if it does not end.
     if (is_sequence && begins_with_item(element)) throw DamagedDicom();
     items_in_values_ += items_between(element.value, end);
     require_few_hidden(element, items_in_values_ - before);
     return end;
 }
 
-/// GDCM ends the program where one of those is of another form than the standard's.
+/// GDCM ends the program if one of those is of another form than the standard's.
 void DicomWalker::require_representation(const Element& element) {
     struct Known {
         std::uint32_t tag;
@@ -246,7 +246,7 @@ std::size_t DicomWalker::after_fragments(const Element& element, const DicomSynt
     }
 }
 
-/// Pixels where the table of offsets should be are among what GDCM's codecs end the program over.
+/// GDCM's codecs end the program if pixels stand where the table of offsets should be.
 void DicomWalker::note_table(const Element& table) {
     if (table.length > most_offset_bytes || table.length % 4 != 0 ||
         (table.length != 0 && number<std::uint32_t>(table.value, false) != 0))
@@ -259,7 +259,7 @@ void DicomWalker::note_table(const Element& table) {
 void DicomWalker::note_fragment(const Element& fragment, std::uint64_t at) {
     const Bytes bytes = bytes_.subspan(fragment.value, fragment.length);
     constexpr std::uint32_t most_rle_segments = 15;
-    // Likewise.
+    // GDCM's codecs end the program over such fragments, too.
     if (scan_.transfer_syntax == "1.2.840.10008.1.2.5" && !bytes.empty() &&
         (bytes.size() < 64 || number<std::uint32_t>(fragment.value, false) - 1 >= most_rle_segments))
         throw std::invalid_argument("has a fragment of pixel data that is no RLE: damaged");
@@ -345,7 +345,7 @@ void DicomWalker::note(const Element& element, const DicomSyntax& syntax) {
     }
 }
 
-/// As far as the pixels are among the bytes.
+/// Examines the pixels as far as they are among the bytes.
 bool DicomWalker::has_bits_above(const Element& pixels, bool big_endian) const {
     const int high = scan_.high_bit.value_or(15);
     if (scan_.bits_allocated != 16 || high >= 15) return false;

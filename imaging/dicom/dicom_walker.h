@@ -1,5 +1,5 @@
-// Walk through the elements of a DICOM file, with bounds on nesting and effort: what dicom_scan.h notes of
-// it.
+// Walk through the elements of a DICOM file, with bounds on nesting and effort; it collects the facts of
+// dicom_scan.h.
 #pragma once
 
 #include <array>
@@ -33,13 +33,13 @@ class DicomWalker {
     /// `bytes` outlive it; they may be the first of a file of `file_bytes`.
     DicomWalker(Bytes bytes, std::uint64_t file_bytes) : bytes_(bytes), file_bytes_(file_bytes) {}
 
-    /// What was met so far.
+    /// The elements met so far.
     const DicomScan& scan() const { return scan_; }
 
     /// Elements of the file itself, from an offset on, up to one of another group where `only_group` is one.
     /// Returns the offset of the end. Throws as scan_dicom does.
     std::size_t walk_file(std::size_t at, const DicomSyntax& syntax, std::optional<std::uint32_t> only_group);
-    /// Throws std::invalid_argument where values that are no sequences hold many items, or an element is of
+    /// Throws std::invalid_argument if values that are no sequences hold many items, or an element is of
     /// another form than the standard's.
     void require_sound() const;
 
@@ -76,8 +76,8 @@ class DicomWalker {
     std::uint64_t file_bytes_;
     DicomScan scan_;
     Bytes first_fragment_;
-    unsigned overlay_bits_ = 0;         // of a pixel
-    std::string wrong_representation_;  // of the first element that has one, in words
+    unsigned overlay_bits_ = 0;         // bits of a pixel
+    std::string wrong_representation_;  // message about the first element that has one
     std::uint64_t items_in_values_ = 0;
     std::uint64_t effort_ = 0;
 };

@@ -1,5 +1,5 @@
-// Silence of image libraries on standard error while they work: what they find wrong comes back as one line
-// of ours.
+// Silence of image libraries on standard error while they work: their complaints come back as one line of
+// ours.
 #pragma once
 
 #include <exception>
@@ -19,7 +19,7 @@ class QuietLibraries {
     int standard_error_ = -1;
 };
 
-/// Whether a step of GDCM's succeeds, which says false or throws where it does not.
+/// Whether a step of GDCM's succeeds, which says false or throws if it does not.
 template <typename Step>
 bool quietly(const Step& step) {
     const QuietLibraries quiet;

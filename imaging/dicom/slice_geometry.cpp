@@ -17,7 +17,7 @@ namespace {
 
 /// Direction cosines are printed with six digits or more; 1e-3 is 0.06 degrees.
 constexpr double direction_tolerance = 1e-3;
-/// What settle_geometry makes perpendicular.
+/// The largest lean that settle_geometry makes perpendicular.
 const double most_lean = std::sin(glm::radians(most_shear_degrees));
 constexpr double duplicate_mm = 1e-3;
 constexpr double gap_tolerance_relative = 0.02;
@@ -117,7 +117,7 @@ double require_even(const std::vector<SlicePlacement>& slices, const std::vector
 /// Slices that are sound and alike, along their common normal.
 struct AlignedSlices {
     glm::dvec3 normal{0.0};
-    std::vector<double> height_mm{};   ///< of each
+    std::vector<double> height_mm{};   ///< one for each placement
     std::vector<std::size_t> order{};  ///< indices, from the lowest on
 };
 

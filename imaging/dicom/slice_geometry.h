@@ -38,7 +38,7 @@ struct SliceStack {
 /// the rounding that scanners print).
 SliceStack stack_slices(const std::vector<SlicePlacement>& slices);
 
-/// What a file says of the distance of its slices; 0 where it does not.
+/// The distance of its slices that a file states; 0 if it does not.
 struct StatedGap {
     double spacing_mm = 0.0;  ///< Spacing Between Slices
     double thickness_mm = 0.0;
@@ -46,17 +46,17 @@ struct StatedGap {
 
 /// Slices among which others may be empty, and of which several may lie at one place.
 struct SliceLattice {
-    std::vector<std::size_t> slice_of;  ///< of each placement, from the lowest on
-    std::size_t slices = 0;             ///< with the empty ones; 2 where all lie at one place
+    std::vector<std::size_t> slice_of;  ///< for each placement, counted from the lowest
+    std::size_t slices = 0;             ///< with the empty ones; 2 if all lie at one place
     glm::dvec3 origin_mm{0.0};
     glm::dvec3 spacing_mm{1.0};
     glm::dmat3 direction{1.0};
     std::string note;  ///< where positions and what is stated differ, in words; else empty
 };
 
-/// The lattice of a segmentation's frames. Its gap follows the positions; where those leave it open (slices
-/// may be empty), the stated spacing. Throws as stack_slices does, but for the number of slices and those at
-/// one position, and where the slices lie at no common spacing.
+/// The lattice of a segmentation's frames. Its gap follows the positions; if those leave it open (slices may
+/// be empty), the stated spacing. Throws as stack_slices does, but for the number of slices and those at one
+/// position, and if the slices lie at no common spacing.
 SliceLattice lattice_of(const std::vector<SlicePlacement>& slices, const StatedGap& stated);
 
 }  // namespace osteomill

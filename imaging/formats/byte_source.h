@@ -1,5 +1,4 @@
-// The bytes of a file from an offset on, decoded, one after the other: what does not fit in memory is read
-// so.
+// The bytes of a file from an offset on, decoded, one after the other, for data that do not fit in memory.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +30,7 @@ class ByteSource {
     ByteSource(ByteSource&&) noexcept;
     ByteSource& operator=(ByteSource&&) = delete;
 
-    /// The next bytes, as many as there is room for. Throws ImagingError where the file ends before, or what
+    /// The next bytes, as many as there is room for. Throws ImagingError if the file ends before, or what
     /// was encoded is damaged.
     void read(std::span<std::byte> bytes);
     /// The same, but for what ends earlier; how many there were.
@@ -47,12 +46,12 @@ class ByteSource {
     std::shared_ptr<const InputFile> file_;
     std::uint64_t offset_;
     Encoding encoding_;
-    std::unique_ptr<Inflater> inflater_;  // of compressed data
+    std::unique_ptr<Inflater> inflater_;  // for compressed data
     std::uint64_t given_ = 0;             // bytes, decoded
 };
 
-/// A file's first bytes, at most so many, inflated where they are gzip's. Damage ends them early; what reads
-/// the file finds it.
+/// A file's first bytes, at most so many, inflated if they are gzip's. Damage ends them early; the file's
+/// reader finds the damage.
 std::vector<std::uint8_t> first_bytes_inflated(const InputFile& file, std::size_t most);
 
 /// Whether a file of `file_bytes` may hold `bytes` in this encoding: deflate packs 1032 into one at most.

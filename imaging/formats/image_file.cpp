@@ -12,7 +12,7 @@ namespace osteomill {
 
 namespace {
 
-/// Where the lines to skip are over.
+/// The offset behind the lines to skip.
 std::uint64_t after_lines(const InputFile& file, std::uint64_t begin, std::uint64_t lines) {
     constexpr std::size_t most_bytes_of_lines = 1u << 20;
     if (lines == 0) return begin;

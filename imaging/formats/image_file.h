@@ -15,16 +15,16 @@ namespace osteomill {
 
 struct ImageHeader {
     SourceImage image{};     ///< its notes say what had to be assumed
-    bool is_placed = false;  ///< of a NRRD: it says how it lies in the patient
+    bool is_placed = false;  ///< whether a NRRD says how it lies in the patient
     int layers = 1;          ///< values of a voxel, side by side
     VoxelLayout voxels{};
     Encoding encoding = Encoding::raw;
-    std::uint64_t voxel_bytes = 0;  ///< of all voxels, decoded; of text, the least that they take
+    std::uint64_t voxel_bytes = 0;  ///< all voxels, decoded; for text, the least that they take
     std::uint64_t line_skip = 0;    ///< lines between the header (or the file's start) and the voxels
     std::int64_t byte_skip = 0;     ///< then bytes, of gzip's content; -1: the voxels are the end of the file
-    std::size_t bytes = 0;          ///< of the header, where the voxels follow it
+    std::size_t bytes = 0;          ///< size of the header, if the voxels follow it
     std::vector<std::string> data_files{};            ///< empty: the voxels follow the header
-    std::map<std::string, std::string> key_values{};  ///< of a NRRD, "key:=value"
+    std::map<std::string, std::string> key_values{};  ///< a NRRD's "key:=value"
 };
 
 /// Bytes of so many voxels, decoded. A number in decimal takes a digit, and a blank from the next.
@@ -33,7 +33,7 @@ inline std::uint64_t least_bytes(std::uint64_t voxels, VoxelType type, Encoding 
 }
 
 /// Finds the voxels of every file that the header of `path` names, or behind the header. Throws ImagingError
-/// where one is missing, or shorter than what is to be skipped.
+/// if one is missing, or shorter than what is to be skipped.
 VoxelData find_voxels(const ImageHeader& header, const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -26,8 +26,8 @@ namespace osteomill {
 
 namespace {
 
-/// What an image is recognised by: that it is a folder, or the first bytes of a file, inflated where they are
-/// gzip's.
+/// The facts by which an image is recognised: it is a folder, or a file with these first bytes, inflated if
+/// they are gzip's.
 struct ImageStart {
     std::filesystem::path path;
     ImageChoice choice;
@@ -60,8 +60,8 @@ ImageStart start_of(const std::filesystem::path& path, const ImageChoice& choice
     return start;
 }
 
-/// The text header begins with fields, of which "NDims" is one of the first. It has no mark: what is called
-/// so and is nothing else is taken for one, so that its reader says what is wrong.
+/// The text header begins with fields, of which "NDims" is one of the first. It has no mark, so a file with
+/// its ending that is no other format counts as one, and its reader reports the fault.
 bool is_meta_image(const ImageStart& start) {
     const std::string ending = lower_case(start.path.extension().string());
     if (ending == ".mha" || ending == ".mhd") return true;
@@ -112,7 +112,7 @@ OpenedImage opened(const std::filesystem::path& path, ImageHeader header, ImageP
 
 struct ImageFormat {
     const char* name;
-    std::array<std::string_view, 2> endings;  ///< of its files' names; empty: none to go by
+    std::array<std::string_view, 2> endings;  ///< its files' endings; empty: no rule
     bool (*is)(const ImageStart&);
     OpenedImage (*open)(const ImageStart&, ImagePurpose);
 };

@@ -11,10 +11,11 @@
 
 namespace osteomill {
 
-/// What somebody says of an image beside its path.
+/// A user's choices about an image beside its path.
 struct ImageChoice {
-    std::optional<std::string> series_uid{};       ///< of a DICOM folder; the largest series otherwise
-    std::optional<glm::dvec3> stack_spacing_mm{};  ///< of a stack of pictures, which do not say it themselves
+    std::optional<std::string> series_uid{};       ///< for a DICOM folder; the largest series otherwise
+    std::optional<glm::dvec3> stack_spacing_mm{};  ///< for a stack of pictures, which do not state it
+                                                   ///< themselves
 };
 
 /// Reads headers only. Throws ImagingError, in one line, for all that is no three-dimensional grey image
@@ -30,12 +31,12 @@ bool is_image_name(const std::filesystem::path& path);
 /// The file's name without what tells its format: "mandible" of "mandible.seg.nrrd".
 std::string name_without_ending(const std::filesystem::path& path);
 
-/// What is read of an image or a label map: the path itself, and the files that its header names. A folder
-/// stands for all that is in it.
+/// The files that reading an image or a label map opens: the path itself, and the files that its header
+/// names. A folder stands for all that is in it.
 std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& path);
 
-/// As open_image, of a label map, which may have layers or colours: in any of the formats, and a DICOM
-/// segmentation.
+/// Opens a label map as open_image does an image: in any of the formats, with layers or colours, or as a
+/// DICOM segmentation.
 OpenedImage open_labels(const std::filesystem::path& path, const ImageChoice& choice = {});
 
 }  // namespace osteomill

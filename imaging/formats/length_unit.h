@@ -13,7 +13,7 @@ std::optional<double> mm_of_unit(const std::string& name);
 /// Whether a file says of its unit that it is not known: "", "?", "none", "unknown".
 bool is_unknown_unit(const std::string& name);
 
-/// What would be right, for messages.
+/// The units that are right, for messages.
 inline constexpr const char* known_units = "mm, cm, m, um (microns) and nm are read";
 
 }  // namespace osteomill

@@ -51,7 +51,7 @@ class MetaFields {
         if (found == fields_.end()) return std::nullopt;
         return found->second;
     }
-    /// The first of several names of a field that is there; "" where none is.
+    /// The first of several names of a field that is there; "" if none is.
     std::string name_of(std::initializer_list<const char*> names) const {
         std::string found;
         for (const char* name : names) {

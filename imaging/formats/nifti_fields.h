@@ -34,7 +34,8 @@ class NiftiFields {
     bool swapped_;
 };
 
-/// As written, unchecked. Lengths are in the unit that `units` names, positions patient RAS.
+/// A header's statements as written, unchecked. Lengths are in the unit that `units` names, positions patient
+/// RAS.
 struct NiftiStatements {
     std::array<std::int64_t, 8> dim{};
     std::array<double, 4> pixdim{};
@@ -51,9 +52,9 @@ struct NiftiStatements {
     std::string magic;
 };
 
-/// Of at least nifti1_header_bytes.
+/// Reads a NIfTI-1 header of at least nifti1_header_bytes.
 NiftiStatements read_nifti1(const NiftiFields& fields);
-/// Of at least nifti2_header_bytes.
+/// Reads a NIfTI-2 header of at least nifti2_header_bytes.
 NiftiStatements read_nifti2(const NiftiFields& fields);
 
 }  // namespace osteomill

@@ -63,7 +63,7 @@ NiftiForm form_of_qform(const NiftiStatements& stated) {
     return form;
 }
 
-/// What of the other statements contradicts the sform, in words; empty where nothing does.
+/// A message on the statements that contradict the sform; empty if none does.
 std::string contradiction(const NiftiForm& sform, const NiftiStatements& stated) {
     std::array<double, 3> length{};
     for (std::size_t axis = 0; axis < 3; ++axis) length[axis] = glm::length(sform.step[axis]);

@@ -9,7 +9,7 @@
 namespace osteomill {
 
 /// Fills in the geometry of `image` (mm, patient LPS) and notes what was assumed or contradicts. The sform is
-/// followed where there is one, else the qform, else pixdim with a guessed orientation. Throws ImagingError
+/// followed if there is one, else the qform, else pixdim with a guessed orientation. Throws ImagingError
 /// for numbers that no scan has, an unknown unit, axes that are not perpendicular, and for statements that
 /// contradict a sform which is no rotation times spacings. The formulas are those of nifti1.h. `path` is for
 /// messages.

@@ -20,8 +20,8 @@ struct NiftiHeader : ImageHeader {
 /// Whether a file that begins with these bytes (inflated) is one.
 bool begins_as_nifti(std::span<const std::uint8_t> bytes);
 
-/// Takes the first bytes of a file (inflated) apart; pure. `path` is for messages. Where sform, qform and
-/// pixdim disagree the sform is followed if it is a rotation times spacings, and that is noted. Throws
+/// Parses the first bytes of a file (inflated); pure. `path` is for messages. If sform, qform and pixdim
+/// disagree, the sform is followed if it is a rotation times spacings, and a note says so. Throws
 /// ImagingError for a header that is cut off, for sizes or a type of voxels that cannot be, for other than
 /// three dimensions (of more than a voxel), for a unit, spacing, offset, orientation or rescale that is not a
 /// number or that no scan has, and for voxels that begin within the header or beyond all reason.
@@ -34,7 +34,7 @@ ImageHeader open_nifti(const std::filesystem::path& path);
 /// Whether the name is that of the half of a pair that holds the voxels, whose content says nothing: .img or
 /// .img.gz.
 bool is_nifti_voxel_file(const std::filesystem::path& path);
-/// The other half of such a pair; any other path itself. Throws ImagingError where there are two.
+/// The other half of such a pair; any other path itself. Throws ImagingError if there are two.
 std::filesystem::path nifti_header_file(const std::filesystem::path& path);
 
 }  // namespace osteomill

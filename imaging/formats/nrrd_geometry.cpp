@@ -82,7 +82,7 @@ NrrdSpace space_of(const NrrdHeader& header, const std::filesystem::path& path) 
     return space;
 }
 
-/// Millimetres of one, for each of `count` axes; what a field of quoted names says.
+/// The length of one unit in millimetres for each of `count` axes, from a field of quoted names.
 std::vector<double> mm_of_units(const NrrdHeader& header, const char* name, std::size_t count,
                                 const std::filesystem::path& path, SourceImage& image) {
     std::vector<double> mm(count, 1.0);
@@ -99,7 +99,7 @@ std::vector<double> mm_of_units(const NrrdHeader& header, const char* name, std:
     for (std::size_t i = 0; i < std::min(count, units.size()); ++i) {
         if (is_unknown_unit(units[i])) continue;
         const std::optional<double> known = mm_of_unit(units[i]);
-        // Of an axis of time or of a list it is none of length.
+        // The unit of an axis of time or of a list is no unit of length.
         if (!known && i < 3)
             throw ImagingError(path, fmt::format("{} '{}': {}", name, shortened(*text), known_units));
         mm[i] = known.value_or(1.0);
@@ -110,7 +110,7 @@ std::vector<double> mm_of_units(const NrrdHeader& header, const char* name, std:
     return mm;
 }
 
-/// An axis of the file; nothing in it where it is none of space.
+/// An axis of the file; nothing in it if it is none of space.
 struct NrrdAxis {
     std::uint64_t size = 0;
     std::optional<glm::dvec3> step_mm{};  ///< patient LPS
@@ -149,7 +149,7 @@ std::vector<NrrdAxis> axes_by_directions(const NrrdHeader& header, const NrrdSpa
     return axes;
 }
 
-/// Where only spacings are given, or nothing, axes run along the space's own.
+/// The axes if the header states only spacings, or nothing: they run along the space's own.
 std::vector<NrrdAxis> axes_by_spacings(const NrrdHeader& header, const NrrdSpace& space,
                                        const std::vector<std::uint64_t>& sizes, SourceImage& image,
                                        const std::filesystem::path& path) {

@@ -9,9 +9,9 @@
 
 namespace osteomill {
 
-/// Fills in image, is_placed and layers. `sizes`: of all axes, plausible. `path` is for messages. Throws
-/// ImagingError for a space, units, directions or an origin that cannot be or are not read, and for other
-/// than three axes in space.
+/// Fills in image, is_placed and layers. `sizes`: the plausible sizes of all axes. `path` is for messages.
+/// Throws ImagingError for a space, units, directions or an origin that cannot be or are not read, and for
+/// other than three axes in space.
 void read_nrrd_geometry(const NrrdHeader& header, const std::vector<std::uint64_t>& sizes, ImageHeader& into,
                         const std::filesystem::path& path);
 

@@ -17,12 +17,12 @@ namespace osteomill {
 /// A header must end within so many bytes.
 inline constexpr std::size_t most_nrrd_header_bytes = 1u << 20;
 
-/// As it stands in the file.
+/// A header as it stands in the file.
 struct NrrdHeader {
     /// Field name in lower case to its text ("space" to "left-posterior-superior").
     std::map<std::string, std::string> fields;
     std::map<std::string, std::string> key_values;  ///< "key:=value", line breaks and backslashes unescaped
-    std::vector<std::string> listed_files;          ///< of "data file: LIST"
+    std::vector<std::string> listed_files;          ///< from "data file: LIST"
     std::size_t bytes = 0;                          ///< up to and with the blank line
 
     std::optional<std::string> field(const char* name) const {

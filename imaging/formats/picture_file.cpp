@@ -51,7 +51,7 @@ void note_png_error(png_structp png, png_const_charp message) {
     longjmp(png_jmpbuf(png), 1);
 }
 
-/// Nothing with a destructor lives here: libpng leaves by longjmp. False where it did.
+/// Nothing with a destructor lives here: libpng leaves by longjmp. False if it did.
 bool decode_png(png_structp png, png_infop info, std::FILE* file, PngRows& out, bool headers_only) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     if (headers_only) {
@@ -91,7 +91,7 @@ TIFF* open_tiff(const std::filesystem::path& path) {
     return file;
 }
 
-/// "key=8" in what ImageJ says of a stack, `SizeC="8"` in what OME does; NaN where it says nothing.
+/// "key=8" in what ImageJ says of a stack, `SizeC="8"` in what OME does; NaN if it says nothing.
 double stated(const std::string& description, const std::string& key) {
     std::size_t at = description.find(key);
     while (at != std::string::npos && at > 0 && std::isalnum(static_cast<unsigned char>(description[at - 1])))

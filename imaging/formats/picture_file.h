@@ -8,7 +8,7 @@
 
 #include "imaging/formats/opened_image.h"
 
-struct tiff;  // of libtiff
+struct tiff;  // libtiff's
 
 namespace osteomill {
 
@@ -17,7 +17,7 @@ struct SlicePicture {
     int height = 0;
     bool is_coloured = false;
     std::vector<float> values{};  ///< left to right, top to bottom; see picture_stack.h
-    std::string note{};           ///< what was made of them; empty where nothing was
+    std::string note{};           ///< how values were converted; empty if they were not
 };
 
 /// PNG of any form: grey stays grey, 8 or 16 bits, palettes are colours. Throws ImagingError.
@@ -29,16 +29,16 @@ class TiffPages {
     /// Throws ImagingError.
     explicit TiffPages(const std::filesystem::path& path);
 
-    /// Throws ImagingError where ImageJ or OME say that not each of them is a slice.
+    /// Throws ImagingError if ImageJ or OME say that not each of them is a slice.
     int count() const;
-    /// Grey of 8, 16 or 32 bits or floats; colours of 8 bits. Of a scan white may be 0, and the straight line
-    /// is applied by which ImageJ calibrates levels; labels are as they are stored. Throws ImagingError.
+    /// Grey of 8, 16 or 32 bits or floats; colours of 8 bits. A scan's white may be 0, and ImageJ's linear
+    /// calibration of levels is applied to it; labels are read as stored. Throws ImagingError.
     SlicePicture read(int page, ImagePurpose purpose);
 
   private:
     std::filesystem::path path_;
     std::unique_ptr<::tiff, void (*)(::tiff*)> file_;
-    std::string description_;  // of the first page
+    std::string description_;  // the first page's
 };
 
 }  // namespace osteomill

@@ -13,7 +13,7 @@ namespace osteomill {
 void sort_by_numbers(std::vector<std::filesystem::path>& files);
 
 /// One line on the first place where files, in this order, are not numbered in steps as most of them are: a
-/// slice may be missing, or one is too many. Empty where there is none, or most are not numbered at all.
+/// slice may be missing, or one is too many. Empty if there is none, or most are not numbered at all.
 std::string doubt_of_order(const std::vector<std::filesystem::path>& files);
 
 }  // namespace osteomill

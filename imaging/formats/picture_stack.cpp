@@ -24,7 +24,7 @@ namespace {
 
 struct Page {
     std::filesystem::path file;
-    int number = -1;  ///< of a TIFF; -1: a PNG
+    int number = -1;  ///< a TIFF's page; -1: a PNG
 };
 
 std::string lower_extension(const std::filesystem::path& path) {

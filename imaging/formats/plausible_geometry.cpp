@@ -16,7 +16,7 @@ namespace osteomill {
 namespace {
 /// Cosine between two axes above which an image counts as sheared; 1e-3 is 0.06 degrees.
 constexpr double perpendicular_tolerance = 1e-3;
-/// Directions are printed with six digits: what is off by more is worth a word.
+/// Directions are printed with six digits: a larger deviation deserves a note.
 constexpr double printed_cosine = 2e-4;
 
 struct AxisPair {

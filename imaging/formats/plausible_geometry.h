@@ -1,5 +1,5 @@
-// The limits that hold for the geometry of every image, of whatever format: what lies outside them was no
-// scan of a patient, and would spoil the arithmetic of what follows.
+// The limits that hold for the geometry of every image, of whatever format: an image outside them was no scan
+// of a patient, and would spoil later arithmetic.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ bool is_plausible_position(const glm::dvec3& position_mm);
 std::string implausible_spacing(const std::string& what, double spacing_mm);
 std::string implausible_position(const std::string& what);
 
-/// The number of voxels, of any number of axes. Throws std::invalid_argument where an axis has none, or it or
+/// The number of voxels, of any number of axes. Throws std::invalid_argument if an axis has none, or it or
 /// the product is above the limits.
 std::uint64_t plausible_voxel_count(std::span<const std::uint64_t> sizes);
 
@@ -45,8 +45,8 @@ std::string sheared_axes(const SourceImage& image);
 void require_plausible_geometry(const SourceImage& image);
 
 /// Makes axes that are perpendicular but for how they were rounded, or up to most_shear_degrees off, truly
-/// perpendicular: the nearest such, about the image's middle, which stays. Notes it where it can be seen.
-/// Then as require_plausible_geometry, but throws ImagingError, naming `path`.
+/// perpendicular: the nearest such, about the image's middle, which stays. Notes it if it can be seen. Then
+/// as require_plausible_geometry, but throws ImagingError, naming `path`.
 void settle_geometry(SourceImage& image, const std::filesystem::path& path);
 
 /// Notes that nothing says how the image lies in the patient, so that left and right are a guess: `taken_as`.

@@ -15,7 +15,7 @@ struct SourceImage {
     glm::dvec3 spacing_mm{1.0};
     glm::dvec3 origin_mm{0.0};
     glm::dmat3 direction{1.0};  ///< columns: unit vectors of the axes i, j, k; perpendicular, either hand
-    std::vector<std::string> notes{};  ///< what had to be assumed, one line each
+    std::vector<std::string> notes{};  ///< the assumptions made, one line each
 };
 
 /// Patient LPS, mm, from continuous voxel coordinates.

@@ -18,7 +18,7 @@ namespace osteomill {
 
 namespace {
 
-/// Fills slices and hands them on; what comes after the last one is passed over.
+/// Fills slices and hands them on; data after the last one are skipped.
 class SliceFiller {
   public:
     SliceFiller(const VoxelLayout& layout, const glm::ivec3& size_voxels, const TakeSlice& take,

@@ -47,7 +47,7 @@ std::string numbered_name(std::string_view pattern, std::int64_t number) {
         return std::invalid_argument(fmt::format(
             "the file pattern '{}': it must hold one number and no other %, such as slice%03d.raw", pattern));
     };
-    // As long as a path may be, of as many slices as there may be, would fill the memory.
+    // Names as long as a path may be would, for as many slices as there may be, fill the memory.
     constexpr std::size_t longest_name = 1024;
     if (pattern.size() > longest_name)
         throw std::invalid_argument(fmt::format("a file pattern of more than {} letters", longest_name));

@@ -1,5 +1,5 @@
-// Place of an image's voxels in its files, as its header says, and whether they are all there. Headers lie;
-// what they say is held against the files before a reader is let at them.
+// Place of an image's voxels in its files, as its header says, and whether they are all there. Headers lie,
+// so their statements are checked against the files before a reader starts.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace osteomill {
 struct VoxelPart {
     std::filesystem::path file;
     std::uint64_t begin = 0;
-    std::uint64_t bytes = 0;          ///< when decoded; of text, the least that its numbers take
+    std::uint64_t bytes = 0;          ///< when decoded; for text, the least that its numbers take
     std::uint64_t skipped_bytes = 0;  ///< decoded bytes before them
 };
 
@@ -34,7 +34,7 @@ struct VoxelData {
 std::string numbered_name(std::string_view pattern, std::int64_t number);
 
 /// The words "slice%03d.raw FIRST LAST STEP" as names. Without LAST as many as `wanted`, without STEP one by
-/// one. Throws std::invalid_argument where they are not that, name no file or more than 65535.
+/// one. Throws std::invalid_argument if they are not that, name no file or more than 65535.
 std::vector<std::string> numbered_names(const std::vector<std::string>& words, std::int64_t wanted = 0);
 
 /// The file of that name beside the header or in a folder below. Throws ImagingError, naming the header, for
@@ -42,17 +42,17 @@ std::vector<std::string> numbered_names(const std::vector<std::string>& words, s
 /// (is_there false), and for what is no regular file.
 std::filesystem::path data_file_beside(const std::filesystem::path& header, const std::string& name);
 
-/// What is read and decoded, a piece after the other, in order.
+/// Receives the bytes that are read and decoded, piece by piece, in order.
 using TakeBytes = std::function<void(std::span<const std::byte>)>;
 
-/// Reads all parts, decoded, and hands them on; of text all that the files hold, with a blank behind each.
-/// Throws ImagingError, naming the file, where one is missing, cut off or damaged (checksums of gzip and zlib
-/// included), or where compressed voxels are followed by more.
+/// Reads all parts, decoded, and hands them on; for text, all that the files hold, with a blank behind each
+/// file. Throws ImagingError, naming the file, if one is missing, cut off or damaged (checksums of gzip
+/// and zlib included), or if compressed voxels are followed by more.
 void read_voxel_data(const VoxelData& data, const TakeBytes& take);
 
-/// Looks at the files' sizes alone: throws ImagingError where one is missing, too short for its voxels, or
+/// Looks at the files' sizes alone: throws ImagingError if one is missing, too short for its voxels, or
 /// too short to be their compressed form. Says by how many bytes the last part's file is longer than it need
-/// be (0 where they are encoded). A raw part of several must have its size exactly.
+/// be (0 if they are encoded). A raw part of several must have its size exactly.
 std::uint64_t require_room(const VoxelData& data);
 
 }  // namespace osteomill

@@ -16,7 +16,7 @@ struct SlicePixels {
     std::span<const float> hu{};
 };
 
-/// Fills `depth_mm`, as long as the slice. Where the contour is further than `reach_mm`: that, with its sign.
+/// Fills `depth_mm`, as long as the slice. A depth beyond `reach_mm` becomes `reach_mm` with its sign.
 void contour_depth_mm(const SlicePixels& slice, double threshold_hu, double reach_mm,
                       std::span<float> depth_mm);
 

@@ -16,9 +16,10 @@ constexpr double fwhm_per_sigma = 2.3548200450309493;
 /// A result coarser by less than this is not worth smoothing.
 constexpr double coarser_tolerance = 1.01;
 
-/// Of the cubic spline's filter, sqrt(3) - 2: what a value adds to coefficients fades by this a voxel.
+/// The pole of the cubic spline's filter, sqrt(3) - 2: a value's part in the coefficients fades by this
+/// factor a voxel.
 const double pole = std::sqrt(3.0) - 2.0;
-/// The first coefficient is a sum over the line; what fades below this share is left out.
+/// The first coefficient is a sum over the line; terms that have faded below this share are left out.
 constexpr double tolerance = 1e-10;
 
 /// Unser 1999, box 2.

@@ -33,7 +33,7 @@ void for_each_neighbour(std::size_t place, const glm::ivec3& size, const Take& t
     }
 }
 
-/// The mean of the neighbours that are numbers; not a number where there are none.
+/// The mean of the neighbours that are numbers; not a number if there are none.
 float mean_around(std::size_t place, const glm::ivec3& size, std::span<const float> values) {
     float sum = 0.0F;
     float count = 0.0F;

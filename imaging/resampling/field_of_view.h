@@ -15,8 +15,8 @@ namespace osteomill {
 /// that is not there. So the values around go on into it, and what was made of it is air in the end.
 class FieldOfView {
   public:
-    /// `values` are the part's; those that are not numbers are padding. Where the field goes on they become
-    /// the mean of their neighbours, layer by layer, as deep as a spline feels; farther they become air.
+    /// `values` are the part's; those that are not numbers are padding. Next to the field they become the
+    /// mean of their neighbours, layer by layer, as deep as a spline reaches; farther away they become air.
     /// `room`: a bit for each value, all 0, which must outlive it. `pause`: see filter_lines.
     FieldOfView(
         const SourceImage& part, std::span<float> values, std::span<std::byte> room,

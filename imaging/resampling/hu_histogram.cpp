@@ -15,16 +15,16 @@ constexpr int highest_bin_hu = 8191;
 constexpr int highest_of_a_byte = 255;
 /// A segmentation of a head has a dozen labels; a scan has hundreds of values.
 constexpr int most_labels = 32;
-/// Noise takes air that is stored as 0 below it, or is cut off there: at -5 where the scanner has cut it off
-/// at -1024 and the offset is that, at -24 where the offset is 1000.
+/// Noise takes air that is stored as 0 below it, or is cut off there: at -5 if the scanner has cut it off at
+/// -1024 and the offset is that, at -24 if the offset is 1000.
 constexpr int lowest_of_stored_air = -100;
 constexpr int lowest_of_air_cut_off = -5;
 constexpr int highest_of_stored_air = 100;
 /// Brain and muscle lie near 0, too: at 25 to 60 HU.
 constexpr int most_of_median_of_air = 15;
-/// What lies outside a scanner's round field of view often has one value of its own, far below all others.
+/// The area outside a scanner's round field of view often has one value of its own, far below all others.
 constexpr int least_gap_above_padding = 64;
-/// Air has noise around -1000; what is measured lies above this.
+/// Air has noise around -1000; tissue lies above this.
 constexpr float lowest_air_hu = -1100.0F;
 /// A constant near -1000 in more of a scan is its air, not what lies outside of a round field of view.
 constexpr double most_padding_like_air = 0.25;
@@ -131,7 +131,7 @@ std::string HuHistogram::doubt() const {
         below += count;
         return 2 * below >= near_zero;
     });
-    // Where air was not cut off, its middle is 0; where it was, much of it is at the lowest value.
+    // If air was not cut off, its middle is 0; if it was, much of it is at the lowest value.
     const auto cut_off =
         std::accumulate(begin, begin + (highest_of_cut_off_air + 1 - lowest_of_stored_air), std::uint64_t{0});
     const bool is_cut_off =

@@ -18,23 +18,23 @@ class HuHistogram {
   public:
     HuHistogram();
 
-    /// Values beyond -4096 to 8191 count as these. What is not a number does not count.
+    /// Values beyond -4096 to 8191 count as these. Values that are not a number do not count.
     void add(std::span<const float> values);
     void add(std::span<const std::int16_t> values);
 
-    /// The highest value so far, rounded; the lowest that counts where there is none.
+    /// The highest value so far, rounded; the lowest that counts if there is none.
     int highest_hu() const;
 
-    /// The constant that a field of view was filled with around it: the lowest value, where it lies below all
+    /// The constant that a field of view was filled with around it: the lowest value, if it lies below all
     /// air and far below all other values.
     std::optional<float> fill_hu() const;
 
     /// One line for people on what the values seem to be instead, and which option would make HU of them;
-    /// empty where they may be HU, or all are the same.
+    /// empty if they may be HU, or all are the same.
     std::string doubt() const;
 
   private:
-    /// The lowest HU above the lowest that counts; the latter where there is none.
+    /// The lowest HU above the lowest that counts; the latter if there is none.
     int second_lowest_hu() const;
 
     std::vector<std::uint64_t> count_of_hu_;

@@ -1,5 +1,5 @@
-// Part of an image that a region needs, with its axes turned to patient LPS where that only means swapping
-// and reversing them.
+// Part of an image that a region needs, with its axes turned to patient LPS if that only means swapping and
+// reversing them.
 #pragma once
 
 #include <span>
@@ -24,8 +24,8 @@ std::uint64_t voxel_count(const ImageBox& box);
 /// Whether every axis of the image runs along one of patient LPS, to or fro.
 bool is_axis_aligned(const SourceImage& image);
 
-/// The part that a box becomes. Where the image is axis-aligned the part's direction is the
-/// identity: its voxels run left, posterior, superior.
+/// The part that a box becomes. If the image is axis-aligned, the part's direction is the identity: its
+/// voxels run left, posterior, superior.
 SourceImage part_of(const SourceImage& image, const ImageBox& box);
 
 /// Puts what slice k of the image has within the box into the part's values, which is where it belongs in the

@@ -1,4 +1,4 @@
-// From the numbers of a file to HU, where the file itself does not say.
+// From the numbers of a file to HU, if the file itself does not say.
 #pragma once
 
 #include <cstddef>

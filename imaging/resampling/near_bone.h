@@ -10,19 +10,20 @@
 
 namespace osteomill {
 
-/// HU within this many voxels of bone stay as they are: what the surface's gradient and cover are made from.
+/// HU within this many voxels of bone stay as they are, because the surface's gradient and coverage are
+/// computed from them.
 inline constexpr int kept_voxels_around_bone = 2;
 
 class NearBone {
   public:
-    /// Remembers the `held_slices` slices that were looked at last, and no more.
+    /// Remembers the `held_slices` slices that were added last, and no more.
     NearBone(const Grid& grid, double threshold_hu, int held_slices);
 
-    /// Takes note of slice z's bone. Different slices may be looked at from different threads at once.
+    /// Adds the bone of slice z. Different slices may be added from different threads at once.
     void look_at(int z, std::span<const std::int16_t> hu);
     /// Sets every voxel of slice z that is further than kept_voxels_around_bone (along any axis) from one
-    /// that reaches the threshold to air, -1000 HU. All slices within that of z must have been looked at, and
-    /// be remembered. Different slices may be cleared at once.
+    /// that reaches the threshold to air, -1000 HU. All slices within that of z must have been added, and be
+    /// remembered. Different slices may be cleared at once.
     void clear_far(int z, std::span<std::int16_t> hu) const;
     /// Voxels that reach the threshold, so far.
     std::uint64_t bone_voxels() const { return bone_voxels_; }
@@ -33,7 +34,7 @@ class NearBone {
 
     Grid grid_;
     double threshold_hu_;
-    std::vector<Mask> masks_;  // of the bone of a slice, widened within it
+    std::vector<Mask> masks_;  // each slice's bone, widened within the slice
     std::atomic<std::uint64_t> bone_voxels_{0};
 };
 

@@ -53,7 +53,8 @@ void blend_rows(const SplineTaps& taps, const float* rows, std::size_t length, s
                  taps.weight[3] * row[3][i];
 }
 
-/// Of the grid's voxels along an axis, in continuous voxel coordinates of a part whose axes are the grid's.
+/// The places of the grid's voxels along an axis, in continuous voxel coordinates of a part whose axes are
+/// the grid's.
 std::vector<double> places_along(const SourceImage& part, const Grid& grid, int axis) {
     std::vector<double> places;
     for (int i = 0; i < grid.size_voxels[axis]; ++i) {
@@ -93,7 +94,7 @@ class SplineField {
         return sum;
     }
 
-    /// Of HU that were blended in place and those of the same depth in the slices around, as much as counts.
+    /// The weighted mean of the HU blended in place and the HU of the same depth in the slices around.
     float following(const SliceShapes& shapes, const glm::dvec3& voxel, float in_place) const {
         const auto from = shapes.places(voxel);
         if (!from) return in_place;
@@ -132,8 +133,8 @@ class AlignedSampler : public Refiner::Sampler {
         const std::size_t slice_length = row_length * static_cast<std::size_t>(field_.part.size_voxels.y);
         std::vector<float> plane(slice_length);
         std::vector<float> row(row_length);
-        // Cells of the scan in which something moves: of the row that is at work, since its cells are many
-        // of the grid's rows thick.
+        // Whether the contour moves in each cell of the scan's current row; kept, because a cell is many of
+        // the grid's rows thick.
         std::vector<char> moves(row_length + 1, 0);
         int known_row = std::numeric_limits<int>::min();
         glm::dvec3 at(0.0, 0.0, places_[2][static_cast<std::size_t>(z)]);

@@ -19,9 +19,9 @@ inline constexpr int refine_margin_voxels = 8;
 /// Samples a part of a scan (as image_part.h leaves it) at the centres of the grid's voxels by its cubic
 /// B-spline, smoothed first along axes where the grid is coarser. Results are clamped to the range of the
 /// part's own values: a spline overshoots beside steep edges, and HU that no voxel had would be bone that is
-/// not there. Outside the part (corners of a turned scan) there is air. Rounded to whole HU. Where slices are
-/// far apart and bone's contour moves between them, HU come from where the slices have the same depth in
-/// bone.
+/// not there. Outside the part (corners of a turned scan) there is air. Rounded to whole HU. If slices are
+/// far apart and bone's contour moves between them, HU come from the places at which the slices have the same
+/// depth in bone.
 class Refiner {
   public:
     /// Turns `values`, the part's, into the spline's coefficients, on all cores; they must outlive it.

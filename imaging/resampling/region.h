@@ -1,4 +1,4 @@
-// Boxes in the patient: what an image covers, and which part of it becomes bone.
+// Boxes in the patient: the space that an image covers, and the part of it that becomes bone.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -24,14 +24,14 @@ Region extent_of(const SourceImage& image);
 /// the second three greater than its partner.
 Region parse_region(const std::string& text);
 
-/// The common part. Throws std::invalid_argument, naming both boxes, where there is none.
+/// The common part. Throws std::invalid_argument, naming both boxes, if there is none.
 Region clip(const Region& region, const Region& extent);
 
 /// "x0,y0,z0,x1,y1,z1" with a tenth of a mm, which parse_region reads.
 std::string to_text(const Region& region);
 
 /// The grid of cubes whose first centre is the region's low corner and whose last lie within it. Throws
-/// std::invalid_argument where an axis would have more than 65536 voxels.
+/// std::invalid_argument if an axis would have more than 65536 voxels.
 Grid grid_over(const Region& region, double spacing_mm);
 
 }  // namespace osteomill

@@ -38,7 +38,7 @@ ScratchValues::ScratchValues(std::uint64_t count, std::uint64_t most_memory_byte
     }
     mapped_bytes_ = static_cast<std::size_t>(count) * sizeof(float);
     const int file = unnamed_file(folder);
-    // Room is taken at once: a disk that fills up later would end the program without a word.
+    // Space is reserved at once: a disk that fills up later would end the program silently.
     const int failed = file < 0 ? errno : ::posix_fallocate(file, 0, static_cast<off_t>(mapped_bytes_));
     if (failed == 0) mapped_ = ::mmap(nullptr, mapped_bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     if (file >= 0) ::close(file);
@@ -58,7 +58,7 @@ ScratchValues::~ScratchValues() {
 }
 
 void ScratchValues::let_go() const {
-    // Of a shared mapping nothing is lost: what was written is the file's.
+    // A shared mapping loses nothing: the file keeps what was written.
     if (mapped_ != nullptr) ::madvise(mapped_, mapped_bytes_, MADV_DONTNEED);
 }
 

@@ -22,8 +22,8 @@ constexpr double far_apart_pixels = 1.5;
 /// the thickness of the slices has blurred by then.
 constexpr double reach_slices = 12.0;
 
-/// By how much a contour's way grows from slice to slice where its surface closes like a cap. Of a
-/// paraboloid: 1.4 to 2.4, as its top lies just below the next slice or just above the last.
+/// The factor by which a contour's way grows from slice to slice if its surface closes like a cap. For a
+/// paraboloid it is 1.4 to 2.4: its top lies just below the next slice or just above the last.
 constexpr double growth_of_last_way = 1.6;
 
 double rise(double from, double to, double at) {
@@ -55,7 +55,7 @@ std::size_t step_along(const SourceImage& part, int axis) {
     return step;
 }
 
-/// Weights of a cubic B-spline and of its slope: what smooths a distance whose contour is made of short
+/// Weights of a cubic B-spline and of its slope, which smooth a distance whose contour is made of short
 /// straight pieces.
 struct SmoothWeights {
     double value[4];
@@ -148,8 +148,8 @@ void SliceShapes::compare_slices(const std::function<void()>& pause) {
     });
 }
 
-/// 1 where both contours face the same way and what lies between them is bone in one slice and none in the
-/// other, as it is where one surface moves; else 0, with a slope between.
+/// 1 if both contours face the same way and what lies between them is bone in one slice and none in the
+/// other, as it is if one surface moves; else 0, with a slope between.
 float SliceShapes::trust_between(std::span<const float> lower_mm, std::span<const float> upper_mm, int column,
                                  int row) const {
     const auto at = [&](std::span<const float> depth_mm, int x, int y) {
@@ -185,7 +185,7 @@ float SliceShapes::trust_between(std::span<const float> lower_mm, std::span<cons
     return static_cast<float>(in_reach * agree * rise(0.4, 0.7, part));
 }
 
-/// What moves by less than an edge's blur needs nothing.
+/// 0 to 1: a contour that moves by less than an edge's blur needs no correction.
 double SliceShapes::moved_enough(double way_mm) const {
     return rise(0.5 * pixel_mm_, 1.5 * pixel_mm_, std::abs(way_mm));
 }
@@ -252,7 +252,7 @@ SliceShapes::Continued SliceShapes::continued(const glm::dvec3& at, int last, in
     const double last_mm = between_pixels(depth_mm_, at, last);
     const double way_mm = last_mm - between_pixels(depth_mm_, at, before);
     if (trust <= 0.0 || way_mm * beyond_mm <= 0.0) return {};
-    const double swept = -last_mm / way_mm;  // of the way on, when the contour comes by here
+    const double swept = -last_mm / way_mm;  // share of the way on, when the contour comes by here
     return {.mm = last_mm + growth_of_last_way * way_mm,
             .weight = trust * moved_enough(way_mm) *
                       near_surface(last_mm, last_mm + growth_of_last_way * way_mm) *
@@ -329,8 +329,8 @@ std::optional<PlacesInSlices> SliceShapes::places(const glm::dvec3& at) const {
         .upper = place(upper, below + 1)};
 }
 
-/// A cubic from slice to slice, so that the surface has no edge at a slice; its ends go straight where the
-/// slice beyond shows another surface. Neither end is so steep that the cubic would turn back.
+/// A cubic from slice to slice, so that the surface has no edge at a slice; its ends go straight if the slice
+/// beyond shows another surface. Neither end is so steep that the cubic would turn back.
 double SliceShapes::depth_between(const glm::dvec3& at, int below, double lower_mm, double upper_mm) const {
     const double way_mm = upper_mm - lower_mm;
     // `inner_mm`: the depth on the other side of the interval.

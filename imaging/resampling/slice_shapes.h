@@ -3,7 +3,7 @@
 // is blurred, and HU blended between the two would make a stair of each slice. So between slices the depth in
 // bone is blended instead, and HU are taken from where the slices have that depth. S. P. Raya and J. K.
 // Udupa, "Shape-based interpolation of multidimensional objects", IEEE Transactions on Medical Imaging 9(1),
-// 1990; of grey values: G. J. Grevera and J. K. Udupa, the same 15(6), 1996.
+// 1990; for grey values, G. J. Grevera and J. K. Udupa, the same 15(6), 1996.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,17 @@
 
 namespace osteomill {
 
-/// The axis of a scan along which its slices are far apart: 1.5 pixels or more. Where there is none, or two,
-/// nothing is to be gained.
+/// The axis of a scan along which its slices are far apart: 1.5 pixels or more. Nothing if there is none, or
+/// two: then the method gains nothing.
 std::optional<int> axis_of_far_slices(const glm::dvec3& spacing_mm);
 
-/// How far within a slice a contour is looked for.
+/// How far within a slice a contour is searched.
 double contour_reach_mm(const glm::dvec3& spacing_mm, int axis);
 
-/// Where to take the HU of a place between two slices from.
+/// The places in two slices that give the HU of a place between them.
 struct PlacesInSlices {
     double weight = 0.0;       ///< how much they count against HU blended in place: 0 to 1
-    double upper_share = 0.0;  ///< of the place in the upper slice; the lower one has the rest
+    double upper_share = 0.0;  ///< share of the place in the upper slice; the lower one has the rest
     glm::dvec3 lower{0.0};     ///< continuous voxel coordinates in the scan
     glm::dvec3 upper{0.0};
 };
@@ -37,13 +37,13 @@ class SliceShapes {
     static constexpr std::size_t floats_per_voxel = 2;
 
     /// Looks at every slice along `axis`, on all cores. `values` are the part's HU, finite; `room`, which
-    /// must outlive it, takes floats_per_voxel for each. `result_spacing_mm`: of the voxels that places are
-    /// asked for. `pause`: see filter_lines.
+    /// must outlive it, takes floats_per_voxel for each. `result_spacing_mm`: the spacing of the voxels for
+    /// which places are requested. `pause`: see filter_lines.
     SliceShapes(
         const SourceImage& part, std::span<const float> values, int axis, double threshold_hu,
         double result_spacing_mm, std::span<float> room, const std::function<void()>& pause = [] {});
 
-    /// `at`: continuous voxel coordinates in the scan. std::nullopt where HU blended in place are right: in a
+    /// `at`: continuous voxel coordinates in the scan. std::nullopt if HU blended in place are right: in a
     /// slice, far from the contour, where it hardly moves, and where the slices' contours are not of one
     /// surface (bone in one slice only, a plate thinner than the way it moves).
     std::optional<PlacesInSlices> places(const glm::dvec3& at) const;
@@ -77,7 +77,7 @@ class SliceShapes {
     int columns_, rows_, slices_;
     double column_mm_, row_mm_, slice_mm_, pixel_mm_, reach_mm_, result_mm_;
     std::size_t column_step_, row_step_, slice_step_;  // from a voxel's place in memory to its neighbour's
-    std::span<float> depth_mm_;                        // of each voxel, within its slice
+    std::span<float> depth_mm_;                        // each voxel's depth within its slice
     std::span<float> trust_;  // that the contour near a voxel and the one in the next slice are one surface's
 };
 

@@ -16,7 +16,7 @@ namespace osteomill {
 inline constexpr double threshold_of_labels_hu = 300.0;
 
 /// 1600 HU in every voxel of a segment for which `is_bone`, -1000 elsewhere. All maps have the geometry of
-/// the first; throws ImagingError, naming both files, where one has not, and where no segment is bone.
+/// the first; throws ImagingError, naming both files, if one has not, and if no segment is bone.
 OpenedImage bone_of_labels(const std::vector<std::shared_ptr<const Segmentation>>& maps,
                            const std::function<bool(const Segment&)>& is_bone);
 

@@ -74,7 +74,7 @@ std::optional<LabelLine> ctbl_line(const std::string& line) {
     return line_of(words[0], name, {colour[0], colour[1], colour[2]});
 }
 
-/// Where the columns of a table in CSV stand, of which 3D Slicer's has these.
+/// The columns of a table in CSV. The defaults are those of 3D Slicer's tables.
 struct CsvColumns {
     char separator = ',';
     std::array<std::size_t, 5> at{};
@@ -103,7 +103,7 @@ struct CsvColumns {
 
 ColourTable read_colour_table(const std::filesystem::path& path) {
     std::string text = read_text(path, {"a colour table", most_table_bytes});
-    // As old programs of the Macintosh end lines.
+    // Old programs of the Macintosh end lines so.
     if (text.find('\n') == std::string::npos) std::ranges::replace(text, '\r', '\n');
     std::istringstream in(std::move(text));
     ColourTable table;

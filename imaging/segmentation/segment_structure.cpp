@@ -37,7 +37,7 @@ std::optional<ImageBox> bounds_of(const Segmentation& segmentation, const Segmen
     return box;
 }
 
-/// What of the bone's grid the box may reach, a voxel of the scan around it, in whole bricks.
+/// The part of the bone's grid that the box may reach, with a margin of a voxel of the scan, in whole bricks.
 std::optional<VoxelBounds> bricks_over(const SourceImage& image, const ImageBox& box, const Grid& grid) {
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high = -low;
@@ -55,7 +55,7 @@ std::optional<VoxelBounds> bricks_over(const SourceImage& image, const ImageBox&
     return VoxelBounds{glm::ivec3(low) / brick_edge_voxels, glm::ivec3(high) / brick_edge_voxels};
 }
 
-/// Where the segmentation's voxel (0, 0, 0) lies in the grid, if its voxels are the grid's.
+/// The grid's voxel at the segmentation's voxel (0, 0, 0), if the segmentation's voxels are the grid's.
 std::optional<glm::ivec3> place_on_lattice(const SourceImage& image, const Grid& grid) {
     constexpr double of_a_voxel = 1e-3;
     const glm::dvec3 first = to_voxel_coordinates(grid, image.origin_mm);
@@ -81,7 +81,7 @@ StructureMask on_lattice(const Segmentation& segmentation, const Segment& segmen
                          const Grid& grid) {
     const glm::ivec3 size = size_in_bricks(grid);
     std::map<BrickIndex, VoxelMask> found;
-    std::vector<VoxelMask*> masks(static_cast<std::size_t>(size.x));  // of a row of bricks, where known
+    std::vector<VoxelMask*> masks(static_cast<std::size_t>(size.x));  // a row of bricks, if known
     glm::ivec2 row_of_masks(-1);
     segmentation.labels.for_each_run(segment.layer, segment.label, [&](int first, int end, int j, int k) {
         const glm::ivec2 row(j + place.y, k + place.z);
@@ -108,7 +108,7 @@ StructureMask on_lattice(const Segmentation& segmentation, const Segment& segmen
     return {grid, std::move(bricks)};
 }
 
-/// Of the segment's voxels those whose centre lies in the grid: as many voxels of the grid.
+/// The segment's voxels whose centre lies in the grid, counted in voxels of the grid.
 double voxels_within(const Segmentation& segmentation, const Segment& segment, const Grid& grid) {
     const SourceImage& image = segmentation.image;
     const glm::dvec3 end = glm::dvec3(grid.size_voxels) - 0.5;
@@ -129,7 +129,7 @@ double voxels_within(const Segmentation& segmentation, const Segment& segment, c
 /// round and thin too small, a rod of four voxels by 2 %. Never above: two segments side by side would leave
 /// a gap.
 std::int16_t level_of(const Refiner& refiner, const Grid& grid, double wanted_voxels) {
-    std::vector<std::uint64_t> with_value(half + 1);  // what is larger counts as a half
+    std::vector<std::uint64_t> with_value(half + 1);  // larger values count as a half
     std::mutex mutex;
     in_parallel(grid.size_voxels.z, [&](int z) {
         std::vector<std::int16_t> refined(static_cast<std::size_t>(grid.size_voxels.x) *

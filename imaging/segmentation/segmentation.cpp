@@ -60,7 +60,7 @@ std::vector<Segment> named_segments(const std::filesystem::path& path, const Ope
     std::vector<Segment> segments;
     std::map<int, int> segments_of_layer;
     for (int i = 0; i < most_segments; ++i) {
-        // Numbers may have gaps, where a program took one out.
+        // Numbers may have gaps, if a program took one out.
         const bool is_there = value(i, "Name") || value(i, "ID");
         if (!is_there) continue;
         std::string name = value(i, "Name").value_or("");
@@ -113,7 +113,7 @@ LabelRows read_labels(const std::filesystem::path& path, const OpenedImage& open
     return rows;
 }
 
-/// One line on labels that no segment has; empty where each has one.
+/// One line on labels that no segment has; empty if each has one.
 std::string labels_left_out(const Segmentation& segmentation) {
     int left_out = 0;
     for (int layer = 0; layer < segmentation.labels.layers(); ++layer)
@@ -126,7 +126,7 @@ std::string labels_left_out(const Segmentation& segmentation) {
                        left_out);
 }
 
-/// Of a label map without names.
+/// The segments of a label map without names.
 std::vector<Segment> numbered_segments(const LabelRows& labels) {
     std::vector<Segment> segments;
     for (const std::uint16_t label : labels.labels_in(0))
@@ -151,7 +151,7 @@ void require_distinct_names(const Segmentation& segmentation) {
                                fmt::format("has two segments called \"{}\"", segment.name));
 }
 
-/// Of coloured pictures: numbers in place of colours, in the order in which they come.
+/// Coloured pictures with numbers in place of colours, in the order in which the colours come.
 OpenedImage numbered(const OpenedImage& coloured, const std::filesystem::path& path,
                      std::map<std::uint32_t, std::uint16_t>& label_of_colour) {
     OpenedImage labels = coloured;
@@ -205,7 +205,7 @@ Segmentation read_segmentation(const std::filesystem::path& path,
     if (segmentation.is_plain_map)
         segmentation.segments =
             found.is_coloured ? coloured_segments(label_of_colour) : numbered_segments(segmentation.labels);
-    // As TotalSegmentator writes them, a file a structure.
+    // TotalSegmentator writes a file for each structure.
     if (segmentation.is_plain_map && !found.is_coloured && segmentation.segments.size() == 1)
         segmentation.segments.front().name = name_without_ending(path);
     require_plain_names(segmentation);

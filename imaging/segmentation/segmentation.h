@@ -1,7 +1,7 @@
 // A segmentation: which voxels of a scan belong to which structures, as 3D Slicer writes it (.seg.nrrd or
 // DICOM SEG, with names and overlapping layers) or as a plain label map of any format, whose segments bear
-// their number as name; where there is but one, the file's. Of coloured pictures every colour but black is a
-// segment, which bears it as its name ("#ff0000").
+// their number as name; if there is only one, the file's name. In coloured pictures every colour but black is
+// a segment, named by its colour ("#ff0000").
 #pragma once
 
 #include <array>
@@ -46,8 +46,8 @@ Segmentation read_segmentation(const std::filesystem::path& path,
 /// later has its number behind it. Throws ImagingError for a segmentation that names its segments itself.
 void name_segments(Segmentation& segmentation, const ColourTable& table);
 
-/// By name, blanks and underscores being alike; of a plain label map also by number. Throws ImagingError,
-/// with the nearest name, where there is none.
+/// The segment of that name, blanks and underscores being alike; in a plain label map also of that number.
+/// Throws ImagingError, with the nearest name, if there is none.
 const Segment& segment_named(const Segmentation& segmentation, const std::string& name);
 
 }  // namespace osteomill

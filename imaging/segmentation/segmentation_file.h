@@ -18,9 +18,9 @@ struct NamedStructure {
     StructureMask mask{};  ///< not empty
 };
 
-/// Writes the box that holds them all, on the masks' grid, which is the same for all; what overlaps goes into
-/// layers of its own. Throws ImagingError in one line where the file cannot be written; std::invalid_argument
-/// for no structure, an empty one, or over 255.
+/// Writes the box that holds them all, on the masks' grid, which is the same for all; structures that overlap
+/// go into separate layers. Throws ImagingError in one line if the file cannot be written;
+/// std::invalid_argument for no structure, an empty one, or over 255.
 void write_segmentation(const std::filesystem::path& path, const std::vector<NamedStructure>& structures);
 
 }  // namespace osteomill

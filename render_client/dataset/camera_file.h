@@ -38,13 +38,13 @@ struct DatasetCamera {
     std::vector<double> times_s{};  ///< ascending
     std::vector<Pose> poses{};      ///< at those; one where it stands still, none: the first view
     double aside_mm = 0.0;          ///< how far to the right of that pose: one of a pair
-    double aside_slope = 0.0;       ///< what of that comes to the middle of the picture: mm a mm forward
+    double aside_slope = 0.0;       ///< the shift of the picture's middle by that: mm a mm forward
     bool follows_trainee = false;   ///< in place of those poses
     bool has_trainees_angle = false;
 
     /// `trainee`: from where they look then, if that is recorded.
     Pose pose_at(double time_s, const Pose& first_view, const std::optional<Viewpoint>& trainee = {}) const;
-    /// What `pinhole` is then.
+    /// The value of `pinhole` for that viewpoint.
     Pinhole pinhole_at(const std::optional<Viewpoint>& trainee) const;
 };
 
@@ -58,7 +58,7 @@ std::vector<DatasetCamera> read_cameras(const std::filesystem::path& file);
 std::vector<DatasetCamera> parse_cameras(std::string_view text, const std::string& name,
                                          const std::filesystem::path& folder);
 
-/// Throws std::runtime_error, in one line, where one follows a trainee and the recording has no such view.
+/// Throws std::runtime_error, in one line, if one follows a trainee and the recording has no such view.
 /// `has_view` says whether it has; called only if one does, since that may take a reading of the recording.
 void require_view(std::span<const DatasetCamera> cameras, const std::function<bool()>& has_view,
                   const std::filesystem::path& recording);

@@ -39,7 +39,7 @@ struct DatasetPart {
 struct DatasetContents {
     std::vector<DatasetCamera> cameras = default_cameras();
     double from_s = 0.0;                   ///< recorded time from which on there are frames
-    std::optional<double> frames_per_s{};  ///< of recorded time; absent: every recorded state
+    std::optional<double> frames_per_s{};  ///< in recorded time; absent: every recorded state
     DatasetImages images{};
     DatasetPart part{};
     std::optional<std::uint64_t> randomise{};  ///< seed of domain randomisation; absent: as in the window

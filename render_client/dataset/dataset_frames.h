@@ -1,4 +1,4 @@
-// The frames of an image set, one after the other, in memory: what DatasetRun writes and Python is given.
+// The frames of an image set, one after the other, in memory. DatasetRun writes them, and Python gets them.
 //
 // Nothing depends on the time that it takes: the same recording and contents give the same bits on one
 // machine.
@@ -19,10 +19,10 @@
 namespace osteomill {
 
 struct DatasetFrame {
-    std::size_t number = 0;  ///< of all parts, from 0
+    std::size_t number = 0;  ///< counted over all parts, from 0
     std::size_t session = 0;
     std::vector<CameraImages> images{};  ///< a camera each
-    std::vector<RandomLook> looks{};     ///< likewise; none without domain randomisation
+    std::vector<RandomLook> looks{};     ///< a camera each; none without domain randomisation
 };
 
 class DatasetFrames {

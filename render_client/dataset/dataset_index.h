@@ -1,5 +1,5 @@
-// The index of an image set, dataset.json: what lies where, in which units and conventions, and for each
-// frame everything that is known of its instant.
+// The index of an image set, dataset.json: its files, their units and conventions, and for each frame all
+// facts of its instant.
 #pragma once
 
 #include <filesystem>
@@ -12,20 +12,21 @@
 
 namespace osteomill {
 
-// What the index says of a camera, of the session that a playhead is in, of a frame and of one of its
+// The index's entries for a camera, for the session that a playhead is in, for a frame and for one of its
 // cameras; units and conventions are the index's.
 
-/// Name, size and intrinsics; null for these where they change from frame to frame.
+/// Name, size and intrinsics; null for these if they change from frame to frame.
 nlohmann::ordered_json json_of(const DatasetCamera& camera);
 nlohmann::ordered_json session_json(const Playhead& playhead);
 /// All but its images: time, tool, hand, force, removed volume. The playhead has a tool.
 nlohmann::ordered_json instant_json(const DatasetFrame& frame, const Playhead& playhead);
-/// Of camera number `camera`: name, pose, intrinsics if those are the frame's, and the look by lot.
+/// The entry of camera number `camera`: name, pose, intrinsics if those are the frame's, and the random
+/// appearance.
 nlohmann::ordered_json view_json(const DatasetFrame& frame, std::size_t camera, const DatasetCamera& its);
 
 class DatasetIndex {
   public:
-    /// In `folder`; of a recording's name, by the program of that version.
+    /// Begins the index in `folder` of the recording of that name, written by the program of that version.
     DatasetIndex(const std::filesystem::path& folder, const std::string& recording,
                  const std::string& version, const DatasetContents& contents);
 
@@ -34,7 +35,7 @@ class DatasetIndex {
     /// `images`: for each camera view_json and files.
     void add_frame(const DatasetFrame& frame, const Playhead& playhead, nlohmann::ordered_json images);
 
-    /// dataset.json or, of a part, dataset-2-of-8.json. Throws std::runtime_error naming the file where it
+    /// dataset.json or, of a part, dataset-2-of-8.json. Throws std::runtime_error naming the file if it
     /// cannot be written.
     void write() const;
 

@@ -67,7 +67,7 @@ RenderReport run_dataset(const RenderOptions& options, const std::string& versio
             report.frame_times.add(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
         }
     } catch (const RecordingError&) {
-        if (frames.count() > 0) index.write();  // of what could be read
+        if (frames.count() > 0) index.write();  // with the frames that could be read
         throw;
     }
     if (frames.count() == 0)

@@ -12,9 +12,9 @@
 
 namespace osteomill {
 
-/// Of options.replay as options.dataset says; `version` of the program goes into the index. What is there
-/// already under the same names is replaced. Ends early, with the index of what was written, when
-/// `stop_requested` says so. Throws std::runtime_error, in one line, for what cannot be read, drawn or
+/// Draws the dataset of options.replay as options.dataset says; the index gets the program's `version`. Files
+/// that are there already under the same names are replaced. Ends early, with the index of what was written,
+/// when `stop_requested` says so. Throws std::runtime_error, in one line, for what cannot be read, drawn or
 /// written, SceneError for the cameras, and gl::NoOpenGl.
 RenderReport run_dataset(const RenderOptions& options, const std::string& version,
                          const std::function<bool()>& stop_requested);

@@ -14,7 +14,7 @@
 namespace osteomill {
 
 /// float32 of shape (height, width). Replaces the file as a whole. Throws std::runtime_error naming the file
-/// where it cannot be written, or std::invalid_argument where there are not as many values as pixels.
+/// if it cannot be written, or std::invalid_argument if there are not as many values as pixels.
 void write_npy(const glm::ivec2& size_px, std::span<const float> values, const std::filesystem::path& file);
 /// The three numbers of each as float16, one after the other.
 std::vector<std::uint16_t> halves_of(std::span<const glm::vec3> values);

@@ -14,7 +14,7 @@ Pinhole pinhole_of(const glm::ivec2& size_px, double vertical_field_of_view_rad)
 
 Pose pose_of(const glm::dvec3& position_mm, const glm::dmat3& axes) {
     glm::dquat rotation = glm::normalize(glm::quat_cast(axes));
-    // Of the two quaternions of a rotation the one with w above 0.
+    // A rotation has two quaternions; this chooses the one with w above 0.
     if (rotation.w < 0.0) rotation = -rotation;
     return {position_mm, rotation};
 }

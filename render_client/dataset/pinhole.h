@@ -26,7 +26,7 @@ struct Pinhole {
 /// Square pixels, the optical axis through the picture's middle.
 Pinhole pinhole_of(const glm::ivec2& size_px, double vertical_field_of_view_rad);
 
-/// Of a thing's own axes in patient LPS. Of a camera they are right, down, forward.
+/// The pose of a thing's own axes in patient LPS. A camera's axes are right, down, forward.
 struct Pose {
     glm::dvec3 position_mm{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit; w, x, y, z
@@ -39,14 +39,14 @@ Pose pose_of(const glm::dvec3& position_mm, const glm::dmat3& axes);
 Pose looking_at(const glm::dvec3& eye_mm, const glm::dvec3& target_mm, const glm::dvec3& up);
 Pose pose_of(const Camera& camera);
 
-/// From where it looks; of a pair of eyes the middle.
+/// The camera's viewpoint; for a pair of eyes, the point between them.
 Viewpoint viewpoint_of(const Camera& camera);
 
 /// Moves a camera to where it has that pose and sees as a pinhole does; near and far planes, and its distance
 /// from what it turns about, stay.
 void look_through(Camera& camera, const Pinhole& pinhole, const Pose& pose);
 
-/// As it is drawn, with near and far planes that hold a ball.
+/// The camera to draw with: its near and far planes enclose a ball.
 Camera camera_of(const Pinhole& pinhole, const Pose& pose, const glm::dvec3& ball_centre_mm,
                  double ball_radius_mm);
 

@@ -14,7 +14,7 @@
 
 namespace osteomill {
 
-/// What a camera sees of one instant.
+/// A camera's images of one instant.
 struct CameraImages {
     Pose camera{};
     Pinhole pinhole{};
@@ -28,8 +28,8 @@ DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session);
 
 class SessionImages {
   public:
-    /// Of the session that `playhead`, which outlives it, has begun. Tissues are solid, but for those of
-    /// opacity 0, which are not there. Throws std::runtime_error where the bone cannot be drawn. Calls need a
+    /// Draws the session that `playhead`, which outlives it, has begun. Tissues are solid, but for those of
+    /// opacity 0, which are left out. Throws std::runtime_error if the bone cannot be drawn. Calls need a
     /// context current.
     SessionImages(Playhead& playhead, std::span<const DatasetCamera> cameras, const SceneAppearance& look,
                   const TextureLimits& limits);
@@ -38,7 +38,8 @@ class SessionImages {
     /// the first view.
     void follow();
     const BoneTextures& textures() const { return textures_; }
-    /// Of the instant that was followed last. With or without those that nobody reads.
+    /// Draws the instant that was followed last. `wants_colour` and `wants_surface` leave out images that
+    /// nobody reads.
     CameraImages draw(std::size_t camera, bool wants_colour, bool wants_surface);
 
   private:
@@ -56,7 +57,7 @@ class SessionImages {
     std::vector<Tissue> tissues_;
     BoneTextures textures_;
     std::vector<std::unique_ptr<View>> views_;
-    std::size_t structures_ = 0;  // of the playhead's, that were taken
+    std::size_t structures_ = 0;  // how many of the playhead's have been taken over
     bool has_first_view_ = false;
     Pose first_view_;
 };

@@ -30,7 +30,7 @@ class BoneLink::Impl {
         }
         if (taken > 0) connection.resume();
         complete(update);
-        // What waited in the queue was no silence, however long nobody asked.
+        // Events that waited in the queue were no silence, however long nobody polled.
         if (taken == 0)
             update.silent_s =
                 std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch() -

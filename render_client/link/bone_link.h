@@ -3,8 +3,8 @@
 // A thread of its own receives frames; poll() applies them, so the bone changes only inside poll(). Losing
 // the server is a status, never an exception: the link tries again after 0.2 s, then ever less often up to 2
 // s. Every checksum that the server states is checked. A mismatch or a gap in the sequence is counted, shown,
-// and answered by asking for the bricks that differ: see BoneRepair. Where that fails, the server is older
-// than protocol 1.2, or a frame makes no sense, the link connects afresh, which brings a fresh snapshot.
+// and answered by asking for the bricks that differ: see BoneRepair. If that fails, if the server is older
+// than protocol 1.2, or if a frame makes no sense, the link connects afresh, which brings a fresh snapshot.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,11 @@ namespace osteomill {
 
 class BoneLink final : public SessionSource {
   public:
-    /// Starts to connect; returns at once, also if there is no such server. What is received goes into
-    /// `record`, too, if that is given: a disk that is slow makes the server gather what it has to tell. One
-    /// that fails ends the recording there: what comes later makes no sense without what is missing, and to
-    /// ask for that anew would stop the view for the recording's sake. (The server's own recording goes on.)
-    /// Throws RecordingError where it cannot begin.
+    /// Starts to connect; returns at once, also if there is no such server. If `record` is given, received
+    /// frames are recorded there, too. A slow disk makes the server gather its changes. A disk that fails
+    /// ends the recording: later frames make no sense without the missing ones, and to request those again
+    /// would stop the view for the recording's sake. (The server's own recording goes on.) Throws
+    /// RecordingError if the recording cannot begin.
     BoneLink(std::string host, std::uint16_t port,
              const std::optional<std::filesystem::path>& record = std::nullopt,
              const std::optional<TlsFiles>& tls = std::nullopt);
@@ -37,15 +37,15 @@ class BoneLink final : public SessionSource {
     /// A lost server leaves the last bone.
     const Bone* bone() const override;
     const SessionInfo* session() const override;
-    /// As an answer to newest_tool(); dropped before that is known, while not connected, and where it makes
-    /// no sense. While an earlier one is still under way only the newest is kept. Call it 50 times a second
-    /// while the operator is at the controls, from the thread that reads them: the server takes 0.2 s of
-    /// silence for an operator who has gone, and lifts the pedal.
+    /// Sends a command that answers newest_tool(); drops it before that state is known, while not connected,
+    /// and if it makes no sense. While an earlier one is still under way, only the newest is kept. Call it 50
+    /// times a second while the operator is at the controls, from the thread that reads them: after 0.2 s of
+    /// silence the server assumes that the operator has gone, and lifts the pedal.
     void send_operator(const OperatorCommand& command) override;
-    /// In order; dropped while not connected, and where the server does not take it. What comes of it is an
-    /// event.
+    /// Sends controls in order; drops them while not connected, and if the server does not accept them. The
+    /// outcome arrives as an event.
     void send_control(const SessionControl& control) override;
-    /// At most thirty times a second; sent where it has changed, to a server that records it.
+    /// At most thirty times a second; sent if it has changed, to a server that records it.
     void send_view(const Viewpoint& view) override;
     /// The server before is left, and its bone stays until the next has come.
     void connect_to(const ListenAddress& server) override;

@@ -2,7 +2,7 @@
 //
 // The copy is compared with the server's in ever smaller parts; bricks that differ come with the state
 // frames, which go on meanwhile. The next checksum that the server states then must hold. A copy that still
-// differs is searched once more; what goes on to fail needs a snapshot.
+// differs is searched once more; if that fails, too, it needs a snapshot.
 #pragma once
 
 #include <cstdint>

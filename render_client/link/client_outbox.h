@@ -24,7 +24,7 @@ class ClientOutbox {
     /// one.
     void end();
 
-    // Each is dropped where the session does not accept it.
+    // Each is dropped if the session does not accept it.
     void put(v2::OperatorInput input);
     /// Dropped, too, beyond most_waiting_controls.
     void put(v2::SessionControl control);
@@ -33,11 +33,11 @@ class ClientOutbox {
     void put(const Viewpoint& view);
     void request_ct() { owes_ct_request_ = has_ct_; }
 
-    /// Takes out the next message, numbered; nothing where none waits.
+    /// Takes out the next message, numbered; nothing if none waits.
     std::optional<v2::ClientFrame> next();
 
   private:
-    // What the session accepts.
+    // The inputs that the session accepts.
     bool accepts_operator_ = false;
     bool accepts_controls_ = false;
     bool has_ct_ = false;
@@ -51,8 +51,8 @@ class ClientOutbox {
     std::optional<v2::OperatorInput> input_;
     std::optional<v2::CompareBone> request_;
     std::deque<v2::SessionControl> controls_;
-    std::uint64_t input_number_ = 0;    // of the connection
-    std::uint64_t frame_sequence_ = 0;  // likewise
+    std::uint64_t input_number_ = 0;    // within the connection
+    std::uint64_t frame_sequence_ = 0;  // within the connection
 };
 
 }  // namespace osteomill

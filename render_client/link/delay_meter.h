@@ -1,8 +1,8 @@
 // Age of what a client shows, from the server's stamps.
 //
-// A stamp is the server's wall clock. On one machine the delay is what it says; between two it is off by as
-// much as their clocks are, and may be negative. What it lies over the least of this session is right
-// wherever clocks run alike, but says nothing of the delay that no frame escapes.
+// A stamp is the server's wall clock. On one machine the measured delay is right; between two it is off by as
+// much as their clocks are, and may be negative. Its excess over the least of this session is right if the
+// clocks run at the same rate, but leaves out the delay that every frame has.
 #pragma once
 
 #include <algorithm>

@@ -19,7 +19,7 @@ namespace osteomill {
 
 class KeyFrames {
   public:
-    /// Recorded time between two key frames: what is to be read again when winding back, at most.
+    /// Recorded time between two key frames: winding back reads at most so much again.
     static constexpr double interval_s = 5.0;
 
     /// `start`: where the bone is as it first came.
@@ -27,7 +27,8 @@ class KeyFrames {
 
     /// Before the playhead takes its next frame: remembers what that is going to change.
     void before_step(const Playhead& playhead);
-    /// Behind a frame: makes a key frame if it is time for one. What is known already is not made again.
+    /// Behind a frame: makes a key frame if it is time for one. Key frames that exist already are not made
+    /// again.
     void after_step(const Playhead& playhead);
 
     /// Takes the playhead back to the last key frame that is not later than `time_s`; the bone changes where

@@ -10,7 +10,7 @@
 
 namespace osteomill {
 
-/// A server said hello: what came from the one before is history.
+/// A server sent its hello: events of an earlier one no longer count.
 struct SessionBegan {
     SessionInfo info;
     std::uint64_t number = 0;  ///< counted from 1

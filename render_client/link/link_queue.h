@@ -51,7 +51,7 @@ class LinkQueue {
         events_.clear();
         is_disowned_ = true;
     }
-    /// Receiving thread. What comes from now on counts again.
+    /// Receiving thread. Events from now on count again.
     void own() {
         const std::scoped_lock lock(mutex_);
         is_disowned_ = false;

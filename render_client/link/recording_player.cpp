@@ -93,7 +93,7 @@ bool RecordingPlayer::has_arrived() const {
 
 void RecordingPlayer::go_towards_target(LinkUpdate& update) {
     if (target_s_ < playhead_->time_s()) wind_back();
-    // As it first was: textures are made for the most bone that there will be.
+    // Shows the bone as it first was: textures are made for the most bone that there will be.
     if (std::exchange(is_fresh_, false)) return announce_bone(update);
     if (!error_.empty()) return;
     for (int frames = 0; frames < most_frames_a_poll; ++frames) {

@@ -31,7 +31,7 @@ class RecordingPlayer final : public SessionSource {
     explicit RecordingPlayer(std::filesystem::path file, double speed = 1.0, double from_s = 0.0);
 
     /// Once a frame: goes on to where it should be by now. The first poll brings the bone as it first was.
-    /// What cannot be read ends the recording there, as LinkStatus::refused with the reason.
+    /// A frame that cannot be read ends the recording there, as LinkStatus::refused with the reason.
     LinkUpdate poll(Time now);
     LinkUpdate poll() override { return poll(std::chrono::steady_clock::now()); }
 
@@ -46,15 +46,15 @@ class RecordingPlayer final : public SessionSource {
     void pause() { is_playing_ = false; }
     double speed() const { return speed_; }
     void set_speed(double speed);
-    /// Anywhere from the first bone to duration_s(); what is beyond is its nearest end.
+    /// Anywhere from the first bone to duration_s(); a time beyond counts as the nearest end.
     void seek(double time_s);
 
-    /// Where it is or, while it seeks, where it is going.
+    /// The time that it is at or, while it seeks, the time that it is going to.
     double time_s() const { return target_s_; }
     double duration_s() const { return outline_.duration_s; }
     /// Whether it says from where the one who moved the tool looked.
     bool has_view() const { return outline_.has_view; }
-    /// What there is to look at.
+    /// The moments worth seeing.
     const std::vector<RecordedMoment>& moments() const { return outline_.moments; }
     /// Whether what it shows is that of time_s(), or the last that can be shown.
     bool has_arrived() const;
@@ -77,11 +77,10 @@ class RecordingPlayer final : public SessionSource {
     std::optional<Time> last_poll_;
     std::optional<Playhead> playhead_;
     std::optional<KeyFrames> keys_;
-    double begins_s_ = 0.0;  // of the first bone
-    double session_begins_s_ =
-        0.0;                // of this session's; winding back further needs the file from its beginning
-    bool is_fresh_ = true;  // the bone has not been shown yet
-    std::size_t shown_structures_ = 0;  // of the playhead's
+    double begins_s_ = 0.0;          // when the first bone begins
+    double session_begins_s_ = 0.0;  // when this session's begins; winding back further needs the whole file
+    bool is_fresh_ = true;           // the bone has not been shown yet
+    std::size_t shown_structures_ = 0;  // how many of the playhead's
     bool is_at_end_ = false;
     bool tool_is_news_ = false;
     std::string error_;

@@ -30,7 +30,8 @@ constexpr milliseconds longest_backoff{2000};
 /// A server speaks 30 times a second; a cable that is pulled says nothing at all.
 constexpr std::chrono::seconds longest_silence{5};
 
-/// How often to look whether a slow disk has made room. The server meanwhile gathers what it cannot send.
+/// How often to check whether a slow disk has caught up. The server meanwhile gathers the changes that it
+/// cannot send.
 constexpr milliseconds recorder_check{20};
 
 constexpr std::size_t read_bytes = 64 * 1024;
@@ -58,7 +59,7 @@ void ServerConnection::send(const OperatorCommand& command) {
     v2::OperatorInput input = to_message(command);
     std::uint64_t connection = 0;
     {
-        // What it answers is what was before the operator now, however late it is written.
+        // The input answers the state that the operator sees now, however late it is written.
         const std::scoped_lock lock(seen_mutex_);
         if (seen_state_ == 0) return;
         input.set_answers_state(seen_state_);

@@ -52,17 +52,17 @@ class ServerConnection {
     const LinkCounters& counters() const { return counters_; }
 
     // Any thread.
-    /// As the answer to newest_tool(). Dropped while nothing has been seen, and where the server would not
-    /// take it.
+    /// Sends the command as the answer to newest_tool(). Dropped while no state has come, and if the server
+    /// would not accept it.
     void send(const OperatorCommand& command);
-    /// Dropped where the server would not take it, and beyond ClientOutbox::most_waiting_controls that wait
-    /// to be written.
+    /// Dropped if the server would not accept it, and beyond ClientOutbox::most_waiting_controls that wait to
+    /// be written.
     void send(const SessionControl& control);
     /// From where its operator looks, sent again on later connections; only to servers that record it.
     void send(const Viewpoint& view);
-    /// Asks for the CT; dropped where the server has none.
+    /// Asks for the CT; dropped if the server has none.
     void ask_for_ct();
-    /// Of the newest state frame that came on this connection; nothing before the first.
+    /// The tool of the newest state frame on this connection; nothing before the first.
     std::optional<ToolState> newest_tool() const;
     /// Dropped if that session is over.
     void send(const v2::CompareBone& request, std::uint64_t session_number);
@@ -70,9 +70,10 @@ class ServerConnection {
     void discard(std::shared_ptr<void> unused);
     /// There is room in the queue again.
     void resume();
-    /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
+    /// Why nothing more is recorded; empty while all is well, and if nothing is to be.
     std::string recording_error() const;
-    /// Writes what still waits; what comes later is not recorded. One line where some of it is not.
+    /// Writes the frames that still wait; later ones are not recorded. Returns one line if some could not be
+    /// written.
     std::string finish_recording();
     /// Drops what has come of this connection and begins another.
     void reconnect();
@@ -82,7 +83,7 @@ class ServerConnection {
   private:
     using tcp = boost::asio::ip::tcp;
 
-    /// A recording has none: what a frame said that is missing there cannot be requested in years.
+    /// A recording has none: changes of a frame that is missing there cannot be requested years later.
     Gaps gaps() const { return recorder_ ? Gaps::refused : Gaps::reported; }
 
     void run();
@@ -131,7 +132,7 @@ class ServerConnection {
     boost::asio::steady_timer recorder_room_{io_};
     std::chrono::milliseconds backoff_{0};
 
-    // Of the current connection; `generation_` tells its handlers from those of the ones before.
+    // The current connection's; `generation_` tells its handlers from those of earlier ones.
     std::uint64_t generation_ = 0;
     std::shared_ptr<Stream> stream_;  // null while there is none
     bool has_heard_ = false;
@@ -139,8 +140,7 @@ class ServerConnection {
     SessionReceiver receiver_;
     bool is_paused_ = false;
 
-    // What the reader of the operator's mouse has before it: the newest state, though it may not be drawn
-    // yet.
+    // The state that the operator's input answers: the newest, though it may not be drawn yet.
     mutable std::mutex seen_mutex_;
     std::uint64_t seen_generation_ = 0;
     std::uint64_t seen_state_ = 0;  // 0: none

@@ -36,32 +36,32 @@ enum class LinkStatus {
     refused,
 };
 
-/// What happened since the last poll, and where the link stands.
+/// The news since the last poll, and the link's status.
 struct LinkUpdate {
     LinkStatus status = LinkStatus::connecting;
     std::string status_line{};             ///< for people
     bool bone_replaced = false;            ///< bone() is another bone: upload all of it
-    std::vector<BrickChange> changes;      ///< of bone(), ascending; empty if bone_replaced
+    std::vector<BrickChange> changes;      ///< changes of bone(), ascending; empty if bone_replaced
     std::optional<ToolState> tool;         ///< the newest since the last poll, if any came
-    std::vector<Structure> structures{};   ///< that came since the last poll, or with bone()
+    std::vector<Structure> structures{};   ///< those that came since the last poll, or with bone()
     std::shared_ptr<const CtVolume> ct{};  ///< that was requested, once it is here
     std::vector<ControlEvent> events{};    ///< since the last poll
     /// Of protected structures that are near the burr or were touched, as of the newest tool.
     std::vector<StructureDistance> distances{};
     /// From where the one who moves the tool looks, in a recording that says so.
     std::optional<Viewpoint> view{};
-    SessionStatus controls{};  ///< what can be done with the session now
-    /// How old the newest tool of this session was when a poll took it; nothing where the server does not
+    SessionStatus controls{};  ///< the controls that the session accepts now
+    /// How old the newest tool of this session was when a poll took it; nothing if the server does not
     /// say.
     std::optional<DelayMeter::Delay> delay{};
 
     std::uint32_t snapshot_bricks = 0;        ///< received so far, while receiving_snapshot
     std::uint32_t snapshot_bricks_total = 0;  ///< announced, while receiving_snapshot
 
-    /// Why nothing more is recorded; empty while all is well, and where nothing is to be.
+    /// Why nothing more is recorded; empty while all is well, and if nothing is to be.
     std::string recording_error{};
 
-    /// Since anything came of the server; of a recording 0.
+    /// The time since anything came from the server; 0 for a recording.
     double silent_s = 0.0;
 
     // Since the link was made.
@@ -87,19 +87,19 @@ class SessionSource {
     /// Null until one has arrived; valid until the next poll().
     virtual const Bone* bone() const = 0;
     virtual const SessionInfo* session() const = 0;  ///< null until a server has said hello
-    /// Any thread. What the operator wants of the tool; ignored where nobody can drive it.
+    /// Any thread. Sends the operator's wishes for the tool; ignored if nobody can drive it.
     virtual void send_operator(const OperatorCommand&) {}
-    /// Asks for the CT, which a poll then brings; nothing where there is none.
+    /// Asks for the CT, which a poll then brings; nothing if there is none.
     virtual void ask_for_ct() {}
-    /// To a server elsewhere from now on; nothing where there is none.
+    /// To a server elsewhere from now on; nothing if there is none.
     virtual void connect_to(const ListenAddress&) {}
     /// Any thread: a request to the session; ignored if there is none to take it.
     virtual void send_control(const SessionControl&) {}
-    /// Any thread: from where the operator looks; nothing where nobody keeps it.
+    /// Any thread: from where the operator looks; nothing if nobody keeps it.
     virtual void send_view(const Viewpoint&) {}
-    /// Any thread: of the session that an operator may be at; nothing where there is none.
+    /// Any thread. The tool of the session that an operator may be at; nothing if there is none.
     virtual std::optional<ToolState> newest_tool() const { return std::nullopt; }
-    /// What plays the session, where it is a recording; null where it is not.
+    /// The player of the session, if it is a recording; else null.
     virtual RecordingPlayer* player() { return nullptr; }
     /// Once, after the last poll: a failure of the run that did not end it, in one line; mostly nothing.
     virtual std::string finish() { return {}; }

@@ -1,6 +1,6 @@
 // A client's replica of the server's bone, verified and repaired, through one session after another: follows
-// the state frames, checks every checksum, and has the bricks that differ sent again where one does not hold.
-// No sockets, no clock.
+// the state frames, checks every checksum, and has the bricks that differ sent again if one does not hold. No
+// sockets, no clock.
 #pragma once
 
 #include <cstdint>
@@ -26,25 +26,26 @@ class VerifiedReplica {
         std::uint64_t repairs = 0;          ///< after which the copy was equal again
         std::uint64_t bricks_repaired = 0;  ///< that differed
     };
-    /// What is to be asked of the server now; an error says why a fresh bone is needed.
+    /// The request to send to the server now; an error says why a fresh bone is needed.
     using Outcome = std::variant<std::optional<v2::CompareBone>, WireError>;
 
     /// A server has said hello. The bone stays the one before, if any, until its own has come.
     void begin(SessionInfo session);
-    /// Of the session that began last. Returns what it takes the place of, which takes its time to be freed.
+    /// Takes over the bone of the session that began last. Returns the one it replaces, because freeing that
+    /// takes long.
     std::optional<BoneReplica> take(BoneArrived arrived);
     /// An error: part of the frame may have been applied, or the repair has failed. There must be a bone of
     /// this session.
     Outcome take(const StateArrived& arrived);
 
-    /// What has changed in the bone since the last call, or since it came.
+    /// The changes of the bone since the last call, or since the bone came.
     std::vector<BrickChange> take_changes() {
         return replica_ ? replica_->take_changes() : std::vector<BrickChange>();
     }
 
     const Bone* bone() const { return replica_ ? &replica_->bone() : nullptr; }
     const SessionInfo* session() const { return session_ ? &*session_ : nullptr; }
-    /// Of bone(), which must be there.
+    /// The checksum of bone(), which must be there.
     std::uint64_t checksum() const { return replica_->checksum(); }
     bool is_being_repaired() const { return repair_.has_value(); }
     const Counters& counters() const { return counters_; }

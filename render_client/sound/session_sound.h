@@ -1,5 +1,5 @@
-// The sound of the session that a client shows: of the burr where it is requested, and the tone that warns of
-// protected structures. Without a loudspeaker everything else goes on.
+// The sound of the session that a client shows: the burr, if requested, and the tone that warns of protected
+// structures. Without a loudspeaker everything else goes on.
 #pragma once
 
 #include <memory>
@@ -15,14 +15,15 @@ namespace osteomill {
 
 class SessionSound {
   public:
-    /// The burr. Returns one line on what came of it, for people. It is also logged where it went wrong.
+    /// The burr. Returns one line on what came of it, for people. It is also logged if it went wrong.
     std::string switch_to(bool on);
     bool is_on() const { return is_on_; }
 
     /// The newest state of the tool, as often as there is one. Returns a line once the loudspeaker is lost,
     /// and is then off; mostly nothing.
-    /// `warns`: of protected structures at these distances, also where the burr is not heard. For that the
-    /// loudspeaker is opened at the first warning, and where there is none, nothing is said: the banner warns.
+    /// `warns`: whether to warn of protected structures at these distances, also if the burr is not heard.
+    /// The loudspeaker is then opened at the first warning; without a loudspeaker there is no message, since
+    /// the banner warns.
     std::string hear(const std::optional<ToolState>& tool, const SessionInfo* session,
                      std::span<const StructureDistance> distances, bool warns);
 

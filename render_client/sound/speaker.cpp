@@ -97,7 +97,7 @@ void Speaker::fill_what_was_played() {
         alSourceUnqueueBuffers(source_, 1, &buffer);
         fill(buffer);
     }
-    // It stops by itself where a busy machine let the queue run dry.
+    // It stops by itself if a busy machine let the queue run dry.
     ALint state = 0;
     alGetSourcei(source_, AL_SOURCE_STATE, &state);
     if (state != AL_PLAYING) alSourcePlay(source_);

@@ -1,5 +1,5 @@
 // The loudspeaker: plays the sound of a burr through OpenAL, on a thread of its own that sleeps while there
-// is nothing to hear. What it plays is some 60 ms behind the newest cue.
+// is nothing to hear. It plays some 60 ms behind the newest cue.
 #pragma once
 
 #include <AL/al.h>
@@ -34,7 +34,7 @@ class Speaker {
     Speaker(const Speaker&) = delete;
     Speaker& operator=(const Speaker&) = delete;
 
-    /// As OpenAL calls it.
+    /// OpenAL's name for it.
     const std::string& device_name() const { return device_name_; }
 
     // Any thread; none of these waits for the device.

@@ -18,7 +18,7 @@ namespace osteomill {
 struct DatasetOptions {
     std::filesystem::path folder;
     std::string cameras{};                 ///< as of cameras_named
-    std::optional<double> frames_per_s{};  ///< of recorded time; absent: every recorded state
+    std::optional<double> frames_per_s{};  ///< in recorded time; absent: every recorded state
     DatasetImages images{};
     DatasetPart part{};
     std::optional<std::uint64_t> randomise{};  ///< seed of domain randomisation; absent: as in the window

@@ -31,7 +31,7 @@ double seconds(Clock::duration duration) {
     return std::chrono::duration<double>(duration).count();
 }
 
-/// Polls until the first bone is there. False where the run was asked to stop before.
+/// Polls until the first bone is there. False if the run was asked to stop before.
 bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_requested) {
     const Clock::time_point start = Clock::now();
     double says_at_s = silent_wait_for_bone_s;
@@ -75,7 +75,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     bool going_on = wait_for_bone(session, stop_requested);
     Redraw redraw;
     redraw.note_change(Clock::now());
-    const gl::Framebuffer* framebuffer = nullptr;  // of the last frame that was drawn
+    const gl::Framebuffer* framebuffer = nullptr;  // the last frame that was drawn
     Clock::time_point drawn = Clock::now() - frame_period;
     Clock::time_point due = Clock::now();
     for (int frame = 1; going_on; ++frame) {
@@ -89,7 +89,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
         going_on = frame < options.frames && status != LinkStatus::finished &&
                    status != LinkStatus::refused && !stop_requested();
 
-        // What is written shows the newest figures, too.
+        // A screenshot shows the newest figures, too.
         const bool is_written = !going_on || screenshots.is_next_due();
         if (framebuffer == nullptr || redraw.is_due(start) || (is_written && news != SessionNews::none)) {
             camera.aim(session);

@@ -38,7 +38,7 @@ std::optional<int> whole_number(std::string_view text, int low, int high) {
 struct Side {
     const char* name;
     std::size_t axis;
-    double sign;  // of the axis, patient LPS
+    double sign;  // along the axis, patient LPS
 };
 constexpr std::array sides{Side{"left", 0, 1.0},   Side{"right", 0, -1.0}, Side{"back", 1, 1.0},
                            Side{"front", 1, -1.0}, Side{"above", 2, 1.0},  Side{"below", 2, -1.0}};
@@ -67,7 +67,7 @@ NoRun wrong_usage(const std::string& what) {
     return {2, "render_client: " + what};
 }
 
-/// An option with a few named values; what is no name is refused with all that are.
+/// An option with a few named values; any other text is refused with a list of the names.
 template <typename Value>
 void add_choice(CLI::App& app, const std::string& option, const std::vector<std::string>& names,
                 const std::vector<Value>& values, Value& chosen, const std::string& help) {
@@ -150,7 +150,7 @@ void add_microscope(CLI::App& app, RenderOptions& options) {
                "A second, small view: along the handpiece, or an axial section through the burr (off)");
 }
 
-/// What the options together get wrong; empty where they agree.
+/// A message on options that contradict one another; empty if they agree.
 std::string contradiction(const RenderOptions& options) {
     if (options.dataset && !options.replay) return "--dataset needs --replay FILE";
     if (options.film && !options.replay) return "--film needs --replay FILE";
@@ -177,7 +177,7 @@ std::string contradiction(const RenderOptions& options) {
 constexpr std::array screenshot_names{"frame_*.png", "final.png"};
 constexpr std::array dataset_names{"dataset*.json", "*/[0-9]*_*.png", "*/[0-9]*_*.npy"};
 
-/// Says which two are one; empty where none are.
+/// Says which two are one; empty if none are.
 std::string same_files(const RenderOptions& options, const TlsOptions& tls) {
     std::vector<NamedFile> files = tls.files_read();
     if (options.replay) files.push_back({"--replay", *options.replay, false});

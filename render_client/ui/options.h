@@ -24,13 +24,13 @@ struct RenderOptions {
     std::uint16_t port = 7010;
     bool names_server = false;                    ///< the command line does
     std::optional<TlsFiles> tls;                  ///< absent: in the clear
-    std::optional<std::filesystem::path> record;  ///< what is received goes there, too
+    std::optional<std::filesystem::path> record;  ///< received frames are written there, too
     std::optional<std::filesystem::path> replay;  ///< a recording in place of a server
-    std::optional<DatasetOptions> dataset;        ///< of the recording
-    double speed = 1.0;                           ///< of the recording: recorded seconds a second
+    std::optional<DatasetOptions> dataset;        ///< made of the recording
+    double speed = 1.0;                           ///< playback's: recorded seconds a second
     double from_s = 0.0;                          ///< where in the recording it begins
     std::optional<std::filesystem::path> film;    ///< made of the recording, offscreen
-    std::string camera{};                         ///< of the recording, as of cameras_named; empty: the
+    std::string camera{};                         ///< for the recording, one of cameras_named; empty: the
                                                   ///< person's view, in a film the trainee's, if recorded
     RendererChoice renderer = RendererChoice::raycast;
     ShadingSettings look;
@@ -51,8 +51,8 @@ struct RenderOptions {
     int screenshot_every = 0;           ///< 0 spreads about 30 over `frames`
     std::optional<glm::ivec2> window_size_px;
     std::optional<ThemeName> theme{};
-    std::optional<double> ui_scale;  ///< of panels and letters; absent: the display's, 1 offscreen
-    std::string language = "en";     ///< of translation.h
+    std::optional<double> ui_scale;  ///< for panels and letters; absent: the display's, 1 offscreen
+    std::string language = "en";     ///< one of translation.h's
     bool panels = true;
     bool sound = false;                         ///< the burr can be heard
     std::optional<std::filesystem::path> home;  ///< cases and reports of sessions started from the window

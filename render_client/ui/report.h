@@ -14,7 +14,7 @@ namespace osteomill {
 struct RenderReport {
     FrameTimes frame_times;
     std::string gl_renderer;
-    std::uint64_t bone_checksum = 0;      ///< of the bone as it was last drawn
+    std::uint64_t bone_checksum = 0;      ///< checksum of the bone as it was last drawn
     std::optional<TexturePlan> textures;  ///< how the bone is held; absent: there is none
     std::uint64_t dirty_bricks_uploaded = 0;
     std::uint64_t checksum_mismatches = 0;
@@ -26,7 +26,7 @@ struct RenderReport {
 /// bone), dirty_bricks_uploaded, checksum_mismatches, link_status.
 std::string to_json(const RenderReport& report);
 
-/// Replaces the file as a whole. Throws std::runtime_error naming the file where it cannot be written.
+/// Replaces the file as a whole. Throws std::runtime_error naming the file if it cannot be written.
 void write_report(const RenderReport& report, const std::filesystem::path& file);
 
 }  // namespace osteomill

@@ -42,11 +42,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr glm::ivec2 default_size_px(1280, 800);
 constexpr double orbit_rad_per_px = 0.008;
-/// Of the picture's height, for as long as a key is held.
+/// A share of the picture's height, while a key is held.
 constexpr double view_motion_a_s = 0.5;
 constexpr double cut_mm_per_notch = 0.5;
 /// A display without vertical synchronisation must not take the cores from a server beside it: twice the
-/// rate of its frames is smooth. So often the link is looked at, too, where nothing is drawn.
+/// rate of its frames is smooth. The link is polled as often, even if nothing is drawn.
 constexpr std::chrono::milliseconds shortest_frame(16);
 
 /// How often the mouse is read, and what it asks for sent, while the operator has the tool: four in five
@@ -87,7 +87,7 @@ std::filesystem::path home_of(const RenderOptions& options) {
     return options.home.value_or(home_of_cases());
 }
 
-/// What the two threads of a window share.
+/// The state that the two threads of a window share.
 struct Shared {
     InputMailbox mailbox{};
     Clipboard clipboard;
@@ -97,7 +97,7 @@ struct Shared {
     std::atomic<bool> is_fullscreen{false};
 };
 
-/// The thread that draws: takes in what the source brings, and shows it where it has changed.
+/// The thread that draws: takes in what the source brings, and shows it if it has changed.
 class Drawing {
   public:
     /// The window's context is current here, for as long as this lives.
@@ -206,7 +206,7 @@ class Drawing {
         if (news == SessionNews::figures || !session_.view().notice.empty()) redraw_.note_figures();
     }
 
-    /// Another case brings another transfer table; an edited one is saved where that is requested.
+    /// Another case brings another transfer table; an edited one is saved if that is requested.
     void work_look(double now_s) {
         ViewSettings& view = session_.view();
         try {
@@ -220,7 +220,7 @@ class Drawing {
             commands_.say(look_.save(view.transfer.function()), now_s);
     }
 
-    /// What the command line says comes first.
+    /// The command line has precedence.
     void take_over_kept() {
         const KeptSettings& kept = settings_.settings();
         ViewSettings& view = session_.view();
@@ -299,7 +299,7 @@ class Drawing {
         frame_times_.add(1e3 * took_s);
     }
 
-    /// Where a drag would take the burr in air.
+    /// The place to which a drag would take the burr in air.
     std::optional<glm::dvec3> over_bone_mm() const {
         const ImGuiIO& io = ImGui::GetIO();
         if (!drills_ || !io.MouseDown[ImGuiMouseButton_Left] || io.WantCaptureMouse) return std::nullopt;

@@ -11,7 +11,7 @@
 
 namespace osteomill {
 
-/// Draws until the window is closed, ESC is pressed or `stop_requested` says so. Throws gl::NoOpenGl where
+/// Draws until the window is closed, ESC is pressed or `stop_requested` says so. Throws gl::NoOpenGl if
 /// there is no display or no OpenGL 3.3.
 RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
                            const std::function<bool()>& stop_requested);

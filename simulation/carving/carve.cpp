@@ -14,7 +14,7 @@ namespace osteomill {
 namespace {
 
 /// A sweep of at most CrescentRows::longest_step_voxels from where the ball has carved, or a ball at rest.
-/// `changes`: null where the bone stays as it is.
+/// `changes`: null if the bone stays as it is.
 void carve_short(Bone& bone, const Sweep& ball, const CarveSettings& settings, ChangeSink* changes,
                  RemovalSink& sink) noexcept {
     const glm::ivec3 size = bone.grid().size_voxels;

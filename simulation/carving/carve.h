@@ -23,14 +23,14 @@ enum class CarveHistory {
 struct CarveSettings {
     VoxelCoverage coverage = VoxelCoverage::smoothed;
     InstructionSet instructions = best_instruction_set();
-    const UncutTissues* uncut = nullptr;  ///< what is left alone; null: nothing
+    const UncutTissues* uncut = nullptr;  ///< the tissues to leave alone; null: none
 };
 
 /// Carves a sweep given in voxel coordinates (whole numbers are voxel centres, radius in voxels). Hands each
 /// voxel that lost something to `removed` and the change of each brick to `changes`, both in a fixed order; a
-/// brick may come more than once. Looks only at stored bricks and, where the ball has carved at `from`, only
-/// at the crescent between the two positions: not the ball's inside, and nothing behind the plane through
-/// `from` across the motion, where the nearest point of the path is `from` itself. Real-time safe.
+/// brick may come more than once. Looks only at stored bricks and, if the ball has carved at `from`, only at
+/// the crescent between the two positions: not the ball's inside, and nothing behind the plane through `from`
+/// across the motion, where the nearest point of the path is `from` itself. Real-time safe.
 void carve(Bone& bone, const Sweep& ball, CarveHistory history, const CarveSettings& settings,
            ChangeSink& changes, RemovalSink& removed) noexcept;
 

@@ -37,7 +37,7 @@ class SweptHead {
         const Seen start = seen(at_end + along_);
         if (start.slope >= 0.0) return start.distance;
         double least = std::min(start.distance, end.distance);
-        double low = 0.0, high = 1.0;  // of the sweep
+        double low = 0.0, high = 1.0;  // shares of the sweep
         double slope_low = start.slope, slope_high = end.slope;
         for (int i = 0; i < 8; ++i) {
             // Halves in turn with secants: a corner of the outline makes the slope jump.
@@ -60,7 +60,7 @@ class SweptHead {
   private:
     struct Seen {
         double distance;
-        double slope;  ///< of the distance, as the head moves along the sweep
+        double slope;  ///< the distance's slope, as the head moves along the sweep
     };
 
     Seen seen(const glm::dvec3& in_burr) const noexcept {
@@ -80,7 +80,7 @@ class SweptHead {
 /// Carves one short sweep.
 class HeadCarver {
   public:
-    /// `changes`: null where the bone stays as it is.
+    /// `changes`: null if the bone stays as it is.
     HeadCarver(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink* changes,
                RemovalSink& removed) noexcept
         : bone_(bone),

@@ -26,12 +26,12 @@ struct HeadSweep {
 /// voxel for sweeps of up to four voxels. Real-time safe.
 double distance_from(const HeadSweep& sweep, const glm::dvec3& point) noexcept;
 
-/// As carve() with settings.coverage and settings.uncut, but each step visits the whole head: a brick and a
-/// block of four voxels at a time, by their distance from the surface. Real-time safe.
+/// Does the same as carve() with settings.coverage and settings.uncut, but each step visits the whole head: a
+/// brick and a block of four voxels at a time, by their distance from the surface. Real-time safe.
 void carve_head(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink& changes,
                 RemovalSink& removed) noexcept;
 
-/// As preview_carve() of carve.h.
+/// Does for a head what preview_carve() of carve.h does for a ball.
 void preview_carve(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings,
                    RemovalSink& would_go) noexcept;
 

@@ -37,7 +37,7 @@ struct CarveKernel::Loops {
         Ints end;
         int first_row;  ///< offset in a brick of the first row's first voxel
     };
-    /// Of a row of bricks: twice eight rows a slice, left and right.
+    /// The parts of a row of bricks: twice eight rows a slice, left and right.
     using ManyParts = std::array<Parts, std::size_t{4} * brick_edge_voxels>;
 
     /// Finds the parts of the rows in row `brick_y` of a layer that are not empty. Returns how many.
@@ -120,7 +120,7 @@ struct CarveKernel::Loops {
         }
     }
 
-    /// Of tissue that no burr cuts all is left.
+    /// Keeps all of the tissue that no burr cuts.
     void keep_uncut(const EightVoxels& voxels, std::int32_t slot, Ints& left) const {
         for (int i = 0; i < eight; ++i) {
             const auto offset = static_cast<std::size_t>(voxels.offset[i]);

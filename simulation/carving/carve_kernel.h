@@ -67,8 +67,8 @@ class CarveKernel {
     /// Beyond its end a list is written to, for up to two more rows.
     static constexpr std::size_t list_length = brick_voxel_count + 2 * brick_edge_voxels;
 
-    // Scratch, not cleared: of the brick that is being carved the rows of voxels, one after the other the
-    // offsets of these voxels, and what is left of each.
+    // Scratch for the brick that is being carved, not cleared: its rows of voxels; then, row after row, the
+    // offset of each voxel in them, and its fraction afterwards.
     std::size_t row_count_ = 0;
     std::array<Row, most_rows + RemovedVoxels::lanes> rows_;
     std::array<std::int32_t, list_length> list_;

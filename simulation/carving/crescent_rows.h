@@ -33,10 +33,10 @@ class CrescentRows {
     static constexpr int most_rows = 528;
 
     /// `ball` and `rim` in voxels; the ball is counted from the base, and so are the voxels `first` <= v <
-    /// `end` that there are. A ball at rest has carved nothing yet: all of it is looked at.
+    /// `end` that there are. A ball at rest has carved nothing yet: all of it is visited.
     CrescentRows(const Sweep& ball, double rim, const glm::ivec3& first, const glm::ivec3& end) noexcept;
 
-    /// What the sweep can reach of the voxels that there are.
+    /// The existing voxels that the sweep can reach.
     VoxelRange columns() const { return columns_; }
     VoxelRange rows() const { return rows_; }
     VoxelRange slices() const { return slices_; }
@@ -44,7 +44,7 @@ class CrescentRows {
     /// Whether no voxel of the cube of `edge` voxels from `first` on can change.
     bool misses_cube(const glm::ivec3& first, int edge) const noexcept;
 
-    /// What eight_rows() (crescent_rows_simd.h) needs, in single precision.
+    /// The values that eight_rows() (crescent_rows_simd.h) needs, in single precision.
     struct Shape {
         glm::vec3 from{0.0f};
         glm::vec3 to{0.0f};
@@ -52,8 +52,8 @@ class CrescentRows {
         float inner_squared = 0.0f;  // about `from`; negative where there is no inner ball
         glm::vec3 direction{0.0f};   // unit, or zero for a ball at rest
         // The plane through the step's start cuts the row whose points are `ahead` of it in y and z at x =
-        // plane_at + ahead * plane_per_ahead. What lies ahead is right of it, left of it or, where the step
-        // is nearly across x, all of the row or nothing; the weights (0 or 1) say which.
+        // plane_at + ahead * plane_per_ahead. The part ahead is right of it, left of it or, if the step is
+        // nearly across x, all of the row or nothing; the weights (0 or 1) say which.
         float plane_at = 0.0f;
         float plane_per_ahead = 0.0f;
         float right_weight = 0.0f;

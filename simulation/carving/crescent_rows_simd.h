@@ -62,7 +62,7 @@ namespace detail {
 
     const Ints whole_first = detail::ceiling_of(first);
     const Ints whole_end = detail::floor_of(last) + 1;
-    // Where the row misses the inner ball the left part is all of it.
+    // If the row misses the inner ball, the left part is all of it.
     const Ints misses = inner_squared < 0.0f;
     const Ints left_end =
         simd::smaller(misses ? whole_end : detail::floor_of(s.from.x - inner) + 1, whole_end);

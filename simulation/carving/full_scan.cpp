@@ -74,7 +74,7 @@ void FullScan::lower(Bone& bone, const SweepSeenFrom& sweep, const CarveSettings
         const auto offset = static_cast<std::size_t>(met_.offset[i]);
         std::uint8_t& fraction = bone.fractions(met_.slot[i])[offset];
         if (left[i] >= fraction) continue;
-        const std::size_t n = met_.count++;  // never past i: what was removed moves to the front
+        const std::size_t n = met_.count++;  // never past i: removed voxels move to the front
         met_.levels[n] = static_cast<float>(fraction - left[i]);
         fraction = static_cast<std::uint8_t>(left[i]);
         met_.x[n] = met_.x[i];

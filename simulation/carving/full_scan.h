@@ -1,8 +1,8 @@
 // The published way to find the bone that a burr removes: the burr is a set of voxels, and every step takes
 // every one of them, some 65 000 for a 5 mm burr at 0.1 mm, turns it into the burr's frame, tests it against
 // the burr's shape and the bone, and lowers what is left. No empty brick is passed over, and no crescent is
-// known. What a sweep leaves of a voxel follows the same rule as in carve.h, so the bone is the same; only
-// how its voxels are found differs. It is what the speed of carve() is compared with.
+// known. The fraction that a sweep leaves in a voxel follows the same rule as in carve.h, so the bone is the
+// same; only the search for its voxels differs. The speed of carve() is compared with it.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,9 @@ class FullScan {
     /// A burr of so many voxels' radius, above 0. Sixteen bytes for each of its voxels.
     FullScan(double radius_voxels, VoxelCoverage coverage);
 
-    /// As carve() without a history, with this burr's radius and coverage: in a fixed order, each changed
-    /// brick once a step of CrescentRows::longest_step_voxels. `burr_frame`: burr axes in patient axes.
-    /// Real-time safe.
+    /// Does the same as carve() without a history, with this burr's radius and coverage: in a fixed order,
+    /// each changed brick once a step of CrescentRows::longest_step_voxels. `burr_frame`: burr axes in
+    /// patient axes. Real-time safe.
     void carve(Bone& bone, const Sweep& ball, const glm::dmat3& burr_frame, const CarveSettings& settings,
                ChangeSink& changes, RemovalSink& removed) noexcept;
 

@@ -5,7 +5,7 @@
 namespace osteomill {
 
 enum class InstructionSet {
-    plain,  ///< what every processor of the target has
+    plain,  ///< instructions that every processor of the target has
     avx2    ///< 256-bit vectors of x86-64
 };
 

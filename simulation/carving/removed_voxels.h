@@ -22,7 +22,7 @@ struct RemovedVoxels {
     alignas(64) std::array<float, capacity> z;
     alignas(64) std::array<float, capacity> levels;  ///< how many of its 255 levels each voxel lost; 0: none
     alignas(64) std::array<std::int32_t, capacity> slot;    ///< brick that holds the voxel
-    alignas(64) std::array<std::int32_t, capacity> offset;  ///< of the voxel in its brick
+    alignas(64) std::array<std::int32_t, capacity> offset;  ///< the voxel's offset in its brick
 
     std::size_t padded_count() const { return (count + lanes - 1) / lanes * lanes; }
 

@@ -61,7 +61,8 @@ struct Floats3 {
     Floats y;
     Floats z;
 };
-/// Eight times the same. As vectors in memory constants are operands, which a register would be loaded for.
+/// The same value eight times. Stored as vectors, constants are memory operands; otherwise a register would
+/// be loaded for each.
 [[gnu::always_inline]] inline Floats3 floats3(const glm::vec3& v) {
     return {floats(v.x), floats(v.y), floats(v.z)};
 }
@@ -131,7 +132,7 @@ struct Floats3 {
 #endif
 }
 
-/// Of sixteen bytes 0 from `first` on for `count`, else 255. `first` + `count` <= 16.
+/// Sixteen bytes: 0 from `first` on for `count`, else 255. `first` + `count` <= 16.
 [[gnu::always_inline]] inline Bytes outside(std::size_t first, std::size_t count) {
     static constexpr std::array<std::uint8_t, 48> window = [] {
         std::array<std::uint8_t, 48> bytes{};

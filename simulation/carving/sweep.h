@@ -16,7 +16,7 @@ struct Sweep {
     double radius = 0.0;
 };
 
-/// Closed range of x; empty where first > last.
+/// Closed range of x; empty if first > last.
 struct Interval {
     double first = 0.0;
     double last = -1.0;
@@ -24,7 +24,7 @@ struct Interval {
     bool empty() const { return !(first <= last); }
 };
 
-/// Where the line {(x, y, z): x free} passes through a ball; empty where it misses.
+/// The interval of x in which the line {(x, y, z): x free} is inside a ball; empty if it misses.
 inline Interval line_through_ball(const glm::dvec3& centre, double radius, double y, double z) {
     const double dy = y - centre.y;
     const double dz = z - centre.z;
@@ -41,7 +41,7 @@ inline double volume(const Sweep& sweep) {
     return pi * r * r * (4.0 / 3.0 * r + glm::length(sweep.to - sweep.from));
 }
 
-/// Cuts a sweep in voxel coordinates down to the part near which a grid of `size` voxels has any; false where
+/// Cuts a sweep in voxel coordinates down to the part near which a grid of `size` voxels has any; false if
 /// there is none. Real-time safe.
 bool cut_to_grid(Sweep& sweep, const glm::ivec3& size) noexcept;
 

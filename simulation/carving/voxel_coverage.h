@@ -34,7 +34,8 @@ inline constexpr double smoothed_mean_over = 0.70710678118654752;
 inline constexpr double smoothed_ramp_half = 0.5 + 0.5 * smoothed_mean_over;
 }  // namespace detail
 
-/// What the ramp is the mean over, voxels: 0 for linear coverage, and for binary, which has none.
+/// The length over which the ramp is averaged, voxels: 0 for linear coverage, and for binary, which has no
+/// ramp.
 constexpr double smoothing_voxels(VoxelCoverage coverage) {
     return coverage == VoxelCoverage::smoothed ? detail::smoothed_mean_over : 0.0;
 }
@@ -77,7 +78,7 @@ inline std::int32_t level_left_at(VoxelCoverage coverage, double beyond) {
     return level_left_at<VoxelCoverage::binary>(beyond);
 }
 
-/// A short sweep, seen from a voxel nearby; what the inner loop needs of it.
+/// A short sweep, seen from a voxel nearby, reduced to the values that the inner loop needs.
 struct SweepSeenFrom {
     /// `sweep` in voxel coordinates. `base` is a whole number of voxels, so nothing is rounded.
     SweepSeenFrom(const Sweep& sweep, const glm::dvec3& base, VoxelCoverage voxel_coverage);

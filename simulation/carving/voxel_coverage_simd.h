@@ -37,7 +37,7 @@ struct SimdSweep {
     float margin;  // voxels
 };
 
-/// What is left, 0 to 255, where single precision knows it.
+/// The fractions left, 0 to 255, where single precision is enough.
 struct EightLevelsLeft {
     simd::Ints left;
     simd::Ints is_unsure;  ///< -1 where double precision must be asked, else 0
@@ -60,7 +60,7 @@ struct EightLevelsLeft {
     return simd::square_root(dx * dx + dy * dy + dz * dz);
 }
 
-/// What is left of such voxels, 0 to 255.
+/// The fractions left in such voxels, 0 to 255.
 template <VoxelCoverage coverage>
 [[gnu::always_inline]] inline EightLevelsLeft level_left(const SimdSweep& sweep,
                                                          const simd::Floats3& voxels) {

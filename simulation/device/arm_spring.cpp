@@ -14,7 +14,8 @@ constexpr std::array dampings_n_s_per_mm{0.004, 0.008, 0.012, 0.002, 0.001};
 /// Less more is not worth a stronger damper.
 constexpr double worth = 1.05;
 
-/// Of arm, spring, damper and filter over a tick: x, v, the last x, the filtered v, forces under way. SI.
+/// Whether arm, spring, damper and filter are stable from tick to tick. The state: x, v, the last x, the
+/// filtered v, forces under way. SI.
 bool holds(double mass_kg, double stiffness_n_per_m, double damping_n_s_per_m, int ticks_late) {
     constexpr double t = ArmSpring::tick_s;
     constexpr double share = t / (ArmSpring::hand_filter_s + t);

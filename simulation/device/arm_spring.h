@@ -26,7 +26,7 @@ namespace osteomill {
 /// spring helps: osteomill_study bridge.
 inline constexpr double longest_delay_s = 0.003;
 
-/// Of an arm, in device space.
+/// An arm's figures, in device space.
 struct ArmFigures {
     double claimed_n_per_mm = 1.5;
     double mass_kg = 0.045;

@@ -9,12 +9,12 @@ namespace osteomill {
 /// In the device's millimetres.
 struct DeviceLimits {
     double max_force_n = 3.3;
-    double max_stiffness_n_per_mm = 1.5;  ///< of a spring that it renders stably
+    double max_stiffness_n_per_mm = 1.5;  ///< stiffest spring that it renders stably
     double apparent_mass_kg = 0.045;
-    double position_resolution_mm = 0.0;       ///< step of a position reading; 0: none to speak of
-    double damping_n_s_per_mm = 0.004;         ///< of the damper beside that spring
+    double position_resolution_mm = 0.0;       ///< step of a position reading; 0: negligible
+    double damping_n_s_per_mm = 0.004;         ///< the damper beside that spring
     const char* stiffness_is_limited_by = "";  ///< for people
-    bool gives_force = true;  ///< false: what is written is shown to people, and felt by nobody
+    bool gives_force = true;                   ///< false: forces are shown to people, and felt by nobody
 };
 
 /// The same in the patient's millimetres, in which couplings reckon.

@@ -14,7 +14,7 @@ class FadingForce {
     /// The promise is 50 ms; a fade shorter than this is felt as a knock.
     static constexpr double fade_s = 0.03;
 
-    /// The force to send at `now_s` (any clock that never decreases): `wanted_n` where there is one, or the
+    /// The force to send at `now_s` (any clock that never decreases): `wanted_n` if there is one, or the
     /// rest of the one before. Real-time safe.
     glm::dvec3 next(const std::optional<glm::dvec3>& wanted_n, double now_s) noexcept {
         if (wanted_n) {
@@ -25,7 +25,7 @@ class FadingForce {
         return sent_n_ = last_n_ * std::clamp(1.0 - (now_s - *ended_s_) / fade_s, 0.0, 1.0);
     }
 
-    /// What was sent last is more than nothing.
+    /// Whether the last sent force is not zero.
     bool is_felt() const { return sent_n_ != glm::dvec3(0.0); }
 
   private:

@@ -21,14 +21,14 @@ class Permission {
     /// Not given yet; lasts for `lasts_s` (session time) after each renewal.
     explicit constexpr Permission(double lasts_s = by_message_s) : lasts_s_(lasts_s) {}
 
-    /// What was said at `said_s` (session time): when it was said, not when it is read. These are real-time
-    /// safe.
+    /// The permission as given at `said_s` (session time): the time of giving, not of reading. These are
+    /// real-time safe.
     void renew(double said_s) noexcept {
         is_given_ = true;
         renewed_s_ = said_s;
     }
     void withdraw() noexcept { is_given_ = false; }
-    /// Also false where the time is no number.
+    /// Also false if the time is no number.
     bool holds(double now_s) const noexcept { return is_given_ && now_s - renewed_s_ <= lasts_s_; }
     double renewed_s() const noexcept { return renewed_s_; }
 

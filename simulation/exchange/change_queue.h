@@ -20,7 +20,7 @@ namespace osteomill {
 /// lost: the brick is remembered and sent whole, as it then is, by resend_overflowed(). Each overflow is
 /// counted.
 class ChangeQueue final : public ChangeSink {
-    /// What a change in the ring begins with.
+    /// The head of a change in the ring.
     struct Head {
         BrickIndex brick = 0;
         std::uint16_t fractions = 0;  ///< how many follow, after the words
@@ -29,7 +29,7 @@ class ChangeQueue final : public ChangeSink {
     };
 
   public:
-    /// What the change of a whole brick takes.
+    /// The size of a whole brick's change.
     static constexpr std::size_t largest_change_bytes =
         sizeof(Head) + brick_voxel_count / 8 + brick_voxel_count;
 

@@ -13,13 +13,13 @@
 
 namespace osteomill {
 
-/// Where the burr is to go during a step. It moves there on a straight line from where the last step left it.
+/// The burr's target for a step. It moves there on a straight line from where the last step left it.
 struct BurrCommand {
-    std::uint64_t tick = 0;  ///< that gave it, counted from 0
+    std::uint64_t tick = 0;  ///< the tick that gave it, counted from 0
     ToolPose pose;           ///< at the end of the step, patient LPS; the axis is a unit vector
     bool spindle_on = false;
     std::size_t burr = 0;          ///< index into the scene's set
-    double speed_share = 1.0;      ///< of the spindle's speed to the burr's own, positive
+    double speed_share = 1.0;      ///< the spindle's speed relative to the burr's own, positive
     double elapsed_s = 0.0;        ///< duration of the step, positive
     bool wants_engagement = true;  ///< false: the result's engagement will not be used, save its time
     /// The burr that shall be put in this one's place; nothing: none.
@@ -52,7 +52,7 @@ struct MillingResult {
     std::optional<std::size_t> wanted_burr{};  ///< the command's
     Engagement engagement;                     ///< the bone around the burr after the step
     std::array<StepRun, newest_step_runs>
-        newest_runs{};  ///< of steps, with this one's last; those of none first
+        newest_runs{};  ///< runs of steps, this one's last; empty runs first
 };
 
 }  // namespace osteomill

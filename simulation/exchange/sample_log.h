@@ -16,9 +16,9 @@ class SampleLog {
 
     // From one other thread.
 
-    /// Hands on what was pushed, where that does not make it wait.
+    /// Hands on what was pushed, if that does not make it wait.
     virtual void drain() = 0;
-    /// Likewise, however long it takes: for sessions that run on a clock of their own.
+    /// Drains however long it takes: for sessions that run on a clock of their own.
     virtual void drain_all() = 0;
 };
 

@@ -36,10 +36,10 @@ struct SessionExchange {
     TripleBuffer<BurrCommand> commands;   ///< haptic to milling
 
     // To streaming.
-    ChangeQueue changes;           ///< of milling, in order
-    TripleBuffer<ToolState> tool;  ///< of haptic
+    ChangeQueue changes;           ///< by milling, in order
+    TripleBuffer<ToolState> tool;  ///< by the haptic loop
     TripleBuffer<std::optional<CutState>>
-        cuts;  ///< of milling, for sound; empty without a consumer of the changes
+        cuts;  ///< by milling, for sound; empty without a consumer of the changes
 
     // From streaming. `gate` goes both ways.
     SessionGate gate;

@@ -32,7 +32,7 @@ class StillnessRequest {
     static bool is_on(std::uint64_t turns) noexcept { return turns % 2 == 1; }
 
     std::atomic<std::uint64_t> turns_{0};  // on and off
-    std::uint64_t seen_ = 0;               // of the reader
+    std::uint64_t seen_ = 0;               // the reader's
 };
 
 struct SessionGate {

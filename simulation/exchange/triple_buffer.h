@@ -13,7 +13,7 @@ template <typename T>
 class TripleBuffer {
   public:
     TripleBuffer() = default;
-    /// What the reader finds before anything is published; back() holds the same.
+    /// `first`: the value that the reader finds before anything is published; back() holds the same.
     explicit TripleBuffer(const T& first) : values_{first, first, first} {}
 
     /// Writer only. The value to fill; it holds what was written there three publications ago.

@@ -11,7 +11,7 @@
 
 namespace osteomill {
 
-/// What a wanted change waits for; none where none is wanted.
+/// The condition that a wanted change waits for; none if no change is wanted.
 enum class BurrChange : std::uint8_t { none, spindle, bone };
 
 /// One line for people; empty for BurrChange::none.
@@ -39,7 +39,7 @@ class BurrChanger {
 
     /// The one in the tool.
     std::size_t burr() const { return burr_; }
-    /// For the milling loop to look at; nothing while no change is wanted.
+    /// The wanted change, for the milling loop to examine; nothing while none is wanted.
     std::optional<std::size_t> wanted() const {
         return wanted_ == burr_ ? std::nullopt : std::optional(wanted_);
     }

@@ -1,4 +1,4 @@
-// Balls about the spindle that together hold a burr's head and its shank: where no bone lies in them, the
+// Balls about the spindle that together hold a burr's head and its shank: if no bone lies in them, the
 // burr may stand.
 #pragma once
 
@@ -13,8 +13,8 @@ struct HullBall {
     double radius_mm = 0.0;
 };
 
-/// The ball itself for a ball without a shank. Of anything else the balls stand out by up to an eighth of its
-/// width. Allocates.
+/// The ball itself for a ball without a shank. For anything else, the balls protrude by up to an eighth of
+/// its width. Allocates.
 std::vector<HullBall> burr_hull(const Burr& burr);
 
 }  // namespace osteomill

@@ -30,7 +30,7 @@ double RealClock::now_s() const noexcept {
         latest_s_.store(now_s, std::memory_order_relaxed);
         return now_s;
     }
-    // Of two threads that find it so one moves the beginning.
+    // If two threads find it so, only one moves the beginning.
     if (latest_s - now_s > least_step_back_s)
         began_s_.compare_exchange_strong(began_s, began_s - (latest_s - now_s), std::memory_order_relaxed);
     return latest_s;
@@ -42,8 +42,8 @@ void RealClock::sleep_until(double time_s) noexcept {
         const double wake_s = seconds_of(CLOCK_MONOTONIC) + left_s;
         const double whole_s = std::floor(wake_s);
         const timespec wake{static_cast<time_t>(whole_s), static_cast<long>(1e9 * (wake_s - whole_s))};
-        // Interrupted by a signal it sleeps on: a request to stop goes to the loop, not to its clock. Where
-        // it cannot sleep, it spins.
+        // Interrupted by a signal it sleeps on: a request to stop goes to the loop, not to its clock. If it
+        // cannot sleep, it spins.
         while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) {
         }
     }

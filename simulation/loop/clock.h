@@ -19,7 +19,7 @@ class Clock {
 /// absolute time and spins the last stretch, which the kernel's wake-up would otherwise overshoot. Any
 /// thread.
 ///
-/// Time never goes back. Where the system's clock is set back (a program that was moved to another machine, a
+/// Time never goes back. If the system's clock is set back (a program that was moved to another machine, a
 /// clock that somebody forges), it goes on from the latest time that was read: otherwise a loop would wait
 /// until that time came again.
 class RealClock final : public Clock {

@@ -8,8 +8,8 @@
 //
 //     c = 2 sum_p f_p cos(N psi_p),    s = 2 sum_p f_p sin(N psi_p),    amplitude^2 = |c|^2 + |s|^2
 //
-// and the torque on the spindle is sum_p r_p f_p . e_psi, r_p the patch's distance from the axis. Of a head
-// that is no ball r_p is taken as on a ball of its diameter: it is for the ear.
+// and the torque on the spindle is sum_p r_p f_p . e_psi, r_p the patch's distance from the axis. For a head
+// that is no ball, r_p is that of a ball of its diameter, which is good enough for the ear.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -39,7 +39,7 @@ class CutReport {
     /// Whether a report's period is over.
     bool is_due() const noexcept;
     /// The cut of the period that ends with `latest`, in which the spindle turned at `speed_share` of the
-    /// burr's speed; nothing where nothing was cut. The next period begins.
+    /// burr's speed; nothing if nothing was cut. The next period begins.
     std::optional<CutState> take(const MillingResult& latest, double speed_share) noexcept;
 
   private:
@@ -48,8 +48,8 @@ class CutReport {
         glm::dvec3 cosine_n{0.0};
         glm::dvec3 sine_n{0.0};
         double torque_n_mm = 0.0;
-        double chips_n = 0.0;            // of magnitudes
-        double stiffness_chips_n = 0.0;  // of those times the patch's stiffness
+        double chips_n = 0.0;            // sum of magnitudes
+        double stiffness_chips_n = 0.0;  // sum of those times the patch's stiffness
 
         double ripple_n() const noexcept;
         double relative_stiffness() const noexcept;
@@ -64,7 +64,7 @@ class CutReport {
     double elapsed_s_ = 0.0;
     double impulse_n_s_ = 0.0;   // in the period
     double force_n_ = 0.0;       // as remembered
-    bool has_position_ = false;  // of the burr, at the end of the period before
+    bool has_position_ = false;  // the burr's, at the end of the last period
     glm::dvec3 position_mm_{0.0};
 };
 

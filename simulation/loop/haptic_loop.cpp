@@ -49,7 +49,7 @@ bool HapticLoop::place(const DeviceState& device) noexcept {
     parts_.placements->refresh();
     const Placement& wanted = parts_.placements->front();
     const bool is_done = wanted.number == parts_.gate->placed.load(std::memory_order_relaxed);
-    // Only where nobody feels anything: the force has faded out, and comes back when the burr is clear.
+    // Only if nobody feels anything: the force has faded out, and comes back when the burr is clear.
     if (is_done || safety_.state() != ForceGuard::State::off || !device.connected ||
         !is_finite(device.position_mm) || !is_finite(device.spindle_axis))
         return false;
@@ -172,7 +172,7 @@ std::uint64_t HapticLoop::note_steps(const MillingResult& latest) noexcept {
     while (left > 0 && first > 0) {
         StepRun run = latest.newest_runs[first - 1];
         if (run.count == 0) break;
-        // Of a run that was under way, the first step was seen before.
+        // A run that was under way began at a step that was seen before.
         if (run.count > left) run = {.command = run.command, .count = left};
         left -= run.count;
         seen[--first] = run;

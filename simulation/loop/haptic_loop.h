@@ -34,7 +34,7 @@
 
 namespace osteomill {
 
-/// What the haptic loop works with; all of it outlives the loop.
+/// The parts that the haptic loop works with; all of them outlive the loop.
 struct HapticLoopParts {
     HapticDevice& device;
     Coupling& coupling;
@@ -51,9 +51,9 @@ struct HapticLoopParts {
 struct HapticLoopOptions {
     double tick_s = 0.001;
     DeviceMapping mapping{};
-    std::size_t burr_count = 1;  ///< of the scene's set
+    std::size_t burr_count = 1;  ///< size of the scene's set
     std::size_t start_burr = 0;
-    std::vector<double> spindle_rev_per_s{};  ///< of each burr; empty: no other can be chosen
+    std::vector<double> spindle_rev_per_s{};  ///< each burr's; empty: no other speed can be chosen
     bool has_shank = false;                   ///< any burr of the set: its torque is reported
     double removed_before_mm3 = 0.0;  ///< by the sessions before: the reported volume continues from there
     /// What the hand did before the first tick.
@@ -118,7 +118,7 @@ class HapticLoop {
     BurrChanger burr_;
     SpindleSpeed speed_;
     bool spindle_turned_ = false;         // in the last tick
-    std::uint64_t restored_changes_ = 0;  // of the last result
+    std::uint64_t restored_changes_ = 0;  // the last result's
     double protected_until_s_ = 0.0;
 
     bool has_met_bone_ = false;
@@ -133,7 +133,7 @@ class HapticLoop {
     Fault fault_ = Fault::none;
     TickInput input_{};
     std::uint64_t steps_ = 0;      // that it was the first to see, as a number
-    std::uint64_t seen_step_ = 0;  // of the last result
+    std::uint64_t seen_step_ = 0;  // the last result's
     std::uint64_t ticks_ = 0;
 };
 

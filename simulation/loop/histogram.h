@@ -17,11 +17,11 @@ class Histogram {
     std::uint64_t count() const { return count_; }
     double max_s() const { return max_s_; }
     /// The duration that a share (0 to 1) of those added do not exceed: the upper edge of the bucket where
-    /// that is reached, never above the maximum. 0 where nothing was added.
+    /// that is reached, never above the maximum. 0 if nothing was added.
     double quantile_s(double share) const;
 
     struct Bucket {
-        double up_to_s = 0.0;  ///< upper edge; of the last, the maximum
+        double up_to_s = 0.0;  ///< upper edge; the last bin's is the maximum
         std::uint64_t count = 0;
     };
     /// Those that are not empty, ascending.

@@ -30,11 +30,11 @@ struct MillingLoopParts {
     TripleBuffer<MillingResult>& results;     ///< written
     ChangeQueue& changes;                     ///< written
     SampleLog<MillingSample>* log = nullptr;  ///< written; null: no log
-    std::span<const Burr> burrs{};            ///< of the scene: what may be put in the burr's place
+    std::span<const Burr> burrs{};            ///< the scene's set: burrs that may be put in the burr's place
     ChangeQueue* restored = nullptr;          ///< read: bone to be given back by undo; null: none ever is
     SessionGate* gate = nullptr;              ///< written, with `restored`
     TripleBuffer<std::optional<CutState>>* cuts = nullptr;  ///< written; null: no sound
-    std::optional<Motor> motor{};                           ///< of the scene, for `cuts`
+    std::optional<Motor> motor{};                           ///< the scene's, for `cuts`
 };
 
 class MillingLoop {
@@ -48,16 +48,16 @@ class MillingLoop {
     /// By all steps so far, less what was given back.
     double total_removed_mm3() const { return total_removed_mm3_; }
 
-    /// A tool that moves so fast that more room is needed is not looked at: it would take too long.
+    /// A tool so fast that it needs a larger margin is not examined: that would take too long.
     static constexpr double most_room_mm = 2.0;
     /// Bricks that are restored in a millisecond: a stroke of a hundred bricks is back within a frame of the
     /// picture, and they take a tenth of a step's time.
     static constexpr double restored_bricks_per_ms = 4.0;
 
   private:
-    /// Where the burr shall be at the end of this step.
+    /// The pose that the burr shall have at the end of this step.
     ToolPose pose_on_the_way(double elapsed_s) noexcept;
-    /// With the spindle off, what the queue of restored bone holds, as much as a step has time for.
+    /// With the spindle off, applies as much of the queue of restored bone as a step has time for.
     void restore(double elapsed_s) noexcept;
     /// MillingResult::room_for_change_mm. Looks beyond both burrs and their shanks by a voxel, and by twice
     /// what the tool went since the last result: when this one is read it will have moved on.

@@ -48,7 +48,7 @@ const MillingSessionOptions& validated(const MillingSessionOptions& options) {
     return options;
 }
 
-/// What is shown before the first tick.
+/// The tool as shown before the first tick.
 ToolState tool_at_start(const Scene& scene) {
     return {.burr_position_mm = scene.start_pose.position_mm,
             .spindle_axis = scene.start_pose.spindle_axis,
@@ -70,7 +70,7 @@ std::optional<HandpieceVibration> make_vibration(const Scene& scene, const Hapti
                                                   .scale = ArmScale(scene.device.scale)});
 }
 
-/// What a thread does before its loop, so that the loop finds all it needs.
+/// Prepares a thread for its loop, so that the loop finds all it needs.
 void prepare_thread(const std::optional<int>& cpu) noexcept {
     if (cpu) bind_to_cpu(*cpu);
     touch_stack();

@@ -45,9 +45,9 @@ struct MillingSessionOptions {
     std::string coupling = coupling_names().front();
     std::string force_model =
         force_model_names().front();  ///< one without a cutting law: not with "implicit"
-    bool vibration = false;           ///< of the handpiece; only with a cutting law
+    bool vibration = false;           ///< the handpiece vibrates; only with a cutting law
     double duration_s = std::numeric_limits<double>::infinity();
-    /// The reported removed volume continues from here: of a bone that was carved before.
+    /// The removed volume of a bone that was carved before: the report continues from it.
     RemovedByTissue removed_before_mm3{};
     /// Somebody may pause it, and undo what was milled: see SessionExchange.
     bool can_be_controlled = false;
@@ -69,7 +69,7 @@ struct MillingSessionReport {
     RemovedByTissue removed_before_mm3{};  ///< as the options say
     double peak_force_n = 0.0;
     double most_energy_to_hand_mj = 0.0;  ///< net energy that the force gave the hand, the most that it was
-    SolveCounts solve;                    ///< of a coupling that solves
+    SolveCounts solve;                    ///< for a coupling that solves
     std::array<std::uint64_t, HapticLoop::fault_kinds> fault_counts{};  ///< index = Fault
     std::uint64_t change_overflows = 0;
     std::uint64_t bone_checksum = 0;
@@ -94,8 +94,8 @@ class MillingSession {
     /// For the streaming server and others that follow or control the session.
     SessionExchange& exchange() { return exchange_; }
 
-    /// Called on the caller's thread: about every 20 ms, on the virtual clock every 33 ms of the session,
-    /// where it may consume the changes.
+    /// Called on the caller's thread: about every 20 ms, on the virtual clock every 33 ms of the session, if
+    /// it may consume the changes.
     using OnProgress = std::function<void(const ToolState&)>;
 
     /// Starts the device, runs until the duration has passed or `stop` is set, stops the device. Throws what
@@ -107,7 +107,7 @@ class MillingSession {
 
     /// Throws what device.start() throws.
     void start();
-    /// Makes so many ticks, fewer where the duration is over or `stop` is set; returns how many.
+    /// Makes so many ticks, fewer if the duration is over or `stop` is set; returns how many.
     std::uint64_t advance(std::uint64_t ticks, const OnProgress& on_progress = {},
                           const std::atomic<bool>* stop = nullptr);
     // Or as recorded of a session on the real clock; with repeats_real_clock, after start().
@@ -143,7 +143,7 @@ class MillingSession {
     const MillingResult& known_result() const { return exchange_.results.front(); }
 
   private:
-    /// What the system gave the thread of a loop, on the real clock.
+    /// The rights that the system gave a loop's thread, on the real clock.
     struct LoopThread {
         bool has_real_time_priority = false;
         std::uint64_t page_faults = 0;
@@ -171,7 +171,7 @@ class MillingSession {
     MillingLoop milling_loop_;
     PeriodicLoop haptic_ticks_;
     PeriodicLoop milling_steps_;
-    double now_s_ = 0.0;       // of the last haptic tick
+    double now_s_ = 0.0;       // the last haptic tick's
     std::uint64_t ticks_ = 0;  // on the virtual clock
     bool is_memory_locked_ = false;
     LoopThread haptic_thread_;

@@ -15,13 +15,13 @@ struct PeriodicStatistics {
     std::uint64_t missed = 0;  ///< deadlines that had passed when the next tick's wake-up came
     std::uint64_t late = 0;    ///< ticks whose work was done a period or more after their deadline
     Histogram wakeup_latency;  ///< from the deadline to the start of the work
-    Histogram duration;        ///< of the work
+    Histogram duration;        ///< the work's
 };
 
 /// One thread. Ticks are real-time safe if the clock and the work are.
 class PeriodicLoop {
   public:
-    /// What a tick does. `time_s` is the time that the schedule gives, not the one at which the thread woke.
+    /// A tick's work. `time_s` is the time that the schedule gives, not the one at which the thread woke.
     using Work = std::function<void(double time_s, std::uint64_t missed_periods)>;
 
     /// Ticks are due at first_s, first_s + period_s, ...

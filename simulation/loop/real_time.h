@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-/// What this process may ask for.
+/// The rights that this process may request.
 struct RealTimeRights {
     bool priority = false;  ///< SCHED_FIFO: CAP_SYS_NICE, or a limit on rtprio
     bool memory = false;    ///< locking all memory: CAP_IPC_LOCK, or no limit on memlock
@@ -15,7 +15,7 @@ struct RealTimeRights {
 
 RealTimeRights real_time_rights() noexcept;
 
-/// One line that says what is missing, what that means and what to run; empty where nothing is. `program` is
+/// One line that says what is missing, what that means and what to run; empty if nothing is. `program` is
 /// the file that was started.
 std::string advice_on_rights(const RealTimeRights& rights, const std::string& program);
 

@@ -1,5 +1,5 @@
-// The spindle's speed beside the burr's own: what was chosen, reached as a motor reaches it. A speed that
-// fell at once would make every chip thicker at once, and the hand would feel a knock.
+// The spindle's speed, if it is not the burr's own: the chosen speed, approached as a motor does. A speed
+// that fell at once would make every chip thicker at once, and the hand would feel a knock.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ class SpindleSpeed {
     /// A motor that runs changes its speed by a factor of e in so long.
     static constexpr double change_s = 0.1;
 
-    /// `own_rev_per_s`: of each burr of the scene, positive; empty: no speed can be chosen.
+    /// `own_rev_per_s`: the speed of each burr of the scene, positive; empty: no speed can be chosen.
     explicit SpindleSpeed(std::vector<double> own_rev_per_s) : own_rev_per_s_(std::move(own_rev_per_s)) {}
 
     /// Once a tick: how fast `burr` turns, as a share of its own speed. `chosen_rev_per_s`: 0 for its own. A
@@ -28,7 +28,7 @@ class SpindleSpeed {
         return share_;
     }
 
-    /// Of a burr's own speed, rev/s.
+    /// The burr's own speed, rev/s.
     double own_rev_per_s(std::size_t burr) const noexcept { return own_rev_per_s_[burr]; }
 
   private:

@@ -3,8 +3,8 @@
 
 namespace osteomill {
 
-/// Priorities under SCHED_FIFO, 1 to 99: above ordinary threads, below the kernel's own (50). What
-/// others wait for comes first.
+/// Priorities under SCHED_FIFO, 1 to 99: above ordinary threads, below the kernel's own (50). Threads that
+/// others wait for come first.
 inline constexpr int device_priority = 45;  ///< talks to a device; mostly waits
 inline constexpr int haptic_priority = 40;
 inline constexpr int milling_priority = 30;

@@ -56,7 +56,7 @@ class EnergyMeter {
         }
     }
 
-    std::array<Tick, 100> ticks_{};  // of a millisecond each: the window
+    std::array<Tick, 100> ticks_{};  // a millisecond each: the window
     std::size_t next_ = 0;
     glm::dvec3 position_mm_{0.0};
     bool has_position_ = false;

@@ -11,7 +11,7 @@ namespace osteomill {
 class FaultSet {
   public:
     constexpr FaultSet() = default;
-    /// Of one fault; of none for Fault::none. Implicit: a fault is a set of one.
+    /// The set of one fault; empty for Fault::none. Implicit: a fault is a set of one.
     constexpr FaultSet(Fault fault) noexcept : bits_(bit_of(fault)) {}
 
     constexpr void add(Fault fault) noexcept { bits_ = static_cast<Bits>(bits_ | bit_of(fault)); }

@@ -36,7 +36,7 @@ glm::dvec3 ForceGuard::tick(const glm::dvec3& wanted_n, Fault fault, double tick
         fault_ = fault;
     }
 
-    in_state_s_ += tick_s;  // of no interest to `active`, which lasts
+    in_state_s_ += tick_s;  // `active`, which lasts, does not use it
     switch (state_) {
         case State::active:
             force_n_ = approach(wanted_n, tick_s);

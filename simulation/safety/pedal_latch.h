@@ -19,7 +19,7 @@
 
 namespace osteomill {
 
-/// A statement, looked at by the loop.
+/// A statement, as the loop reads it.
 enum class PedalSeen : std::uint8_t {
     lapsed,
     up,

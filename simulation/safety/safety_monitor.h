@@ -34,7 +34,7 @@
 // earlier fault.
 //
 // The spindle turns while the pedal is down, its latch (pedal_latch.h) is free and the tool touches bone.
-// Beside the reasons in pedal_latch.h, it is locked where the force goes off, for whatever reason: a spindle
+// Beside the reasons in pedal_latch.h, it is locked if the force goes off, for whatever reason: a spindle
 // that stopped starts again by a fresh press alone. And it is locked for as long as a fault lasts that
 // withdraws_pedal() (fault.h), whatever else is wrong in the same tick.
 //
@@ -64,7 +64,7 @@ class SafetyMonitor {
     void observe(const Observation& seen) noexcept {
         begin(watchdog_.check(seen), pedal_date_.look(seen.device.pedal, seen.now_s), seen.clearance);
     }
-    /// What observe() saw of the pedal.
+    /// The pedal as observe() saw it.
     PedalSeen pedal_seen() const { return pedal_date_.seen(); }
 
     /// Begins a tick with given findings, for callers with checks of their own. `pedal` counts only if the

@@ -12,16 +12,16 @@ namespace osteomill {
 /// Whether bone reaches into the burr.
 enum class Clearance : std::uint8_t { clear, in_bone, unknown };
 
-/// What the haptic loop knows at a tick.
+/// The facts that the haptic loop knows at a tick.
 struct Observation {
     double now_s = 0.0;                      ///< session time
     DeviceState device;                      ///< as just read
-    std::uint64_t model_step = 0;            ///< of the newest milling result; 0: none yet
+    std::uint64_t model_step = 0;            ///< the newest milling result's; 0: none yet
     bool model_valid = true;                 ///< that result is one
     std::uint64_t missed_periods = 0;        ///< haptic deadlines that passed unserved just before this tick
     double energy_to_hand_mj = 0.0;          ///< net, lately (energy_meter.h)
     bool holds_still = false;                ///< the session is paused, bone restored or the tool placed
-    Clearance clearance = Clearance::clear;  ///< of the burr, were it where the hand is
+    Clearance clearance = Clearance::clear;  ///< the burr's, were it where the hand is
 };
 
 /// Bone is not its business: that is no fault by itself, see safety_monitor.h.

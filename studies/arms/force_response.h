@@ -9,8 +9,8 @@ namespace osteomill::study {
 
 struct ForceResponse {
     std::complex<double>
-        response{};                ///< of the force on the hand to that on the rigid burr, at the frequency
-    double rigid_n_s_per_m = 0.0;  ///< of the rigid burr's force to the hand's velocity
+        response{};                ///< force on the hand relative to that on the rigid burr, at the frequency
+    double rigid_n_s_per_m = 0.0;  ///< the rigid burr's force per velocity of the hand
 };
 
 /// Milling at 1 kHz. Throws std::invalid_argument for an unknown coupling, a stiffness that is not above 0,

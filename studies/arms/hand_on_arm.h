@@ -1,5 +1,6 @@
-// A simulated hand of any strength on an arm of any make mills a scene, by the scene's own trajectory: what
-// the arm does to the force on the hand. The program's own loops and coupling, on the virtual clock.
+// A simulated hand of any strength on an arm of any make mills a scene, by the scene's own trajectory, to
+// show the arm's effect on the force on the hand. The program's own loops and coupling run on the virtual
+// clock.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -21,7 +22,7 @@ struct HandOnArm {
     std::string coupling = "implicit";
     std::string force_model = "milling";
     double milling_rate_hz = 1000.0;
-    /// Of the coupling's spring, in place of what the arm gets.
+    /// The stiffness of the coupling's spring, in place of the one that the arm gets.
     std::optional<double> stiffness_n_per_mm{};
     double longest_s = 60.0;
 };
@@ -31,7 +32,7 @@ struct HandOnArm {
 std::vector<glm::dvec3> forces_of(const Scene& scene, const Bone& bone, const HandOnArm& choice);
 
 /// Simulated arms with the mass, encoder and claim of each that is shipped; friction as the simulated arm's
-/// where it is not known.
+/// if it is not known.
 std::vector<std::pair<std::string, ArmModel>> shipped_arms();
 
 }  // namespace osteomill::study

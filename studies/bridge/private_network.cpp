@@ -45,7 +45,7 @@ PrivateNetwork::Namespace::Namespace(const std::string& of_what) : name_(unique_
     try {
         run("ip netns add " + name_);
     } catch (const std::runtime_error&) {
-        // Where it may not be mounted, its place is there already.
+        // If it may not be mounted, its place exists already.
         succeeds("ip netns del " + name_);
         throw;
     }

@@ -9,7 +9,7 @@ class PrivateNetwork {
   public:
     static constexpr const char* server_address = "10.213.77.1";
 
-    /// Why there can be none on this machine; empty where there can.
+    /// Why there can be none on this machine; empty if there can.
     static std::string why_not();
 
     /// Throws std::runtime_error with the command that failed.
@@ -35,7 +35,7 @@ class PrivateNetwork {
     const std::string& client() const { return client_.name(); }
 
   private:
-    /// Is gone with this, also where what comes after cannot be had.
+    /// Is gone with this, also if what comes after cannot be had.
     class Namespace {
       public:
         explicit Namespace(const std::string& of_what);

@@ -101,7 +101,7 @@ void open_or_throw(omb_link& link, const BridgeAddress& where) {
     if (omb_open(&link, to_text(where).c_str(), nullptr, &arm) != 0) throw std::runtime_error(link.error);
 }
 
-/// A pose, and the wait for its answer. Nothing where none comes.
+/// A pose, and the wait for its answer. Nothing if none comes.
 std::optional<double> bridge_trip_us(omb_link& link) {
     omb_pose pose{};
     pose.status = OMB_READY;

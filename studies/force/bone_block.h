@@ -31,7 +31,7 @@ struct BoneBlock {
 Bone voxelised(const BoneBlock& block, double spacing_mm);
 
 /// A solid cube whose top face lies at z = 0, its middle below the origin; within a box of `box_voxels` an
-/// edge, or its own where that is 0. Edges are multiples of 16 voxels, or std::invalid_argument is thrown.
+/// edge, or its own if that is 0. Edges are multiples of 16 voxels, or std::invalid_argument is thrown.
 Bone cube_of_bone(int edge_voxels, double spacing_mm, int box_voxels = 0);
 
 }  // namespace osteomill::study

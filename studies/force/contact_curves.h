@@ -1,4 +1,4 @@
-// The older contact models: what each feels of a burr that rests in flat bone.
+// The older contact models: the force of each on a burr that rests in flat bone.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace osteomill::study {
 
-/// Of force_models.h, those that know no cutting law.
+/// The models of force_models.h that know no cutting law.
 std::vector<std::string> contact_models();
 
 /// Length of the force that a model feels of an upright 5 mm burr, spindle off, over 0.1 mm voxels, N.

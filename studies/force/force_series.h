@@ -18,11 +18,11 @@ struct ForceSeries {
 glm::dvec3 mean_force_n(const ForceSeries& series);
 double removal_mm3_per_s(const ForceSeries& series);
 
-/// |value - reference| / |reference|; infinite where only the reference is zero, 0 where both are.
+/// |value - reference| / |reference|; infinite if only the reference is zero, 0 if both are.
 double relative_error(const glm::dvec3& value, const glm::dvec3& reference);
 
-/// |F - mean| over |mean|, F being the mean force of each whole `window_s` (of each step where a step is
-/// longer): what a hand that follows no faster than that feels. None for a mean of zero.
+/// |F - mean| over |mean|, F being the mean force of each whole `window_s` (of each step if a step is
+/// longer): the variation for a hand that follows no faster than that. None for a mean of zero.
 std::vector<double> deviations(const ForceSeries& series, double window_s = 0.01);
 
 /// Their root mean square; 0 for none.

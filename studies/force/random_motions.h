@@ -16,8 +16,8 @@ namespace osteomill::study {
 struct RandomMotion {
     SteadyCase motion{};
     SteadyRun run{};
-    double tilt_deg = 0.0;     ///< of the spindle from the surface's normal
-    double azimuth_deg = 0.0;  ///< of that tilt, from the feed
+    double tilt_deg = 0.0;     ///< the spindle's, from the surface's normal
+    double azimuth_deg = 0.0;  ///< that tilt's, from the feed
     bool dives = false;
 };
 

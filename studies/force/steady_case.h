@@ -21,11 +21,11 @@ struct SteadyCase {
     glm::dvec3 velocity_mm_per_s{0.0};
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit, tip to shank
     glm::dvec3 up{0.0, 0.0, 1.0};            ///< unit, out of the bone; +z in a case file
-    double depth_mm = 0.0;                   ///< of the burr's lowest point
+    double depth_mm = 0.0;                   ///< the burr's lowest point's
     /// The same burr cut a groove along the velocity before, that much higher.
     std::optional<double> previous_groove_mm_higher{};
-    glm::dvec3 mean_force_n{0.0};    ///< of the case file
-    double removal_mm3_per_s = 0.0;  ///< of the case file
+    glm::dvec3 mean_force_n{0.0};    ///< from the case file
+    double removal_mm3_per_s = 0.0;  ///< from the case file
 };
 
 /// Prints the name, for test reports.
@@ -34,7 +34,7 @@ std::ostream& operator<<(std::ostream& out, const SteadyCase& c);
 /// How high the burr's origin stands above its lowest point, along `up`: a ball's radius.
 double above_lowest_mm(const SteadyCase& c);
 
-/// Where the burr is when the depth is that of the case.
+/// The steady motion, with the burr at the case's depth.
 SteadyMotion motion_of(const SteadyCase& c);
 
 /// The bone that the motion meets, as the analytical reference wants it.

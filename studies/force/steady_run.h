@@ -27,9 +27,9 @@ struct SteadyPath {
 };
 SteadyPath path_of(const SteadyCase& c, const SteadyRun& run);
 
-/// Cuts the groove of an earlier pass where the case has one, puts the burr into the bone at the path's
-/// start, and moves it along the path in equal steps; the series holds these. Throws std::invalid_argument
-/// where voxels, rate or burr are none.
+/// Cuts the groove of an earlier pass if the case has one, puts the burr into the bone at the path's start,
+/// and moves it along the path in equal steps; the series holds these. Throws std::invalid_argument if
+/// voxels, rate or burr are none.
 ForceSeries run_steady(const SteadyCase& c, const SteadyRun& run, const MakeModel& make_model);
 
 }  // namespace osteomill::study

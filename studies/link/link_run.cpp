@@ -57,7 +57,7 @@ class Difference {
     std::size_t count_ = 0;
 };
 
-/// What `sweep` takes away from a bone, brick by brick.
+/// The voxels that a sweep removes from a bone, brick by brick.
 std::map<BrickIndex, VoxelMask> carved(Bone& bone, const glm::dvec3& from_mm, const glm::dvec3& to_mm,
                                        double radius_mm) {
     BricksCarved bricks;

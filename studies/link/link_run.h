@@ -1,9 +1,9 @@
-// A burr mills on one end of a link, a client keeps its copy of the bone on the other: what crosses the link,
-// how old what the client shows is, and in how many voxels its copy differs.
+// A run over a link: a burr mills at one end, a client keeps a copy of the bone at the other. It measures the
+// bytes on the link, the age of the client's picture, and the voxels in which the copy differs.
 //
-// What is sent and taken is the program's own (ClientFeed, FramePace, SessionReceiver), the link is
-// simulated: it takes so many bytes a second, and each byte arrives so much later. All is in steps of a tick
-// on a clock of its own, so the same choice gives the same outcome, but for `frame_us`.
+// Both ends are the program's own (ClientFeed, FramePace, SessionReceiver), the link is simulated: it carries
+// so many bytes a second, and each byte arrives so much later. All is in steps of a tick on a clock of its
+// own, so the same choice gives the same outcome, but for `frame_us`.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ struct LinkChoice {
 
 struct LinkOutcome {
     double bytes_per_s = 0.0;             ///< sent, over the path, without the snapshot before it
-    double most_bytes_in_a_second = 0.0;  ///< likewise
+    double most_bytes_in_a_second = 0.0;  ///< counted as bytes_per_s
     double delay_mean_ms = 0.0;           ///< age of what the client shows, over all ticks
     double delay_p99_ms = 0.0;
     double differing_voxels_mean = 0.0;  ///< between the two bones, over all ticks
@@ -43,8 +43,8 @@ struct LinkOutcome {
     double frame_us = 0.0;                  ///< to make a frame, median
 };
 
-/// `positions_mm` of the burr, each a tick after the one before; it mills all the way. `axis`: of its
-/// spindle, unit. Throws std::invalid_argument for a choice that is none and a burr that is no ball.
+/// `positions_mm`: the burr's, each a tick after the one before; it mills all the way. `axis`: the spindle's,
+/// unit. Throws std::invalid_argument for a choice that is none and a burr that is no ball.
 LinkOutcome run_link(const Bone& bone, const Burr& burr, const glm::dvec3& axis, double tick_s,
                      std::span<const glm::dvec3> positions_mm, const LinkChoice& choice);
 

@@ -1,6 +1,6 @@
 // The published polishing experiment as a scene, and one slide of it through the simulator itself: session,
-// loops, coupling and force guard as a user gets them, on the virtual clock. What is published of it and what
-// had to be chosen: python/osteomill/studies/polishing.py.
+// loops, coupling and force guard as a user gets them, on the virtual clock.
+// python/osteomill/studies/polishing.py lists the published facts and the values that had to be chosen.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class PolishingSlide {
     /// The scene "cube", its burr with these edges and this speed; the slide in strokes of that length.
     PolishingSlide(const glm::dvec3& edge_coefficients_n_per_mm, double spindle_rpm, double stroke_mm);
 
-    /// Where it begins, on the bone's surface.
+    /// The point at which it begins, on the bone's surface.
     const glm::dvec3& start_mm() const { return scene_.trajectory.start_mm; }
     double burr_radius_mm() const { return scene_.burrs.at(scene_.start_burr).radius_mm(); }
 
@@ -41,7 +41,7 @@ class PolishingSlide {
     glm::dvec3 meant_mm(double time_s) const { return meant_.at(time_s).target.position_mm; }
 
     /// The simulated hand slides; the session's log of forces is left in `log` (force_log.h). Throws
-    /// std::runtime_error where that cannot be written, std::invalid_argument for a set-up that the simulator
+    /// std::runtime_error if that cannot be written, std::invalid_argument for a set-up that the simulator
     /// refuses.
     SlideEnd run(const PolishingSetup& setup, const std::filesystem::path& log) const;
 

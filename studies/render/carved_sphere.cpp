@@ -44,7 +44,7 @@ double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::degrees(std::acos(std::min(1.0, glm::dot(a, b) / (glm::length(a) * glm::length(b)))));
 }
 
-/// Where a ray from the eye leaves the sphere, which is the wall of the hole.
+/// The point at which a ray from the eye leaves the sphere: the wall of the hole.
 glm::dvec3 wall_mm(const Camera& camera, const glm::dvec3& direction) {
     const glm::dvec3 from_centre = camera.eye_mm() - centre_mm;
     const double along = glm::dot(from_centre, direction);

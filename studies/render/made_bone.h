@@ -20,7 +20,7 @@ inline std::uint8_t fraction_of_depth(double depth_mm, double spacing_mm) {
     return static_cast<std::uint8_t>(std::clamp(255.0 * (0.5 + depth_mm / spacing_mm), 0.0, 255.0));
 }
 
-/// A bone labelled by `label`, or homogeneous without labels where it is empty.
+/// A bone labelled by `label`, or homogeneous without labels if it is empty.
 inline Bone made_bone(const Grid& grid, const Depth& depth, const Label& label = {}) {
     return filled(BoneBuilder::homogeneous(grid, 1.0, static_cast<bool>(label)), grid,
                   [&](const glm::ivec3& voxel) {

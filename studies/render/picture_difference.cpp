@@ -40,7 +40,7 @@ Plane product(const Plane& a, const Plane& b) {
     return plane;
 }
 
-/// The Gaussian window along one axis; what lies beyond the edge is left out and the rest weighs more.
+/// The Gaussian window along one axis; pixels beyond the edge are left out and the rest weigh more.
 Plane smoothed_along(const Plane& plane, const glm::ivec2& axis) {
     std::array<double, 2 * window_reach_px + 1> weights{};
     for (int i = -window_reach_px; i <= window_reach_px; ++i)

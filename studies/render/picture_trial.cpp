@@ -22,7 +22,7 @@ std::unique_ptr<BoneRenderer> renderer_of(const DrawingWay& way) {
                         .step_voxels = way.step_voxels});
 }
 
-/// Smoothed fractions are had only where all stays within half of the budget.
+/// Smoothed fractions are had only if all stays within half of the budget.
 std::unique_ptr<BoneTextures> textures_of(const Bone& bone, std::span<const TissueColour> tissues,
                                           const ShadingSettings& look, bool smoothed_normals) {
     auto textures = std::make_unique<BoneTextures>(bone, tissues, look);

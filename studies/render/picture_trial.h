@@ -1,5 +1,5 @@
-// A view of a bone in one look, drawn in any way of drawing: what a frame takes, and how far its picture is
-// from the reference image of the same look.
+// A view of a bone in one appearance, drawn in any way of drawing: the cost of a frame, and the picture's
+// distance from the reference image of the same appearance.
 #pragma once
 
 #include <memory>
@@ -18,18 +18,19 @@ namespace osteomill::study {
 
 /// Seen whole, from the front and above.
 Camera overview_of(const Bone& bone);
-/// What is in the middle of another view, so many mm round. Throws std::runtime_error where it shows no bone.
+/// A view of the middle of another view, with that radius in mm. Throws std::runtime_error if it shows no
+/// bone.
 Camera close_up_of(const Bone& bone, const Camera& view, double shown_radius_mm);
 
 /// A way to draw.
 struct DrawingWay {
     RendererChoice renderer = RendererChoice::raycast;
-    float step_voxels = RaycastSettings{}.step_voxels;  ///< of rays, or between slices
-    bool skips = true;                                  ///< of rays: empty space
+    float step_voxels = RaycastSettings{}.step_voxels;  ///< between a ray's samples, or between slices
+    bool skips = true;                                  ///< whether rays skip empty space
     int divisor = 1;  ///< width and height are divided by it and the picture is scaled up again
 };
 
-/// What it takes and what it gives.
+/// A way's cost and its picture.
 struct DrawnWay {
     Cost frame{};
     double psnr_db = 0.0;  ///< infinite for the reference itself
@@ -50,7 +51,7 @@ class PictureTrial {
 
     /// The median of so many frames; with 0 the first is what counts, for what takes seconds.
     DrawnWay draw(const DrawingWay& way, int times) const;
-    /// Whether normals are taken from smoothed fractions: not where they do not fit, nor of surface voxels.
+    /// Whether normals are taken from smoothed fractions: not if they do not fit, nor of surface voxels.
     bool has_smoothed_normals() const { return textures_->smoothed() != nullptr; }
     const std::string& gl_renderer() const { return gl_renderer_; }
 
@@ -62,8 +63,8 @@ class PictureTrial {
     std::unique_ptr<BoneTextures> textures_;
 };
 
-/// What a frame of an overview takes, without a picture to compare it with: the median of so many, with 0 the
-/// first. In a context of its own. Throws as the constructor of PictureTrial.
+/// The cost of a frame of an overview, without a picture to compare it with: the median of `times` frames,
+/// with 0 that of the first. In a context of its own. Throws as the constructor of PictureTrial.
 Cost frame_cost(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look,
                 const glm::ivec2& size_px, const DrawingWay& way, int times);
 

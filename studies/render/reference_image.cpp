@@ -16,7 +16,7 @@ namespace osteomill::study {
 
 namespace {
 
-// Of the model; as in bone_shading.glsl.
+// Constants of the model; the same as in bone_shading.glsl.
 constexpr double bone_surface = 0.5;
 constexpr glm::dvec3 light_within(0.50, 0.49, 0.48);
 constexpr double darkest_seen = 0.0005;

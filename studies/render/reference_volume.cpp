@@ -27,7 +27,7 @@ double weight_of(int corner, const glm::dvec3& part) {
     return share.x * share.y * share.z;
 }
 
-/// Where a point lies between voxel centres.
+/// A point's place between voxel centres.
 struct Place {
     explicit Place(const glm::dvec3& point)
         : low(glm::floor(point - 0.5)), part(point - 0.5 - glm::dvec3(low)) {}

@@ -15,7 +15,7 @@ namespace osteomill::study {
 
 /// Trilinear interpolation within one cell between eight voxel centres, kept while a ray stays in it.
 struct Cell {
-    glm::ivec3 low{std::numeric_limits<int>::min()};  ///< of its eight voxels, the first
+    glm::ivec3 low{std::numeric_limits<int>::min()};  ///< the first of its eight voxels
     std::array<double, 8> values{};                   ///< x fastest
     bool is_empty = true;
 };
@@ -40,7 +40,7 @@ class ReferenceVolume {
     glm::dvec3 eight_corner_gradient_at(const glm::dvec3& point) const;
     /// Linear RGB and opacity, blended from the eight nearest voxels that are shown.
     glm::dvec4 look_at(const glm::dvec3& point) const;
-    /// Likewise of the 27 nearest, by the quadratic B-spline, or of tissues of the 4^3 nearest, more widely.
+    /// The same from the 27 nearest, by the quadratic B-spline, or, for tissues, from the 4^3 nearest.
     glm::dvec4 smooth_look_at(const glm::dvec3& point) const;
     glm::dvec4 look_under(const glm::dvec3& point, const glm::dvec3& normal) const;
     /// Display RGB times alpha, and alpha, of surface voxels.

@@ -8,7 +8,8 @@
 
 namespace osteomill::study {
 
-/// What a piece of work took: on the clock until OpenGL had finished it, and of all threads of this process.
+/// The cost of a piece of work: wall time until OpenGL had finished it, and the time of all threads of this
+/// process.
 struct Cost {
     double wall_ms = 0.0;
     double cpu_ms = 0.0;

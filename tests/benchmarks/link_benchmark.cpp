@@ -1,5 +1,5 @@
-// What the link costs, beside what it may cost: sizes, rates and the delay of a motion. Prints, and says
-// which target was missed; asserts nothing.
+// The link's costs beside their targets: sizes, rates and the delay of a motion. Prints, and says which
+// target was missed; asserts nothing.
 //
 // Snapshot: the tooth phantom's, 512 x 512 x 128 voxels, as a new client is sent it. Its raw size: that of
 // its voxels, a byte for each of fraction, stiffness and tissue.

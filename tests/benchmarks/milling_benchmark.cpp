@@ -1,4 +1,4 @@
-// What a milling step costs, beside the published full scan on the same bone in the same run.
+// The cost of a milling step, beside the published full scan on the same bone in the same run.
 //
 // Scene: 512 x 512 x 128 voxels of 0.1 mm, 5 mm burr, upright, feed 6 mm/s. Each iteration times one step of
 // the crescent, one with the engagement map that the default coupling needs, and one of the scan, which sums
@@ -6,9 +6,9 @@
 // microseconds; times_faster and map_times_faster are ratios of the medians.
 //
 // How many times faster the crescent can be is a matter of counts. The scan visits some 70 000 voxels a step,
-// at 5 to 8 ns each. Of them lose bone, in a step at 100 Hz and at 1 kHz: 690 and 540 (0.5 mm deep), 1430 and
-// 1140 (1 mm), 3790 and 3020 (half immersed): at 1 kHz half immersed one in 23, each in one of 1170 rows of
-// bricks that are to be reported.
+// at 5 to 8 ns each. The voxels that lose bone, in a step at 100 Hz and at 1 kHz, are 690 and 540 (0.5 mm
+// deep), 1430 and 1140 (1 mm), 3790 and 3020 (half immersed). At 1 kHz, half immersed, that is one in 23, in
+// 1170 rows of bricks that must be reported.
 //
 // There a step takes 30 us, 10 ns for such a voxel. 21 % of it are the force (two roots and a division for
 // eight voxels, which wait for each other), 20 % writing rows back and reporting them (55 instructions a
@@ -112,8 +112,8 @@ BENCHMARK(CrescentAgainstFullScan)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-/// A whole step as the implicit coupling wants it, with the engagement map. Argument: depth. edges_times:
-/// what the same step takes with edges that rub, beside one without.
+/// A whole step as the implicit coupling wants it, with the engagement map. Argument: depth. edges_times: the
+/// time of the same step with edges that rub, relative to one without.
 void StepWithEngagement(benchmark::State& state) {
     const auto make = study::voxel_model_with_engagement();
     const auto model = make(volume(), Burr{});
@@ -143,8 +143,8 @@ BENCHMARK(StepWithEngagement)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-/// What the shank adds to a step, by the map alone: a shank deep in bone, each of its samples in contact; one
-/// in a hole a tenth of a millimetre wider; one in the air above the bone. Argument: which.
+/// The time that the shank adds to a step, by the map alone: a shank deep in bone, each of its samples in
+/// contact; one in a hole a tenth of a millimetre wider; one in the air above the bone. Argument: which.
 void ShankMap(benchmark::State& state) {
     const double shank_radius_mm = 1.0;
     const double hole_radius_mm = state.range(0) == 0 ? 0.0 : 1.1;

@@ -1,4 +1,4 @@
-// What the picture costs, with panels and tool, on the tooth phantom (512 x 512 x 128 voxels) at 800 x 600.
+// The cost of the picture, with panels and tool, on the tooth phantom (512 x 512 x 128 voxels) at 800 x 600.
 //
 // Each iteration is one frame, finished as showing it would finish it. Counters: medians and 99th percentiles
 // of the wall-clock time, cpu_ms of all threads for a frame; nothing waits for a display.
@@ -92,8 +92,8 @@ void OrbitAtFullQuality(benchmark::State& state) {
 }
 BENCHMARK(OrbitAtFullQuality)->Iterations(20)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-/// The view turns at full quality, for two eyes: of half the pixels each, as side by side, or of all, as
-/// where there is a buffer for each eye.
+/// The view turns at full quality, for two eyes: each with half the pixels (side by side), or with all (a
+/// buffer for each eye).
 void OrbitInStereo(benchmark::State& state) {
     Client client(FrameQuality::full, static_cast<StereoLayout>(state.range(0)));
     for ([[maybe_unused]] auto _ : state) {
@@ -203,7 +203,7 @@ BENCHMARK(CarveInStereo)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
-/// Nothing moves but the tool's spin: what panels, tool and restoring cost.
+/// Nothing moves but the tool's spin: the cost of panels, tool and restoring.
 void IdleFrame(benchmark::State& state) {
     Client client(FrameQuality::on_demand);
     for ([[maybe_unused]] auto _ : state) {

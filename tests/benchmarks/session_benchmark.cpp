@@ -1,6 +1,6 @@
-// Sessions of the tooth on the virtual clock from C++, along a motion of a file: what python_benchmark.py
-// compares Python with. The file holds doubles, seven a millisecond: the hand's position (mm, LPS), the
-// spindle's axis, the pedal.
+// Sessions of the tooth on the virtual clock from C++, along a motion of a file; python_benchmark.py compares
+// Python with them. The file holds doubles, seven a millisecond: the hand's position (mm, LPS), the spindle's
+// axis, the pedal.
 //
 //     session_benchmark MOTION [REPEATS]      prints for each a line: ticks, CPU seconds to make it, CPU
 //     seconds of its ticks, checksum

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Of a command that is to be found in the PATH.
+/// The outcome of a command that is found in the PATH.
 Finished outcome_of(Command command, std::chrono::seconds deadline = far_too_long) {
     command.insert(command.begin(), "/usr/bin/env");
     return run_program(command, deadline);
@@ -54,7 +54,7 @@ class Containers final : public TwoMachines {
     Command run(Machine where, const std::string& program, const Command& arguments) const override {
         Command command{"/usr/bin/env", "docker",       "run",      "--rm",
                         "--name",       name_of(where), "--volume", folder_.string() + ":/out"};
-        // As docker/compose.yaml has them.
+        // The options of docker/compose.yaml.
         append(command, {"--cap-drop", "ALL", "--security-opt", "no-new-privileges", "--read-only", "--tmpfs",
                          "/tmp"});
         if (where == Machine::beside_server)

@@ -1,4 +1,4 @@
-// Two machines on a private network whose cable can be pulled: two containers or, where no engine runs, two
+// Two machines on a private network whose cable can be pulled: two containers or, if no engine runs, two
 // network namespaces.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace osteomill::testing {
 
 using Command = std::vector<std::string>;
 
-/// Where a program runs.
+/// The machine on which a program runs.
 enum class Machine {
     server,
     viewer,        ///< at the other end of the cable
@@ -22,13 +22,13 @@ class TwoMachines {
   public:
     virtual ~TwoMachines() = default;
 
-    /// For people: what they are.
+    /// A description of the machines, for people.
     virtual std::string kind() const = 0;
     /// The command that runs `program` (a file name) with `arguments` on a machine.
     virtual Command run(Machine where, const std::string& program, const Command& arguments) const = 0;
     /// The host of the server, as a program on that machine knows it.
     virtual std::string server_for(Machine where) const = 0;
-    /// Of the viewer's machine, as the server sees it.
+    /// The address of the viewer's machine, as the server sees it.
     virtual std::string viewer_address() const = 0;
     /// The folder that was given, as programs on the machines know it.
     virtual std::string folder() const = 0;

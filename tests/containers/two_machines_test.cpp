@@ -34,7 +34,7 @@ nlohmann::json json_of(const std::filesystem::path& file) {
     return nlohmann::json::parse(bytes_of(file));
 }
 
-/// Waits, reading what the server says, until `happened`; false where it is far too late.
+/// Waits, reading what the server says, until `happened`; false if it is far too late.
 template <typename Happened>
 bool comes_true(ChildProcess& server, Happened&& happened) {
     const auto deadline = std::chrono::steady_clock::now() + far_too_long;
@@ -126,7 +126,7 @@ class TwoMachinesTest : public ::testing::Test {
 TEST_F(TwoMachinesTest, EndWithTheSameBoneAndPictureThoughTheCableWasPulled) {
     constexpr auto longer_than_a_client_bears_silence = 6s;
     constexpr double is_drilling_mm3 = 0.02;
-    // Of 255: a few pixels by a shade. One brick that differs changes hundreds.
+    // A few pixels may differ by a shade of 255. One brick that differs changes hundreds.
     constexpr double largest_difference_of_pictures = 0.001;
     const double out_s = write_drilling(folder_ / "drilling.csv");
     ChildProcess server(

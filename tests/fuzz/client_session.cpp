@@ -14,15 +14,14 @@ namespace osteomill::fuzz {
 
 namespace {
 
-/// The client of a session, as far as it goes without a network: what ServerConnection and BoneLink do with a
-/// frame.
+/// The client of a session without the network: the work of ServerConnection and BoneLink on a frame.
 class Client {
   public:
     /// Nothing is to be expected behind an error.
     std::optional<WireError> take(Bytes message) {
         auto opened = open_frame(message);
         if (auto* frame = std::get_if<v2::ServerFrame>(&opened)) return take(std::move(*frame));
-        // The fuzzer cannot seal what it has changed: what comes of it would be tried by nobody.
+        // The fuzzer cannot seal a frame that it has changed, so nothing behind the seal would be tested.
         v2::ServerFrame unsealed;
         if (!parse_message(message, unsealed)) return std::get<WireError>(std::move(opened));
         return take(std::move(unsealed));

@@ -1,6 +1,6 @@
 // Segmentations that are well-formed DICOM and say what no segmentation should: sizes, frames, places,
-// segments and pixels are the input's. What is damaged as DICOM the target dicom_header looks after, and GDCM
-// is never given it.
+// segments and pixels are the input's. Damaged DICOM is the matter of the target dicom_header, and GDCM is
+// never given it.
 #include "imaging/dicom/dicom_segmentation.h"
 
 #include <sys/mman.h>

@@ -1,4 +1,4 @@
-// Seeds of the readers of image headers: what is sound, and what attacked them.
+// Seeds of the readers of image headers: sound files, and attacks.
 #pragma once
 
 #include <filesystem>

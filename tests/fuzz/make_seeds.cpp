@@ -78,7 +78,7 @@ std::string joined(const std::vector<std::string>& frames, std::size_t first = 0
     return stream;
 }
 
-/// As small_bone(), with all that a bone may have.
+/// A small bone with all channels that a bone may have.
 Bone varied_bone() {
     const Grid grid{.size_voxels = {20, 16, 16}, .spacing_mm = 0.2, .origin_mm = {1.0, -2.0, 3.0}};
     auto builder = BoneBuilder::heterogeneous(grid, 0.02, true);

@@ -1,5 +1,4 @@
-// Mutates the packets of a recording, and seals them again: an unsealed one is refused before it is looked
-// at.
+// Mutates the packets of a recording, and seals them again: an unsealed one is refused before it is read at.
 #include <cstring>
 
 #include "osteomill/v2/session.pb.h"

@@ -3,8 +3,8 @@
 #   tests/fuzz/run.sh SECONDS [TARGET...]     all of them, or some: frame_decoder server_session client_session recording scene
 #                                             haply_state nrrd_header meta_image_header nifti_header dicom_header
 #                                             dicom_segmentation
-# SECONDS are for each target. What is found lies in build/asan/fuzz/findings; give it to build/asan/bin/fuzz_TARGET to see it
-# again, and put it into tests/fuzz/seeds/TARGET once it is fixed.
+# SECONDS are for each target. Findings lie in build/asan/fuzz/findings; give one to build/asan/bin/fuzz_TARGET to see it again,
+# and put it into tests/fuzz/seeds/TARGET once it is fixed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 

@@ -117,7 +117,7 @@ void server_session(Bytes input) {
             require_possible(*output.front().command, info.burrs.size());
         require(!view || (is_finite(view->eye_mm) && view->field_of_view_rad > 0.0),
                 "somebody looks from where no number is");
-        // What the milling loop does meanwhile: the first brick goes, voxel by voxel.
+        // Meanwhile the milling loop removes the first brick, voxel by voxel.
         const std::size_t voxel = ++states % brick_voxel_count;
         carved.fractions(0)[voxel] = 0;
         require(mirror.apply({0, VoxelMask().set(voxel)}, carved.fractions(0)), "a mirror refused a change");

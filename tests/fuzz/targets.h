@@ -1,4 +1,4 @@
-// Targets that hostile input is fed to. Each target takes any bytes at all and throws BrokenInvariant where
+// Targets that hostile input is fed to. Each target takes any bytes at all and throws BrokenInvariant if
 // the program would do what it must not; a crash, a leak, undefined behaviour, a hang or memory over the
 // bound is found by what runs it: libFuzzer with the sanitizers (tests/fuzz/run.sh), or the seeds in an
 // ordinary test.
@@ -25,12 +25,12 @@ inline void require(bool holds, const std::string& what) {
 /// that they came from, or that are longer than allowed; a complaint that is not one line.
 void frame_decoder(Bytes input);
 
-/// What a client sends, against ClientConnection, ClientFeed and ToolLease. Finding: a bone changed by a
+/// A client's messages, against ClientConnection, ClientFeed and ToolLease. Finding: a bone changed by a
 /// client; a tool moved to where no number is; an answer that is no frame, or more frames than the client may
 /// cause; a client dropped without a line.
 void server_session(Bytes input);
 
-/// What a server sends, against the decoder, SessionReceiver and VerifiedReplica. Finding: a copy with bone
+/// A server's messages, against the decoder, SessionReceiver and VerifiedReplica. Finding: a copy with bone
 /// outside its grid, a checksum that is not that of its voxels, dirty bricks that are not stored, a request
 /// that a server would refuse.
 void client_session(Bytes input);
@@ -43,8 +43,8 @@ void recording(Bytes input);
 /// come back from write_scene as it was.
 void scene(Bytes input);
 
-/// What Haply's service says, against parse_haply_state. Finding: any exception; an arm or a grip where no
-/// number is; an arm of another name than was requested; a force for it that is no JSON.
+/// The messages of Haply's service, against parse_haply_state. Finding: any exception; an arm or a grip where
+/// no number is; an arm of another name than was requested; a force for it that is no JSON.
 void haply_state(Bytes input);
 
 /// The first bytes of an image file, against our own readers of headers (GDCM never sees what these
@@ -55,9 +55,8 @@ void meta_image_header(Bytes input);
 void nifti_header(Bytes input);
 void dicom_header(Bytes input);
 
-/// What a segmentation says that is well-formed DICOM, against the reader of DICOM SEG and GDCM with it.
-/// Finding: any exception but a complaint of one line; a geometry, layers, slices or labels beyond the
-/// limits.
+/// A segmentation that is well-formed DICOM, against the reader of DICOM SEG, and GDCM with it. Finding: any
+/// exception but a complaint of one line; a geometry, layers, slices or labels beyond the limits.
 void dicom_segmentation(Bytes input);
 
 }  // namespace osteomill::fuzz

@@ -1,5 +1,5 @@
-// What the programs of 0.3 wrote and what people wrote for them: it opens, and says what it said
-// (docs/compatibility.md). What is known of the bone follows from how make.sh made it; of the session, from
+// Files that the programs of 0.3 wrote and that people wrote for them: they open, and mean what they meant
+// (docs/compatibility.md). The expected bone follows from make.sh, which made it; the expected session from
 // the session.json that it left.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The real program, as a user calls it: what it writes, what it says, how it exits.
+// The real program, as a user calls it: its files, its messages, its exit status.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
@@ -22,7 +22,7 @@ using testing::read_bone_file;
 
 struct Outcome {
     int exit_status = -1;
-    std::vector<std::string> lines;  ///< of standard output and error together
+    std::vector<std::string> lines;  ///< from standard output and error together
     std::string last() const { return lines.empty() ? "" : lines.back(); }
 };
 
@@ -148,7 +148,7 @@ TEST_F(BoneImport, OfSlicesFarApartHasNoStairs) {
         const glm::ivec3 size = bone.grid.size_voxels;
         return bone.hu[static_cast<std::size_t>(voxel.x + size.x * (voxel.y + size.y * voxel.z))];
     };
-    // Where the surface leans by 25 to 45 degrees, halfway between slices.
+    // The places at which the surface leans by 25 to 45 degrees, halfway between slices.
     for (const int z : {14, 18, 22, 26})
         for (int x = 61; x < 120; ++x) {
             const double before = hu({x, 60, z}) - 600.0;

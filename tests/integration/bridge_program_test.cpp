@@ -52,7 +52,7 @@ class BridgePrograms : public ::testing::Test {
         return match.empty() ? 1e9 : std::stod(match[1]);
     }
 
-    /// Between two exchanges; what osteomill_bridge.h lets through, whatever the machine is busy with.
+    /// The largest change between two exchanges that osteomill_bridge.h allows, however busy the machine is.
     static void expect_no_jump(const std::string& said) {
         EXPECT_LE(told(said, "largest jump"), 2.0) << "1000 N/s, of a loop that is two ticks late at most";
         EXPECT_LE(told(said, "while it goes"), 0.28) << "3.3 N in 12 ms";

@@ -32,8 +32,8 @@ std::string text_in_repository(const std::filesystem::path& file) {
     return text.str();
 }
 
-/// What our programs say, each asked once. A benchmark is not built for this: its source names its options,
-/// and those of the library it uses.
+/// The help of our programs, each asked once. A benchmark is not built for this: its source names its
+/// options, and those of the library it uses.
 std::string help_of_program(const std::string& program, const std::string& subcommand) {
     static std::map<std::string, std::string> known;
     if (program.ends_with("_benchmark")) {
@@ -199,7 +199,7 @@ TEST(Documents, DescribeEveryKeyOfAScene) {
                   .warn_mm = 3.0};
     scene.tissues = {tissue, tissue};
     scene.tissues[1].strength->material = "enamel";
-    std::set<std::string> keys{"phantom", "file", "sphere", "cylinder"};  // of which a scene has one
+    std::set<std::string> keys{"phantom", "file", "sphere", "cylinder"};  // a scene has only one of these
     const std::string scene_text = write_scene(scene);
     for (std::sregex_iterator match(scene_text.begin(), scene_text.end(), key), end; match != end; ++match)
         keys.insert((*match)[1]);
@@ -223,7 +223,7 @@ TEST(DocumentChecks, FindLinksThatLeadNowhere) {
 TEST(DocumentChecks, FindPathsThatAreNoMore) {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder.path() / "common/bone");
-    std::filesystem::create_directories(folder.path() / "out");  // of a user who has tried the commands
+    std::filesystem::create_directories(folder.path() / "out");  // a user who has tried the commands has it
     std::ofstream(folder.path() / "common/bone/grid.h") << "";
     const Document document{"page.md",
                             "`common/bone` and `common/gone`, `grid.h` and `lost.h`, `and/or`, "

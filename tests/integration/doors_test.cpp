@@ -91,7 +91,7 @@ class Doors : public ::testing::Test {
     }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-    /// In the clear where there are no files. Without a hand of its own, whose session would end by itself.
+    /// In the clear if there are no files. Without a hand of its own, whose session would end by itself.
     void start_server(const TlsFiles& files, const Command& more = {}) {
         Command command = with({HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--device", "client"}, files);
         command.insert(command.end(), more.begin(), more.end());

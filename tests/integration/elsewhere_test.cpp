@@ -1,5 +1,5 @@
-// What comes from elsewhere: names, links, paths, endless files, damaged cases, open secrets and absurd
-// numbers, at the doors of the real programs.
+// Input from elsewhere: names, links, paths, endless files, damaged cases, open secrets and absurd numbers,
+// given to the real programs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-// What the documents claim of the milling force, on motions that nothing was tuned to.
+// The documents' claims about the milling force, on motions that nothing was tuned to.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -18,7 +18,7 @@
 namespace osteomill::hand_at_bone_ends_test {
 namespace {
 
-/// What a hand felt.
+/// The force that a hand felt.
 struct Felt {
     double peak_n = 0.0;
     double largest_jump_n = 0.0;

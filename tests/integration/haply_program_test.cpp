@@ -29,7 +29,7 @@ using Command = std::vector<std::string>;
 class Hand {
   public:
     HaplyService::Devices operator()(double time_s, const glm::dvec3& force_n) {
-        // What took the machine longer is not made up for: the hand stands.
+        // Delays of the machine are not made up for: the hand stands still.
         const double span_s = std::clamp(time_s - time_s_, 0.0, 0.01);
         time_s_ = time_s;
         const double phase = time_s - std::floor(time_s);
@@ -50,7 +50,7 @@ class Hand {
         devices.a = into_s > 0.5;
         return devices;
     }
-    /// Where the server puts the start, the grip pointing down.
+    /// The devices at the server's start position, the grip pointing down.
     static HaplyService::Devices still() {
         HaplyService::Devices devices;
         devices.position_m = {0.0, -0.12, 0.15};

@@ -1,4 +1,4 @@
-// The server as its users start it: what it prints, writes and returns.
+// The server as its users start it: its output, its files, its exit status.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -37,7 +37,7 @@ using Command = std::vector<std::string>;
 
 constexpr double between_frames_s = 0.034;
 
-/// Where a program's log goes, and how it is held up.
+/// The output that a program logs to, and the way it is held up.
 class Output {
   public:
     explicit Output(const std::string& kind) {
@@ -147,8 +147,8 @@ TEST_P(HeldUpLog, DoesNotKeepTheBurrOfAnOperatorTurningWhoHasLeft) {
             removed_at_off_mm3 = tick.removed_mm3;
         }
         std::printf("spindle off %.0f ms after the last message at the latest\n", 1e3 * (off_s - left_s));
-        // The step under way, and one whose end the tick had not read yet: of any size, where the machine let
-        // it wait.
+        // The step under way, and one whose end the tick had not read yet; either may have any size if the
+        // machine let it wait.
         std::size_t later_steps = 0;
         for (std::size_t i = 1; i < ticks.size(); ++i)
             if (ticks[i].time_s > off_s && ticks[i].removed_mm3 != ticks[i - 1].removed_mm3) ++later_steps;

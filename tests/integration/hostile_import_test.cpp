@@ -1,5 +1,5 @@
 // Hostile files and the real bone_import: each is refused in one line on standard error with exit status 1,
-// in bounded memory and time, and nothing is written. What is sound, or only odd, is imported.
+// in bounded memory and time, and nothing is written. Files that are sound, or only odd, are imported.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -39,7 +39,7 @@ struct Attack {
     const char* name;
     /// Writes the files of the attack into the folder; gives what to import.
     std::function<std::filesystem::path(const std::filesystem::path& folder)> write;
-    const char* reason;  ///< what the refusal must say
+    const char* reason;  ///< a text that the refusal must contain
 
     friend std::ostream& operator<<(std::ostream& out, const Attack& attack) { return out << attack.name; }
 };
@@ -181,7 +181,7 @@ const std::vector<Attack> attacks{
     {"input_device", [](const std::filesystem::path&) { return std::filesystem::path("/dev/zero"); },
      "neither a file nor a folder"},
 
-    // What a header may not say.
+    // Statements that a header may not make.
     {"mhd_negative_dimensions", file("x.mha", with(meta_header(), "NDims = 3", "NDims = -1") + voxels), "-1 dimensions"},
     {"mhd_many_dimensions", file("x.mha", with(meta_header(), "NDims = 3", "NDims = 2000000000") + voxels), "dimensions"},
     {"mhd_negative_size", file("x.mha", with(meta_header(), "3 4 5", "3 4 -5") + voxels), "DimSize"},
@@ -226,7 +226,7 @@ const std::vector<Attack> attacks{
          return bytes;
      }()), "vox_offset"},
 
-    // What is compressed, and shrank too much.
+    // Compressed data that shrank too much.
     {"nrrd_gzip_bomb", large_file("x.nrrd", [] { return with(gzip_nrrd, "sizes: 3 4 5", "sizes: 3000 4000 3000") + deflated(std::string(1u << 24, '\0')); }), "no scan compresses so"},
 
     // DICOM.

@@ -1,4 +1,4 @@
-// The rooms of the house, and which may use which: every include of the product points downward.
+// The product's modules, and which may use which: every include points downward.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -18,7 +18,7 @@ struct Room {
     Folders uses;  // beside itself and the generated messages of proto/
 };
 
-/// The first whose folder holds a file is its room.
+/// A file belongs to the first module whose folder holds it.
 const std::vector<Room>& rooms() {
     static const std::vector<Room> all{
         {"common/", {}},
@@ -78,7 +78,7 @@ TEST(IncludeArrows, PointDownward) {
             const std::string extension = entry.path().extension().string();
             if (extension != ".cpp" && extension != ".h") continue;
             const std::string file = std::filesystem::relative(entry.path(), root).string();
-            // One that lies in a narrower room is judged there.
+            // A file of a narrower module is judged there.
             const auto own = std::find_if(rooms().begin(), rooms().end(),
                                           [&](const Room& one) { return is_in(file, one.folder); });
             if (&*own != &room) continue;

@@ -58,7 +58,7 @@ class LargeImport : public ::testing::Test {
             EXPECT_LT(peak_of_children(), most_bytes);
         }
     }
-    /// What is said of a file that must be refused before its pixels are read.
+    /// The message about a file that must be refused before its pixels are read.
     std::string refusal(const std::filesystem::path& input, const std::vector<std::string>& options) {
         std::vector<std::string> command{BONE_IMPORT, input.string(), (folder_ / "bone.nrrd").string()};
         command.insert(command.end(), options.begin(), options.end());
@@ -163,7 +163,7 @@ void make_layered_case(const TemporaryFolder& folder, const std::string& name, i
     ASSERT_EQ(said.status, 0) << said.err;
 }
 
-/// Of a session that ends as soon as it has begun.
+/// The peak memory of a session that ends as soon as it has begun.
 std::uint64_t peak_of_session(const std::filesystem::path& case_folder) {
     const pid_t child = ::fork();
     if (child == 0) {

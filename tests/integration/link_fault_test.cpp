@@ -1,4 +1,4 @@
-// What a network and its people do to a session, with the real server: afterwards every client that still
+// Faults of a network and its people in a session with the real server: afterwards every client that still
 // lives has the server's bone bit for bit, and the server has kept within its memory.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// Odd files that are sound, or follow from what may be mended, and the real bone_import: what it makes of
-// them and what it says. And hostile files for the server.
+// Odd files that are sound, or can be mended, and the real bone_import: its results and its messages. And
+// hostile files for the server.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -181,7 +181,7 @@ TEST_F(OddImport, WarnsOfAModalityThatIsNotCt) {
     EXPECT_THAT(said_.err, HasSubstr("its modality is MR, not CT"));
 }
 
-/// An import of minutes that is stopped as soon as it works: what it says, and what is left.
+/// An import of minutes that is stopped as soon as it works: its messages, and the files left.
 TEST(StoppedImport, LeavesNothingAndSaysSo) {
     const TemporaryFolder folder;
     write_series(folder / "series", synthetic_series(5));

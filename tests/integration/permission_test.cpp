@@ -1,5 +1,5 @@
-// Nothing turns without leave, with the real programs: what a client that is cut, frozen, late or hostile can
-// make a real server do. Times are the server's own: see spindle_log.h.
+// Nothing turns without leave, with the real programs: the effects on a real server of a client that is cut,
+// frozen, late or hostile. Times are the server's own: see spindle_log.h.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -114,14 +114,14 @@ class Permissions : public ::testing::Test {
         port_ = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
     }
 
-    /// Ends the session; what the spindle did in it.
+    /// Ends the session; returns the spindle's log.
     std::vector<ForceLogLine> log_of_session() {
         server_.send_signal(SIGINT);
         EXPECT_EQ(server_.wait(), 0) << server_.err();
         return read_force_log(folder_ / "log.csv");
     }
 
-    /// What it did so far.
+    /// The log of the ticks so far.
     std::vector<ForceLogLine> log_so_far() const { return read_force_log(folder_ / "log.part.csv"); }
 
     /// The newest tool, with which the session's clock is set.

@@ -1,4 +1,4 @@
-// A session recorded, looked into, shown again and cut by other people's tools: the real programs.
+// A session recorded, inspected, shown again and cut by other people's tools: the real programs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -196,7 +196,7 @@ TEST_F(Recording, BecomesAFilm) {
     const auto frames = static_cast<int>((duration_s - 1.0) / 2.0 * 30.0) + 1;
     EXPECT_EQ(seen.out, "102\n80\n30/1\n" + std::to_string(frames) + "\n") << "of an even width";
 
-    // As packet_replay has it made.
+    // packet_replay has the film made.
     const Finished without = run_program({"/usr/bin/env", "PATH=/nowhere", "ASAN_OPTIONS=detect_leaks=0",
                                           PACKET_REPLAY, file("a.pcap"), "--film", file("b.mp4")});
     EXPECT_EQ(without.status, 1);

@@ -1,4 +1,4 @@
-// The report of a session: what the live server writes and what is recomputed of its recording are one.
+// The report of a session: the live server's report equals the one recomputed from its recording.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

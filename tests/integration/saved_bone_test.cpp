@@ -1,5 +1,5 @@
-// What --save-bone leaves when it is stopped and when the disk is full: the real server saves, is killed, and
-// loads again.
+// The files that --save-bone leaves when it is stopped and when the disk is full: the real server saves, is
+// killed, and loads again.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -60,7 +60,7 @@ class SavedBone : public testing::FolderTest {
         command.insert(command.end(), options.begin(), options.end());
         return command;
     }
-    /// The checksum of a bone as the server loads it; what it says where it refuses.
+    /// The checksum of a bone as the server loads it, or the message with which it refuses.
     std::string loaded(const std::string& bone) const {
         std::filesystem::remove(file("loaded.json"));
         const Finished run = testing::run_program(

@@ -33,7 +33,7 @@ class SessionControlsProgram : public FolderTest {
                                              "5.0,1,0,6,0,0,1,0\n";
         write_block(file("block.nrrd"));
     }
-    /// What the session measured.
+    /// Runs a session with this script; returns its measurements.
     nlohmann::json run(const std::string& script, std::vector<std::string> more = {}) const {
         std::ofstream(file("script.csv")) << "t_s,action,text\n" << script;
         std::vector<std::string> command{HAPTIC_SERVER,       "--clock",      "virtual",          "--bone",

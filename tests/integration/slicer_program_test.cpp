@@ -41,7 +41,7 @@ struct Viewer {
     std::optional<SlicerReceiver> receiver;
 };
 
-/// Of the saved bone, by as many voxels as 3D Slicer is sent.
+/// The saved bone's fractions, in as many voxels as 3D Slicer is sent.
 std::vector<std::uint8_t> fractions_of(const std::filesystem::path& file) {
     const ReducedBone reduced(bone_of_file(file, std::nullopt, default_stiffness_relation()).bone);
     return {reduced.values().begin(), reduced.values().end()};

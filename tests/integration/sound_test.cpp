@@ -26,7 +26,7 @@ using ::testing::Not;
 
 struct Sound {
     double rate_hz = 0.0;
-    std::vector<float> samples{};  // of the first channel
+    std::vector<float> samples{};  // the first channel's
 
     std::span<const float> between(double from_s, double to_s) const {
         const auto at = [&](double time_s) {

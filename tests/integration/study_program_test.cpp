@@ -1,4 +1,4 @@
-// The real study program, as a user calls it: what it writes, what it says, how it exits.
+// The real study program, as a user calls it: its files, its messages, its exit status.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
@@ -197,7 +197,7 @@ TEST_F(StudyProgram, CalibratesBoneAndFoam) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto found = nlohmann::json::parse(text_of(out_ + "/calibration.json"));
     ASSERT_EQ(found.size(), 2u);
-    // What the table was made with.
+    // The coefficients that the table was made with.
     const double known[2][6] = {{230.0, 40.0, 20.0, 0.5, 0.8, 0.1}, {30.0, 8.0, 4.0, 0.05, 0.1, 0.02}};
     for (std::size_t material = 0; material < 2; ++material)
         for (std::size_t i = 0; i < 6; ++i) {

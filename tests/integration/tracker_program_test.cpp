@@ -27,7 +27,7 @@ using ::testing::HasSubstr;
 
 using Command = std::vector<std::string>;
 
-/// Where the burr is in the patient, and whether the pedal is down.
+/// The burr's place in the patient, and whether the pedal is down.
 struct Moment {
     glm::dvec3 burr_mm{0.0};
     bool pedal = false;
@@ -86,8 +86,8 @@ class TrackerPrograms : public ::testing::Test {
         running.send_signal(SIGINT);
         ASSERT_EQ(running.wait(), 0) << running.err();
     }
-    /// Whether everybody had the processor when it was due. Where the loop misses its deadlines or samples
-    /// come late in a row, the force goes off until the burr is out of the bone, and less is milled.
+    /// Whether everybody had the processor when it was due. If the loop misses its deadlines or samples come
+    /// late in a row, the force goes off until the burr is out of the bone, and less is milled.
     bool was_in_time() const {
         return worst_lateness_s_ < 0.01 && measured().at("faults").at("overrun") == 0 &&
                measured().at("faults").at("model_stalled") == 0;

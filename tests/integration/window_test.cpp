@@ -1,5 +1,5 @@
-// render_client in a real window, with a real server: what mouse and keys do, what is on the screen, and what
-// happens when the display fails. Needs Xvfb and xdotool.
+// render_client in a real window, with a real server: mouse and keys, the picture on the screen, and a
+// display that fails. Needs Xvfb and xdotool.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -108,7 +108,7 @@ class WindowTest : public ::testing::Test {
             return difference(display_->screen(), before) <= 0.003;
         });
     }
-    /// What it opens is there to type into.
+    /// The key opens a field to type into.
     void press_and_see(const std::string& key) const {
         const Picture before = display_->screen();
         press(key);
@@ -257,8 +257,8 @@ TEST_F(WindowTest, UndoesMarksAndFinishesASessionByKeys) {
     open_window({});
     const Picture before = display_->screen();
 
-    // A machine with much to do holds messages back, and then the pedal has to be pressed anew. What is told
-    // is of every five seconds.
+    // A busy machine holds messages back, and then the pedal has to be pressed anew. The log has a line every
+    // five seconds.
     EXPECT_TRUE(eventually([&] {
         display_->xdotool({"keydown", "space", "keydown", "w"});
         const bool has_cut = eventually(
@@ -486,7 +486,7 @@ TEST_F(WindowTest, DrawsOnlyWhatChanges) {
 
 TEST_F(WindowTest, SaysInOneLineThatThereIsNoSoundAndTriesAgain) {
     start_server();
-    ::setenv("ALSOFT_DRIVERS", "solaris", 1);  // of which there is none
+    ::setenv("ALSOFT_DRIVERS", "solaris", 1);  // a driver that this system does not have
     open_window({});
     ::unsetenv("ALSOFT_DRIVERS");
     EXPECT_EQ(window_->err(), "");

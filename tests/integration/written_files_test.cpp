@@ -33,7 +33,8 @@ void for_each_source(const std::function<void(const std::string& file, const std
         }
 }
 
-/// Where a file is opened to write, replaced or made, and why that is no way around atomic_file.h.
+/// The sources that open a file to write, replace or make one, each with the reason why that does not bypass
+/// atomic_file.h.
 const std::map<std::string, std::string> openings{
     {"common/files/atomic_file.cpp", "the place: refuses a link that leads to nothing"},
     {"common/files/session_file.cpp", "moves the part of a killed session aside"},

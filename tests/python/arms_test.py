@@ -1,4 +1,4 @@
-"""What an arm makes of the force: measures of a force, kernels, and the study's charts. No time is asserted."""
+"""An arm's effect on the force: measures of a force, kernels, and the study's charts. No time is asserted."""
 
 import pathlib
 import tempfile

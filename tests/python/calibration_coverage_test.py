@@ -26,10 +26,10 @@ DESIGN = pathlib.Path(__file__).resolve().parents[1] / "data" / "calibration_gol
 
 @dataclasses.dataclass(frozen=True)
 class Lab:
-    """What is wrong in it."""
+    """A fault of the lab."""
 
     what: str
-    drift_n: float = 0.0  #: of each axis, either way, from the first run to the last
+    drift_n: float = 0.0  #: along each axis, either way, from the first run to the last
     zeroed_at: float = 0.0  #: 0 before the first run, 0.5 half way
     wrong_runs: float = 0.0  #: share
 
@@ -40,7 +40,7 @@ NO_ZERO = Lab("drift of 0.15 N, zeroed half way", drift_n=0.15, zeroed_at=0.5)
 WRONG = [Lab(f"{100 * share:g} % of runs wrong", wrong_runs=share) for share in (0.1, 0.2)]
 BOTH = Lab("drift of 0.1 N, 10 % of runs wrong", drift_n=0.1, wrong_runs=0.1)
 
-#: Of the table: a lab, and how it is fitted.
+#: The table's rows: a lab, and how it is fitted.
 ROWS = [
     *((lab, {}) for lab in (CLEAN, *DRIFTS, *WRONG)),
     *((lab, {"drift": "slope"}) for lab in (CLEAN, *DRIFTS, NO_ZERO)),
@@ -93,7 +93,7 @@ class CalibrationCoverageTest(unittest.TestCase):
     LABS = 200
 
     def assert_held(self, lab, low_percent, high_percent, **how):
-        """Of each coefficient, in a share of labs that is not contradicted: all six together in one seed of a thousand."""
+        """The share of labs for each coefficient is compatible with the level; by chance, one of six is not in one seed of a thousand."""
         found = Simulation(lab, self.LABS, seed=11, **how)
         low = scipy.stats.binom.ppf(0.001 / 12, self.LABS, low_percent / 100)
         high = scipy.stats.binom.isf(0.001 / 12, self.LABS, high_percent / 100)

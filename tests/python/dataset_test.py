@@ -59,7 +59,7 @@ TRAJECTORY = """t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal,burr
 
 
 def rotation(q):
-    """Of a quaternion x, y, z, w."""
+    """The rotation matrix of a quaternion x, y, z, w."""
     x, y, z, w = q
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                      [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
@@ -102,7 +102,7 @@ class DatasetTest(unittest.TestCase):
         cls.labels = [label["name"] for label in cls.index["sessions"][0]["labels"]]
 
     def look_at(self, name):
-        """What follows is of that set."""
+        """Makes the checks that follow use that set."""
         self.set = self.folder / name
         self.index = json.loads((self.set / "dataset.json").read_text())
         self.cameras = {camera["name"]: np.array(camera["intrinsics"]) for camera in self.index["cameras"]}

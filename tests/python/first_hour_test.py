@@ -1,4 +1,4 @@
-"""What a first hour stumbles over gets one line that says what would be right."""
+"""Mistakes of a first hour get one line that says what would be right."""
 
 import os
 import pathlib

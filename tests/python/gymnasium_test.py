@@ -16,7 +16,7 @@ ALL = ("pose", "hand", "force", "removed", "distance", "crop16")
 
 
 def plain(value):
-    """What a vector environment stacks or sends: numbers, texts, arrays, dicts of them; a Step is the one thing more."""
+    """Whether a vector environment can stack or send it: numbers, texts, arrays, dicts of them, and a Step."""
     if isinstance(value, dict):
         return all(isinstance(name, str) and plain(one) for name, one in value.items())
     return isinstance(value, (int, float, bool, str, np.ndarray, om.Step))

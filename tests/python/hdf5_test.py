@@ -103,7 +103,7 @@ class AllOfRecordingTest(Converted):
         self.assertTrue(np.array_equal(fraction, self.at_start))
         changes = bone["changes"]
         self.assertTrue(np.all(np.diff(changes["state"]) >= 0))
-        fraction[tuple(changes["ijk"][:].T)] = changes["fraction"][:]  # of a voxel that changed twice the last
+        fraction[tuple(changes["ijk"][:].T)] = changes["fraction"][:]  # the last one, if a voxel changed twice
         self.assertTrue(np.array_equal(fraction, self.at_end))
         self.assertTrue(np.any(changes["is_restored"]))
         self.assertEqual(bone.attrs["checksum_at_end"], self.measured["bone_checksum"])
@@ -248,7 +248,7 @@ class FivrsTest(Converted):
         np.testing.assert_array_equal(np.unique(rows), np.arange(len(times)))
         self.assertTrue(np.all(np.diff(rows) >= 0))
         self.assertTrue(np.all(np.diff(times) > 0))
-        # What was undone is not there: it was the second stroke.
+        # The undone stroke, the second, is not there.
         self.assertLess(times[-1] - file["data/time"][0], 3.0)
         # A voxel is removed in the first frame after which less than half of it is left.
         began = file["data/time"][0]

@@ -13,7 +13,7 @@ import osteomill as om
 
 class OriginTest(unittest.TestCase):
     def settings(self, case, name, **session):
-        """Of a recording: its settings as info() and HDF5 have them."""
+        """A recording's settings, from info() and from HDF5."""
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / f"{name}.pcap"
             with om.Session(case, record=file, **session) as made:

@@ -36,7 +36,7 @@ KINDS = ("colour", "depth", "ray-depth", "labels", "normals")
 
 
 def plain(thing):
-    """What JSON could say of it."""
+    """The thing in types that JSON has."""
     if isinstance(thing, dict):
         return {name: plain(part) for name, part in thing.items()}
     return thing.tolist() if isinstance(thing, np.ndarray) else thing

@@ -47,7 +47,7 @@ def sections_that_show(picture):
 
 @functools.cache
 def help_of(*words):
-    """What a program says of itself; of a benchmark, which is not built for this, its source."""
+    """A program's help; for a benchmark, which is not built for this, its source."""
     if words[0].endswith("_benchmark"):
         source = TREE / "tests" / "benchmarks" / f"{words[0]}.cpp"
         return source.read_text() + "--benchmark_filter" if source.exists() else ""
@@ -58,7 +58,7 @@ def help_of(*words):
 
 
 def why_not_today(command):
-    """What of a command today's tree has not; empty: it has all of it."""
+    """The part of a command that today's tree lacks; empty: it has all of it."""
     if command[0] == "./demo.sh":
         return "" if (TREE / "demo.sh").exists() else "there is no demo.sh"
     name = command[0].rpartition("/")[2]

@@ -138,7 +138,7 @@ class StatisticsTest(unittest.TestCase):
         without = statistics.compare_ranks([1.0, 4.0, 6.0], [2.0, 3.0, 9.0, 10.0])
         exact = scipy.stats.mannwhitneyu([1.0, 4.0, 6.0], [2.0, 3.0, 9.0, 10.0], method="exact")
         self.assertEqual((without.u, round(without.p, 12)), (exact.statistic, round(exact.pvalue, 12)))
-        # 0 0 1 and 1 2: of ten ways to deal out the midranks 1.5 1.5 3.5 3.5 5, two have a sum of 6.5 or less.
+        # 0 0 1 and 1 2: two of the ten ways to deal out the midranks 1.5 1.5 3.5 3.5 5 have a sum of 6.5 or less.
         tied = statistics.compare_ranks([0.0, 0.0, 1.0], [1.0, 2.0])
         self.assertEqual((tied.u, tied.p, round(tied.cliffs_delta, 6)), (0.5, 0.4, -0.833333))
         self.assertIsNone(statistics.compare_ranks([0.0] * 101, [1.0] * 100))

@@ -1,4 +1,4 @@
-"""What the tests share: the tooth, loaded once a process, motions through it, and the programs."""
+"""Parts that the tests share: the tooth, loaded once a process, motions through it, and the programs."""
 
 import functools
 import json

@@ -35,7 +35,7 @@ def runs_of(settings, spread_n=0.05):
 
 
 def exact_forces(settings, spread_n=0.05, drift="none"):
-    """What the law says of each setting, without noise and drift."""
+    """The law's force for each setting, without noise and drift."""
     forces = forces_of(runs_of(settings, spread_n), drift)
     return dataclasses.replace(forces, force_n=forces.regressors[:, : len(KNOWN)] @ KNOWN)
 

@@ -24,7 +24,7 @@ class TypesTest(unittest.TestCase):
         self.run_tool("mypy.stubtest", "osteomill._core", "osteomill._render", "osteomill._studies", "--allowlist", str(allowed), "--ignore-unused-allowlist")
 
     def test_the_package_keeps_to_its_types(self):
-        # Of Debian 12 pandas, SciPy and matplotlib say no types.
+        # Debian 12's pandas, SciPy and matplotlib have no type annotations.
         self.run_tool("mypy", "--strict", "--ignore-missing-imports", "-p", "osteomill")
 
     def test_everything_says_what_it_is(self):

@@ -81,7 +81,7 @@ class Fleet(unittest.TestCase):
                 self.assertEqual(station.returncode, 0, error)
         sessions = self.database.rows("SELECT trainee, count(*) FROM session GROUP BY trainee ORDER BY trainee")
         self.assertEqual(sessions, [["Zoë a", "2"], ["Zoë b", "2"]])
-        # What the table of a station says is what the database says.
+        # The database agrees with each station's table.
         said = {}
         for station in ("a", "b"):
             with open(self.folder / f"out_{station}" / "sessions.csv", newline="", encoding="utf-8-sig") as file:
@@ -135,7 +135,7 @@ class Fleet(unittest.TestCase):
         holder = subprocess.Popen([POSTGRES[-1] + "/psql", "-At", self.database.url], text=True, stdin=subprocess.PIPE,
                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         with holder:
-            # What is added waits for it.
+            # Rows that others add wait for this transaction.
             holder.stdin.write("CREATE TABLE session (digest text PRIMARY KEY, file text NOT NULL, trainee text NOT NULL,"
                                " case_name text NOT NULL, began_unix_ns bigint NOT NULL);\n"
                                "BEGIN; INSERT INTO session SELECT 'x', '', '', '', 0; SELECT 'held';"

@@ -68,7 +68,7 @@ void write_motion(const std::filesystem::path& csv, double minutes) {
     }
 }
 
-/// What is resident now.
+/// The resident memory now.
 double resident_mib(pid_t pid) {
     std::ifstream statm("/proc/" + std::to_string(pid) + "/statm");
     double all = 0.0;

@@ -15,7 +15,7 @@ namespace osteomill::testing {
 
 class ChildProcess {
   public:
-    /// What a program has in place of a stream that is collected; -1 where it is.
+    /// Descriptors that a program gets in place of collected streams; -1: the stream is collected.
     struct Streams {
         int out = -1;
         int err = -1;
@@ -42,7 +42,7 @@ class ChildProcess {
     void send_signal(int signal) const;
     pid_t pid() const { return pid_; }
 
-    /// What it has written to standard output and standard error so far.
+    /// The text on standard output and standard error so far.
     const std::string& out() const { return streams_[0].text; }
     const std::string& err() const { return streams_[1].text; }
 

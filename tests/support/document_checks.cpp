@@ -76,7 +76,7 @@ std::vector<std::vector<std::string>> commands_of(const std::vector<std::string>
     return commands;
 }
 
-/// What a user makes there: builds, and what the programs write.
+/// Whether a user makes this folder: builds, and the programs' outputs.
 bool is_made(const std::string& folder) {
     return folder == "build" || folder == "out";
 }

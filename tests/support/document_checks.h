@@ -41,7 +41,7 @@ struct ShownCommand {
 /// The calls of programs in build/release/bin in the document's blocks of bash.
 std::vector<ShownCommand> shown_commands(const std::string& text);
 
-/// What a program says to --help; `subcommand` may be empty. Throws std::runtime_error where there is no such
+/// A program's output for --help; `subcommand` may be empty. Throws std::runtime_error if there is no such
 /// program.
 using Help = std::function<std::string(const std::string& program, const std::string& subcommand)>;
 

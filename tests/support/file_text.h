@@ -8,7 +8,7 @@
 
 namespace osteomill::testing {
 
-/// Empty where it cannot be read.
+/// Empty if it cannot be read.
 inline std::string text_of(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};

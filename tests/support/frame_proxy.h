@@ -21,7 +21,7 @@ namespace osteomill::testing {
 
 class FrameProxy {
   public:
-    /// On the proxy's thread: what to make of a frame; false leaves it out.
+    /// Called on the proxy's thread: may change a frame; false drops it.
     using Meddle = std::function<bool(v2::ServerFrame&)>;
 
     FrameProxy(std::uint16_t server_port, Meddle meddle)

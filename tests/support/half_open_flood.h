@@ -59,7 +59,7 @@ class HalfOpenFlood {
     void run() {
         while (!is_over_) {
             const std::chrono::duration<double> time = Clock::now() - began_;
-            // What a busy machine kept it from is not made up for at once, which would be another attack.
+            // A backlog after delays of a busy machine is not sent at once, which would be another attack.
             due_ = std::max(due_, time.count() * per_s_ - 0.05 * per_s_);
             if (due_ > time.count() * per_s_) {
                 std::this_thread::sleep_for(std::chrono::microseconds(500));

@@ -26,7 +26,7 @@ namespace osteomill::testing {
 
 class HaplyService {
   public:
-    /// What the devices say; in the service's axes and units.
+    /// The devices' state, in the service's axes and units.
     struct Devices {
         bool has_arm = true;
         std::string arm_id = "049D";
@@ -50,7 +50,7 @@ class HaplyService {
 
     std::uint16_t port() const { return port_; }
 
-    /// As if its process had ended: the connection is gone, and nobody listens.
+    /// Acts as if its process had ended: the connection is gone, and nobody listens.
     void kill() {
         stops_ = true;
         ::shutdown(listening_.load(), SHUT_RDWR);

@@ -47,7 +47,7 @@ class LabCertificates {
     /// A client's whose certificate held until 2024.
     TlsFiles expired_client() const { return expired(client("past"), "clientAuth"); }
     TlsFiles expired_server() const { return expired(server("past"), "serverAuth"); }
-    /// As a CA signs that knows nothing of roles: without extended key usage.
+    /// A certificate of a CA that knows nothing of roles: without extended key usage.
     TlsFiles client_without_usage() const {
         const TlsFiles files = client("plain");
         sign_anew(files, "keyUsage=critical,digitalSignature", "-days 9");

@@ -44,13 +44,13 @@ class LinkProxy {
     std::uint16_t port() const { return port_; }
     std::uint64_t bytes_to_clients() const { return bytes_to_clients_; }
 
-    /// What comes from now on passes so late, from client to server and back.
+    /// From now on data pass with these delays, from client to server and back.
     void delay(std::chrono::milliseconds to_server, std::chrono::milliseconds to_client) {
         delay_to_server_ms_ = to_server.count();
         delay_to_client_ms_ = to_client.count();
     }
 
-    /// Nothing passes any more, in silence; what is sent waits.
+    /// Nothing passes any more, without notice; sent data wait.
     void cut() { is_cut_ = true; }
     void heal() { is_cut_ = false; }
     /// Hangs up on everybody.

@@ -29,9 +29,9 @@ struct MadeRecordingOptions {
     bool ends = true;  ///< with a goodbye
     std::uint32_t protocol_major = osteomill::protocol_major;
     std::vector<Structure> structures{};
-    /// What is told of them with state i; none: nothing.
+    /// Their distances in state i; no function: none.
     std::function<std::vector<StructureDistance>(int i)> distances{};
-    /// What is done to the session with state i.
+    /// The controls that come with state i.
     std::function<std::vector<ControlEvent>(int i)> events{};
 };
 
@@ -96,7 +96,7 @@ inline void write_bytes(const std::filesystem::path& file, const std::string& by
     std::ofstream(file, std::ios::binary) << bytes;
 }
 
-/// As `mergecap -a` would: the second recording's packets behind the first's.
+/// Joins recordings as `mergecap -a` would: the second's packets behind the first's.
 inline void join(const std::filesystem::path& first, const std::filesystem::path& second,
                  const std::filesystem::path& joined) {
     constexpr std::size_t file_header_bytes = 24;

@@ -64,7 +64,7 @@ inline std::string nested_sequences(int depth) {
     return open + close;
 }
 
-/// What a raw CT slice of 4 x 3 pixels states; each may be spoiled.
+/// The statements of a raw CT slice of 4 x 3 pixels; each may be spoiled.
 struct RawSlice {
     std::string transfer_syntax = explicit_little_endian;
     std::string sop_class = ct_image_storage;
@@ -125,8 +125,8 @@ inline RawSlice multi_frame(const std::vector<int>& z_mm) {
     return file;
 }
 
-/// Of a frame of a segmentation, 4 x 3 pixels: the segment (0: it says none), where it lies, and the twelve
-/// pixels as bits.
+/// A frame of a segmentation, 4 x 3 pixels: the segment (0: none stated), its position, and the twelve pixels
+/// as bits.
 struct SegFrame {
     int segment;
     double z_mm;

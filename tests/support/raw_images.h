@@ -23,7 +23,7 @@ inline void write_bytes(const std::filesystem::path& path, const std::string& by
     if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
-/// `text` with the first `from` in it replaced; throws where there is none.
+/// `text` with the first `from` in it replaced; throws if there is none.
 inline std::string with(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     if (at == std::string::npos) throw std::logic_error("no '" + from + "' to replace");

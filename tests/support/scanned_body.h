@@ -40,14 +40,14 @@ struct ScanOfBody {
 WholeImage scan_of(const BodyDepth& body, const ScanOfBody& scan);
 
 struct Agreement {
-    double median_mm = 0.0;  ///< of the distance between the surfaces
+    double median_mm = 0.0;  ///< distance between the surfaces
     double p95_mm = 0.0;
-    double median_deg = 0.0;  ///< of the angle between their normals
+    double median_deg = 0.0;  ///< angle between their normals
     double p95_deg = 0.0;
     double volume_ratio = 0.0;  ///< to the body's own
 };
 
-/// Of the surface HU = scanned_threshold_hu, but for `border_mm` at the volume's faces.
+/// The agreement of the surface HU = scanned_threshold_hu, without `border_mm` at the volume's faces.
 Agreement agreement_of(const HuVolume& refined, const BodyDepth& body, double border_mm);
 
 }  // namespace osteomill

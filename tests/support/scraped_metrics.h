@@ -17,7 +17,7 @@ inline boost::asio::ip::tcp::socket connected(boost::asio::io_context& io, const
     return socket;
 }
 
-/// The values of the page on `port` of loopback, by name with labels. Throws where nobody listens.
+/// The values of the page on `port` of loopback, by name with labels. Throws if nobody listens.
 inline std::map<std::string, double> scraped(const std::string& port) {
     boost::asio::io_context io;
     auto socket = connected(io, port);

@@ -38,8 +38,8 @@ class SlicerReceiver {
     SlicerReceiver(const SlicerReceiver&) = delete;
     SlicerReceiver& operator=(const SlicerReceiver&) = delete;
 
-    /// What came since the last import. A part of an image of another size makes a new volume of the bytes
-    /// 0xCD: the memory of Slicer's is not cleared.
+    /// Imports the messages that came since the last import. A part of an image of another size makes a new
+    /// volume of the bytes 0xCD: the memory of Slicer's is not cleared.
     void import() {
         std::map<Key, std::vector<std::uint8_t>> come;
         {
@@ -68,7 +68,7 @@ class SlicerReceiver {
     std::vector<std::uint8_t> volume{};  ///< x fastest
     std::map<std::string, std::string> texts{};
     std::map<std::string, glm::dvec3> origins_mm{};
-    int parts = 0;  ///< of images that were imported
+    int parts = 0;  ///< parts of images, imported so far
     int wholes = 0;
 
   private:

@@ -13,11 +13,11 @@ namespace osteomill::testing {
 
 class SlurmCluster {
   public:
-    /// Empty where it can be had; else what is missing.
+    /// Empty if it can be had; else what is missing.
     static std::string why_not();
 
     /// Starts the daemons in `folder`, which is there, and waits until the node takes work. Throws
-    /// std::runtime_error where it does not.
+    /// std::runtime_error if it does not.
     explicit SlurmCluster(std::filesystem::path folder);
     ~SlurmCluster();
     SlurmCluster(const SlurmCluster&) = delete;

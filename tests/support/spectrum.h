@@ -9,8 +9,8 @@
 
 namespace osteomill::testing {
 
-/// Of the sine at `frequency_hz` in samples `tick_s` apart, through a Hann window: what drifts slowly does
-/// not spill over. Root of the sum of squares over the axes.
+/// The amplitude of the sine at `frequency_hz` in samples `tick_s` apart, through a Hann window, so that slow
+/// drift does not leak into it. Root of the sum of squares over the axes.
 inline double amplitude_at(std::span<const glm::dvec3> samples, double frequency_hz, double tick_s = 0.001) {
     constexpr double two_pi = 2.0 * std::numbers::pi;
     const auto count = static_cast<double>(samples.size());

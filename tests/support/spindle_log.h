@@ -31,7 +31,7 @@ class SessionClock {
     double began_s_ = std::numeric_limits<double>::infinity();
 };
 
-/// How long after `event_s` the spindle turned last before it stood still; nothing where it did not turn then
+/// How long after `event_s` the spindle turned last before it stood still; nothing if it did not turn then
 /// or did not stop.
 inline std::optional<double> spindle_off_after_s(const std::vector<ForceLogLine>& log, double event_s) {
     const auto after = [&](double time_s) {

@@ -25,7 +25,7 @@ class Stranger {
         boost::system::error_code ignored;
         boost::asio::write(socket_, boost::asio::buffer(bytes), ignored);
     }
-    /// As a client does; what comes of it is never read.
+    /// Sends a client's greeting; never reads the answer.
     void greet() {
         v2::ClientFrame frame;
         frame.set_sequence(1);

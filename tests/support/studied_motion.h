@@ -19,7 +19,7 @@ struct StudiedMotion {
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
     std::function<glm::dvec3(double time_s)> position_mm{};
     double duration_s = 0.0;
-    std::optional<TopLayer> layer{};  ///< of the flat bone {z <= 0}
+    std::optional<TopLayer> layer{};  ///< on the flat bone {z <= 0}
     /// Mean over the motion, by the analytical reference at each of many instants.
     glm::dvec3 reference_n{0.0};
 };
@@ -31,7 +31,7 @@ std::vector<StudiedMotion> studied_motions(bool quick);
 struct Discretisation {
     double voxel_mm = 0.1;
     double milling_rate_hz = 100.0;
-    /// Where the lattice lies relative to the motion: means over several tell more than one.
+    /// The lattice's shift relative to the motion: a mean over several tells more than one.
     glm::dvec3 lattice_shift_mm{0.031, 0.017, 0.0};
     /// How long the burr moves before it is measured: a model that remembers must forget how it was put into
     /// the bone.

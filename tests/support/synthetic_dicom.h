@@ -37,7 +37,7 @@ void write_series(const std::filesystem::path& folder, const std::vector<Synthet
 
 /// The same image, its pixels coded in JPEG 2000 without loss.
 void compress_as_jpeg2000(const std::filesystem::path& from, const std::filesystem::path& to);
-/// Likewise in RLE.
+/// Compresses in RLE.
 void compress_as_rle(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace osteomill::testing

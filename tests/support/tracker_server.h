@@ -32,7 +32,7 @@ class TrackerServer {
         client_ = nullptr;
     }
 
-    /// False where nobody is connected any more.
+    /// False if nobody is connected any more.
     bool send(const std::string& name, const glm::dvec3& position_mm, const glm::dquat& turn,
               double stamp_s) {
         auto message = igtl::TransformMessage::New();

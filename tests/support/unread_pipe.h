@@ -51,7 +51,7 @@ class UnreadPipe {
         ::close(impatient);
     }
 
-    /// What comes within a while, up to `bytes`; without what filled it.
+    /// The text that comes within a while, up to `bytes`, without the filling.
     std::string read(std::size_t bytes) const {
         std::string text(bytes, '\0');
         const ssize_t count = ::read(ends_[0], text.data(), bytes);

@@ -14,7 +14,7 @@
 
 namespace osteomill::testing {
 
-/// The angles A, B, C at which an arm's tip is at a position (device space, mm), elbow up; what is out of
+/// The angles A, B, C at which an arm's tip is at a position (device space, mm), elbow up; a place out of
 /// reach gives angles that are not finite.
 glm::dvec3 angles_at(const ArmProfile& profile, const glm::dvec3& position_mm);
 
@@ -33,12 +33,12 @@ class VirtualArm {
     void press_switch(bool is_pressed) { is_switch_pressed_ = is_pressed; }
     /// Somebody presses the switch on the board.
     void ask_for_calibration() { asks_ = true; }
-    /// As after it was unplugged: all counters at zero wherever it is.
+    /// Restarts as after it was unplugged: all counters at zero wherever it is.
     void power_up();
 
-    /// What it sends now: 14 bytes.
+    /// The report that it sends now: 14 bytes.
     std::array<std::uint8_t, 14> report() const;
-    /// What the host sent, without the leading byte: 14 bytes, or it is ignored.
+    /// Receives the host's report, without the leading byte: 14 bytes, or it is ignored.
     void take(std::span<const std::uint8_t> report, double now_s);
 
     /// Force of the motors on the hand at the tip, device space.
@@ -49,7 +49,7 @@ class VirtualArm {
   private:
     ArmProfile profile_;
     ArmKinematics kinematics_;
-    std::array<int, 3> counts_{};   // of the bodies, from angle zero
+    std::array<int, 3> counts_{};   // the bodies', from angle zero
     std::array<int, 3> offsets_{};  // counter = count + offset
     bool is_switch_pressed_ = false;
     bool asks_ = false;

@@ -15,7 +15,7 @@ namespace osteomill::testing {
 
 class VirtualDisplay {
   public:
-    /// What this machine lacks for it; empty where all is there.
+    /// The parts that this machine lacks for it; empty if all are there.
     static std::string missing();
 
     /// Starts one with a screen of that size. Throws std::runtime_error if it does not come up.
@@ -25,7 +25,7 @@ class VirtualDisplay {
     std::vector<std::string> shown_here(std::vector<std::string> command) const;
     /// One run of xdotool; whether it succeeded. "search" and the like wait as long as xdotool does.
     bool xdotool(const std::vector<std::string>& arguments) const;
-    /// What is on the screen now.
+    /// The picture on the screen now.
     Picture screen() const;
     /// Ends the server under its clients.
     void break_down() { server_.reset(); }

@@ -18,7 +18,7 @@ class WaylandDisplay {
     /// How windows are shown: each in a place of its own, or only the last one, which fills the screen.
     enum class Shell { desktop, kiosk };
 
-    /// What this machine lacks for it; empty where all is there.
+    /// The parts that this machine lacks for it; empty if all are there.
     static std::string missing();
 
     /// A screen of `size_px`, with `scale` pixels in each unit of a window's size, on plain green. Throws

@@ -24,7 +24,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Why there can be no virtual machine here; empty where there can.
+/// Why there can be no virtual machine here; empty if there can.
 std::string obstacle() {
     for (const char* program : {"qemu-system-x86_64", "busybox", "cpio"}) {
         const auto found = testing::run_program({"/bin/sh", "-c", std::string("command -v ") + program});
@@ -180,7 +180,7 @@ TEST(HidArmInAVirtualMachine, MillsAsTheSimulatedOneAndSurvivesNonsenseAndAPulle
     EXPECT_GT(mean_force_n(log, log.back().time_s - 0.3, log.back().time_s - 0.1), 0.1)
         << "the wall is felt again, in the end";
 
-    // What the motors did, as the arm saw it: they pushed, and had no current while the cable was out.
+    // The motors' work, as the arm saw it: they pushed, and had no current while the cable was out.
     double strongest_n = 0.0;
     for (const auto& c : testing::read_csv_numbers(out / "arm.csv")) {
         const double force_n = glm::length(glm::dvec3(c.at(4), c.at(5), c.at(6)));

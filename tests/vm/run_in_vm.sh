@@ -3,8 +3,8 @@
 #
 #     run_in_vm.sh KERNEL_FOLDER WORK_FOLDER PROGRAM...
 #
-# KERNEL_FOLDER is what scripts/fetch_vm_kernel.sh unpacked. WORK_FOLDER holds run.sh, which the machine runs in /trial among
-# copies of all the files there; what it leaves in /trial/out comes back in WORK_FOLDER/out, what it prints in WORK_FOLDER/console.
+# KERNEL_FOLDER: the kernel that scripts/fetch_vm_kernel.sh unpacked. WORK_FOLDER holds run.sh, which the machine runs in /trial
+# among copies of all the files there; its files in /trial/out come back in WORK_FOLDER/out, its output in WORK_FOLDER/console.
 # PROGRAMs are copied to /bin with the libraries they need. The machine's clock counts instructions (-icount): however busy the
 # host is, time inside is what a machine of a fixed speed would see. Without random instructions, random addresses and another date
 # each time, programs there do for seconds what they did the last time.

@@ -1,5 +1,5 @@
 # In the virtual machine: systemd, the first process of a container, starts the server as scripts/systemd/osteomill.service says, for
-# an arm on /dev/uhid. The rest of a system is not there; what the unit takes from it is made here.
+# an arm on /dev/uhid. The rest of a system is not there; the parts that the unit needs are made here.
 mkdir -p /etc/systemd/system/osteomill.service.d /usr/local/bin /var/lib /var/tmp /home /root /run /sys/fs/cgroup
 chmod 755 / /trial
 mount -t tmpfs none /run
@@ -26,7 +26,7 @@ UNIT
 uhid_arm vm_arm.toml scene.toml trajectory.csv "" out/arm.csv >out/arm.txt 2>&1 &
 arm=$!
 sleep 0.2
-# What scripts/udev/70-osteomill.rules does.
+# Does the work of scripts/udev/70-osteomill.rules.
 chgrp plugdev /dev/hidraw0
 chmod 660 /dev/hidraw0
 unshare -p -f -m --mount-proc env -i container=trial PATH=/bin \

@@ -36,7 +36,7 @@ namespace {
 using namespace osteomill;
 
 constexpr double report_period_s = 0.001;  // full-speed USB
-/// Somebody looks at the arm, takes it to its calibration position, presses the switch.
+/// A person finds the arm, moves it to its calibration position, and presses the switch.
 constexpr double time_to_calibrate_s = 0.3;
 /// And takes the finger off it again, while the arm still is there.
 constexpr double time_to_let_go_s = 0.05;
@@ -260,7 +260,7 @@ class Session {
     bool is_answer_due_ = false;
 };
 
-std::atomic<bool> stop_requested{false};  // what a signal handler may touch
+std::atomic<bool> stop_requested{false};  // a signal handler may use nothing else
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-/* What force_dimension_arm.c uses of the Force Dimension SDK, so that it is compiled without it. No code of its maker. */
+/* The part of the Force Dimension SDK that force_dimension_arm.c uses, to compile without it. No code of its maker. */
 #ifndef STUB_DHDC_H
 #define STUB_DHDC_H
 #define DHD_ON 1

@@ -22,7 +22,7 @@ const ListenAddress usual_server{.port = 18944};
 
 struct TrackerChoice {
     ListenAddress server;
-    std::string name;  ///< of its TRANSFORMs; empty: the first that comes
+    std::string name;  ///< the name of its TRANSFORMs; empty: that of the first to come
     std::filesystem::path registration;
 };
 

@@ -30,7 +30,7 @@ class Clipboard {
         wake_();
     }
 
-    /// What was copied last, here or in another program; it lasts until the next call.
+    /// The text that was copied last, here or in another program; valid until the next call.
     const std::string& paste() {
         {
             const std::scoped_lock lock(mutex_);
@@ -70,7 +70,7 @@ class Clipboard {
     std::condition_variable has_fetched_;
     std::optional<std::string> copied_, fetched_;
     bool is_wanted_ = false;
-    std::string pasted_;  // of the drawing thread alone
+    std::string pasted_;  // the drawing thread's alone
 };
 
 }  // namespace osteomill

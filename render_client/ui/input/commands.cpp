@@ -21,7 +21,7 @@ constexpr double notice_s = 4.0;
 /// Between a burr that is placed and the bone under it.
 constexpr double gap_mm = 1.0;
 
-/// What goes on and off.
+/// Actions that switch a setting on and off.
 constexpr std::array switches{std::pair{Action::help, &ViewSettings::help_shown},
                               std::pair{Action::panels, &ViewSettings::panels_shown},
                               std::pair{Action::cuts_panel, &ViewSettings::cuts_panel_shown},
@@ -34,7 +34,7 @@ constexpr std::array switches{std::pair{Action::help, &ViewSettings::help_shown}
                               std::pair{Action::fullscreen, &ViewSettings::is_fullscreen},
                               std::pair{Action::tilt, &ViewSettings::drag_tilts}};
 
-/// What is asked for before it is done, of who may control the session.
+/// Actions that first ask a question, if the user may control the session.
 constexpr std::array questions{std::pair{Action::save_surface, SessionQuestion::surface},
                                std::pair{Action::mark, SessionQuestion::mark},
                                std::pair{Action::finish, SessionQuestion::finish}};

@@ -51,7 +51,7 @@ class Commands {
 
   private:
     void ask(SessionAction action);
-    /// Of the spindle.
+    /// Changes the spindle's speed.
     void change_speed(double factor);
 
     SessionPicture& session_;
@@ -61,7 +61,7 @@ class Commands {
     PictureExport pictures_;
     BoneClutch clutch_;
     bool clutch_paused_ = false;    // the session, which goes on afterwards
-    bool waits_for_place_ = false;  // what was requested is shown until the server has answered
+    bool waits_for_place_ = false;  // the requested place is shown until the server has answered
     bool picture_wanted_ = false;
     bool export_wanted_ = false;
     bool end_wanted_ = false;

@@ -12,7 +12,7 @@ namespace osteomill {
 namespace {
 
 constexpr double advance_mm_per_s = 2.0;
-/// As if the mouse tilted or moved it.
+/// Keys tilt and move it as the mouse would at this speed.
 constexpr double keys_px_per_s = 100.0;
 /// A key that is held does not move the hand by what a thread that stood still has missed.
 constexpr double longest_step_s = 0.1;
@@ -26,15 +26,15 @@ void HandInput::step(const WindowInput& input, double elapsed_s) {
     {
         const std::scoped_lock lock(mutex_);
         if (tool && picture_.drills) {
-            // What the hand wants is only known once it rests on the tool: an intent of its own making would
-            // drag the tool away.
+            // The hand's intent is known only once the hand rests on the tool: an intent of its own making
+            // would drag the tool away.
             hand_.follow(*tool, picture_.burr_count, picture_.reach_mm);
             if (input.is_focused && !input.is_minimised && !picture_.is_clutched)
                 move_hand(input, std::min(elapsed_s, longest_step_s));
             else
                 let_go();
             hand_.follow(*tool, picture_.burr_count, picture_.reach_mm);
-            // What is sent last lifts the pedal; then the tool is free for others.
+            // The last command lifts the pedal; then the tool is free for others.
             if (hand_.wants_tool() || had_tool_) request = hand_.command();
             // The server believes no pedal that it has not seen up. Nothing is sent before the hand wants the
             // tool, so that the first message says it, unless the key was held before, as through a loss of

@@ -25,7 +25,7 @@ namespace osteomill {
 struct HandInputPicture {
     bool drills = false;  ///< there is a session that an operator may drill in
     std::size_t burr_count = 0;
-    double reach_mm = longest_reach_mm;  ///< of the hand, from the burr
+    double reach_mm = longest_reach_mm;  ///< the hand's reach from the burr
     Camera camera{};
     glm::ivec2 size_px{1, 1};
     /// A panel has the mouse, or is about to: Dear ImGui learns the pointer's position a frame later.
@@ -69,7 +69,7 @@ class HandInput {
     void move_hand(const WindowInput& input, double elapsed_s);
 
     SessionSource& source_;
-    mutable std::mutex mutex_;  // of those below; held for microseconds
+    mutable std::mutex mutex_;  // guards the members below; held for microseconds
     HandInputPicture picture_;
     OperatorHand hand_;
     bool pedal_switched_down_ = false;

@@ -40,7 +40,7 @@ class HeldKeys {
 
   private:
     std::bitset<WindowInput::most_keys> down_;
-    std::map<std::size_t, double> released_s_;  // of keys that count as down yet
+    std::map<std::size_t, double> released_s_;  // keys that still count as down
 };
 
 }  // namespace osteomill

@@ -69,15 +69,15 @@ enum class Situation {
 
 Situation situation_of(bool drills, bool shows_recording);
 
-/// What a binding is about, for the help.
+/// The topic of a binding, for the help.
 enum class Topic { hand, session, recording, view, cuts, panels };
 
 struct KeyBinding {
     Topic topic = Topic::view;
     Situation situation = Situation::always;
-    std::vector<int> keys;  ///< of GLFW; empty for the mouse
+    std::vector<int> keys;  ///< GLFW's numbers; empty for the mouse
     Action action = Action::none;
-    const char* name = "";  ///< of key or mouse, for people
+    const char* name = "";  ///< the key's or mouse button's name, for people
     const char* meaning = "";
 };
 
@@ -92,11 +92,11 @@ std::vector<Action> actions_of(std::span<const int> pressed_keys, Situation situ
 /// Whether a binding is valid in that situation.
 bool holds(const KeyBinding& binding, Situation situation);
 
-/// A line of the help: what to press, what it does. A line without a name goes on with the one before.
+/// A line of the help: a key and its effect. A line without a name goes on with the one before.
 struct HelpLine {
     std::string name;
     std::string meaning;
-    bool is_heading = false;  ///< of the lines that follow; its text is `meaning`
+    bool is_heading = false;  ///< heads the lines that follow; its text is `meaning`
 };
 std::vector<HelpLine> help_lines(Situation situation);
 

@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-/// `mm_per_px`: at the burr. `ahead_mm`: from the burr to the bone along the spindle; nothing where none is
+/// `mm_per_px`: at the burr. `ahead_mm`: from the burr to the bone along the spindle; nothing if none is
 /// near.
 constexpr double wheel_step_mm(double mm_per_px, std::optional<double> ahead_mm) {
     constexpr double fine_px = 2.0, finest_mm = 0.02, coarsest_at_bone_mm = 0.2;

@@ -10,7 +10,7 @@
 
 namespace osteomill {
 
-/// What is seen becomes so many times as wide with each notch of the wheel.
+/// Each notch of the wheel makes the view so many times as wide.
 inline constexpr double zoom_per_notch = 0.88;
 
 /// A key of GLFW that went down, with what was held as it did.
@@ -24,7 +24,7 @@ struct WindowInput {
     static constexpr std::size_t most_keys = 512;  ///< GLFW numbers fewer
     enum Button : std::size_t { left, right, middle, buttons };
 
-    // As it is now.
+    // The state now.
     glm::dvec2 cursor{0.0};
     bool has_cursor = false;  ///< over the window, or dragged out of it
     std::array<bool, buttons> is_down{};
@@ -46,7 +46,7 @@ struct WindowInput {
     /// Pixels of the picture in a unit of the window.
     glm::dvec2 px_per_unit() const { return glm::dvec2(framebuffer_size_px) / size; }
     std::vector<int> pressed_keys() const;
-    /// What happened after this: its state, and both their events.
+    /// Appends later input: takes its state, and keeps the events of both.
     void append(const WindowInput& later);
     /// The state stays, the events go.
     void forget_events();

@@ -15,7 +15,7 @@ namespace osteomill {
 
 namespace {
 
-/// Nothing where there is none that can be read: a card without a picture is a card.
+/// Nothing if there is none that can be read: a card without a picture is a card.
 std::optional<Picture> picture_of(const ShelvedCase& shelved) {
     try {
         if (shelved.is_built_in) {

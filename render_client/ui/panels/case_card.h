@@ -16,15 +16,16 @@ namespace osteomill {
 /// Pictures of cases on the GPU. Needs the OpenGL context, as a Texture2D does.
 class CardPictures {
   public:
-    /// The program's own of a built-in case, else picture.png in the case's folder; null where there is none.
+    /// A built-in case's picture is the program's own, another's is picture.png in its folder; null if there
+    /// is none.
     const gl::Texture2D* of(const ShelvedCase& shelved);
 
   private:
     std::map<std::string, std::optional<gl::Texture2D>> held_;  // by what --case takes
 };
 
-/// Of page.cases()[index]. A click, or Return, chooses it; another starts it. Needs an ImGui window to be
-/// open.
+/// Draws the card of page.cases()[index]. A click, or Return, chooses it; another starts it. Needs an ImGui
+/// window to be open.
 void draw_case_card(StartPage& page, CardPictures& pictures, std::size_t index, const ImVec2& size);
 
 }  // namespace osteomill

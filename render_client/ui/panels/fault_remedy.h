@@ -1,4 +1,4 @@
-// What a trainee does about a fault that the server tells of, in English; tr() translates it.
+// The remedy for a fault that the server reports, told to the trainee in English; tr() translates it.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ inline constexpr std::array<FaultRemedy, 7> fault_remedies{
      {"the force pushed the hand with more energy than bone has: force and spindle off",
       "Pull the burr back, lift the pedal, and press it again."}}};
 
-/// Of a fault that this program does not know, what is right for any.
+/// The fault's remedy; for a fault that this program does not know, a remedy that is right for any.
 constexpr const char* remedy_of(std::string_view fault) {
     for (const FaultRemedy& known : fault_remedies)
         if (known.fault == fault) return known.remedy;

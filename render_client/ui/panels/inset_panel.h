@@ -9,7 +9,7 @@ namespace osteomill {
 
 /// Its edge in a picture of this size: less than a third of the lesser side.
 int inset_edge_px(const glm::vec2& picture);
-/// The left upper corner, or the right one where the burr, seen at this pixel (y down), is near the left.
+/// The left upper corner, or the right one if the burr, seen at this pixel (y down), is near the left.
 Anchor inset_anchor(const glm::dvec2& burr_px, const glm::vec2& picture);
 void draw_inset(const PanelPainter& painter, const gl::Framebuffer& inset, InsetKind kind,
                 double burr_diameter_mm, const PanelPlace& place);

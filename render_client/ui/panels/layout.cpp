@@ -69,7 +69,7 @@ std::optional<PanelPlace> find_place(const Places& taken, const PanelRequest& re
 /// With the first so many sizes of each left out.
 Places lay_out_from(std::span<const std::size_t> first_choices, std::span<const PanelRequest> requests,
                     const glm::vec2& picture, float margin, const std::optional<PanelPlace>& burr) {
-    // Last the burr, for those that give way to it. Where it is not there, its place is empty.
+    // The last place is the burr's, for panels that give way to it. Without a burr it is empty.
     Places taken(requests.size() + 1);
     const auto find = [&](const PanelRequest& request, std::size_t choice) {
         taken.back() = request.gives_way ? burr : std::nullopt;

@@ -17,7 +17,7 @@ struct PanelRequest {
     bool may_cover_middle = false;  ///< a page or a question: it wants to be read and answered
     bool is_kept = false;           ///< room for its last size is kept, whatever is more important
     bool is_requested = false;      ///< the user opened it: others that were opened shrink for it
-    bool gives_way = false;         ///< to the burr, wherever that is; what is pressed must not flee
+    bool gives_way = false;         ///< to the burr, wherever that is; a panel with buttons must not flee
 };
 
 struct PanelPlace {
@@ -30,7 +30,7 @@ struct PanelPlace {
 /// panel. A panel goes to its anchor; past others it moves down from an upper anchor, up from a lower one. If
 /// its first size fits nowhere it gets the next, and none if none fits: a small window shows fewer panels.
 /// Panels that must not cover the working area leave the middle of the picture free; panels that give way
-/// also leave `burr` free, the burr's part of the picture. Of the panels that the user opened the largest
+/// also leave `burr` free, the burr's part of the picture. The largest of the panels that the user opened
 /// shrinks until all have a place, or none can shrink further.
 std::vector<std::optional<PanelPlace>> lay_out(std::span<const PanelRequest> requests,
                                                const glm::vec2& picture, float margin,

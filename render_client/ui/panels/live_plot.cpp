@@ -117,13 +117,14 @@ class PlotColumn {
     }
 
   private:
-    /// Of a line of the grid, left of the plot and within its height.
+    /// Writes the label of a grid line, left of the plot and within its height.
     void label(double value, const glm::vec2& at, const PlotRange& range) const {
         const std::string text = fmt::format("{:g}", value);
         const float height = small_print * ImGui::GetFontSize();
         const float up = value == range.low ? height : value == range.high ? 0.0f : 0.5f * height;
-        painter_.draw_text({at.x - small_print * painter_.width_of(text) - 4.0f * painter_.scale(), at.y - up},
-                           painter_.theme()[Tone::dim], text, small_print);
+        painter_.draw_text(
+            {at.x - small_print * painter_.width_of(text) - 4.0f * painter_.scale(), at.y - up},
+            painter_.theme()[Tone::dim], text, small_print);
     }
 
     const PanelPainter& painter_;

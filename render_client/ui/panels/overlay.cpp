@@ -95,7 +95,7 @@ void add_inset(PanelList& panels, const OverlayContent& content, const PanelPain
                });
 }
 
-/// What the user works with.
+/// The panels that the user works with.
 void add_controls(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                   const glm::vec2& picture, float side_width) {
     ViewSettings& view = *content.view;
@@ -124,7 +124,7 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
                    [&](const PanelPlace& place) { draw_playback_panel(*content.player, painter, place); });
 }
 
-/// What the user reads.
+/// The panels that the user reads.
 void add_readings(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                   const glm::ivec2& size_px, float side_width) {
     // Length and force are read at any time, but not under a page or a question, which is to be seen whole.
@@ -161,7 +161,7 @@ void add_readings(PanelList& panels, const OverlayContent& content, const PanelP
     }
 }
 
-/// What the burr takes of the picture; none where it is not in it.
+/// The part of the picture that the burr covers; none if the burr is not in it.
 std::optional<PanelPlace> burr_in(const OverlayContent& content, const glm::ivec2& size_px) {
     const Burr* burr = content.burr_in_tool();
     if (burr == nullptr || !content.has_bone) return std::nullopt;

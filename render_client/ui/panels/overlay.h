@@ -31,14 +31,14 @@ struct OverlayContent {
     PictureQuality quality;
     /// The operator's command, if this client may drill.
     std::optional<OperatorCommand> operator_command;
-    /// Null where no slices are shown.
+    /// Null if no slices are shown.
     SlicesView* slices = nullptr;
     const gl::Framebuffer* inset = nullptr;  ///< null where no second view is shown
     const Bone* bone = nullptr;              ///< null until one has come
     std::uint64_t bone_version = 0;
     /// Takes requests made with buttons; null if nobody can press them, as in offscreen pictures.
     SessionRequests* requests = nullptr;
-    /// Null where no session is started from here.
+    /// Null if no session is started from here.
     StartScreen* start = nullptr;
     /// Null unless a recording is shown.
     RecordingPlayer* player = nullptr;
@@ -49,7 +49,7 @@ struct OverlayContent {
     bool has_bone = false;
     SessionSight sight = SessionSight::now;
 
-    /// Null where there is no tool, or the server has announced no such burr.
+    /// Null if there is no tool, or the server has announced no such burr.
     const Burr* burr_in_tool() const { return session && tool ? session->burr_of(tool->burr) : nullptr; }
     double burr_radius_mm() const { return burr_in_tool() != nullptr ? burr_in_tool()->radius_mm() : 0.0; }
 };

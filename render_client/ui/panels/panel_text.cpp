@@ -42,7 +42,7 @@ void add_details(const OverlayContent& content, PanelText& text) {
                                            1e3 * delay->by_clocks_s, 1e3 * delay->over_least_s)));
 }
 
-/// What is wrong, and what to do.
+/// The fault, and its remedy.
 void add_fault(const std::string& fault, PanelText& text) {
     text.push_back(line(Tone::warning, trf("FAULT: {}", tr(fault))));
     text.push_back(line(Tone::plain, tr(remedy_of(fault))));

@@ -20,7 +20,7 @@ namespace osteomill {
 
 namespace {
 
-/// Of Debian's fonts-dejavu-core. Where it is missing, Dear ImGui's own letters do: coarser, but there.
+/// From Debian's fonts-dejavu-core. If it is missing, Dear ImGui's own letters serve: coarser, but there.
 constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float built_in_letter_px = 13.0f;
 
@@ -48,7 +48,7 @@ void set_colours(const Theme& theme, ImGuiStyle& style) {
         theme.control_active);
 }
 
-/// What a draw command covers, in pixels of the framebuffer, y up.
+/// The box that a draw command covers, in pixels of the framebuffer, y up.
 PixelBox box_of(const ImDrawData& drawn, const ImDrawList& list, const ImDrawCmd& command) {
     glm::vec2 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
     for (unsigned int i = 0; i < command.ElemCount; ++i) {

@@ -1,5 +1,5 @@
 // Dear ImGui's context and its OpenGL 3 back end, as one RAII value. Needs a current OpenGL context. All
-// lengths are pixels of the picture, also where a window counts in larger units.
+// lengths are pixels of the picture, also if a window counts in larger units.
 //
 // Takes the window's input as data instead of through Dear ImGui's own back end for GLFW, which reads it
 // while drawing: another thread does the reading, see hand_input.h.
@@ -34,13 +34,13 @@ class Panels {
 
     /// Opens an ImGui frame, in the colours of `theme` and with letters and controls `scale` times as large
     /// as on an ordinary display. `elapsed_s` is the time since the last one. Panels are laid out in a
-    /// picture of `size_px` and drawn into pictures of `drawn_px`, which differ where two eyes share one.
+    /// picture of `size_px` and drawn into pictures of `drawn_px`, which differ if two eyes share one.
     void begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s, ThemeName theme,
                float scale);
     /// Draws what was put into the frame into each of these pictures; returns where that is in them.
     std::vector<PixelBox> end(std::span<const gl::Framebuffer* const> pictures);
 
-    /// Where the panels that take the mouse were in the last frame, pixels, y down.
+    /// The boxes of the panels that caught the mouse in the last frame, pixels, y down.
     std::vector<PixelBox> input_boxes() const;
 
     /// Notches that the wheel was turned by in this frame: Dear ImGui forgets them when the frame ends.

@@ -30,7 +30,7 @@ std::string clock_text(double time_s) {
 void draw_moments(const RecordingPlayer& player, const PanelPainter& painter) {
     const ImVec2 low = ImGui::GetItemRectMin();
     const ImVec2 high = ImGui::GetItemRectMax();
-    // Where the middle of the grab is at both ends.
+    // The grab's middle is so far from either end when it stands there.
     const float inset = 2.0f + 0.5f * ImGui::GetStyle().GrabMinSize;
     const float half = 0.5f * (high.y - low.y);
     for (const auto& [time_s, kind] : player.moments()) {

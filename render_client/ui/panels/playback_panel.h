@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-/// As wide as is useful in a picture of that size.
+/// The panel's size: as wide as is useful in a picture of that size.
 glm::vec2 playback_panel_size(const PanelPainter& painter, const glm::vec2& picture);
 void draw_playback_panel(RecordingPlayer& player, const PanelPainter& painter, const PanelPlace& place);
 

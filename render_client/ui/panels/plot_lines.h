@@ -22,8 +22,8 @@ struct PlotSample {
 };
 
 /// Points of a line through `samples`, oldest first, in a plot of `size` pixels whose right edge is now and
-/// left edge `span_s` ago; x to the right, y down, from the plot's upper left corner. Of the samples in one
-/// column of pixels only the least and the greatest are kept, in their order: no peak is lost. Samples older
+/// left edge `span_s` ago; x to the right, y down, from the plot's upper left corner. In each column of
+/// pixels only the least and the greatest sample are kept, in their order: no peak is lost. Samples older
 /// than `span_s` are left out, values beyond the range lie on its edge.
 std::vector<glm::vec2> plot_points(std::span<const PlotSample> samples, double span_s, const PlotRange& range,
                                    const glm::vec2& size);

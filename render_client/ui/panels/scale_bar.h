@@ -11,7 +11,7 @@ struct ScaleBar {
     std::string label;  ///< "5 mm", "200 um"
 };
 
-/// The longest of 1, 2 and 5 times a power of ten that spans at most `longest_px` where a pixel spans
+/// The longest of 1, 2 and 5 times a power of ten that spans at most `longest_px` if a pixel spans
 /// `mm_per_px`, both above zero.
 ScaleBar scale_bar(double mm_per_px, double longest_px);
 

@@ -1,4 +1,4 @@
-// The dialog in the middle of the picture: the note of a mark, and confirmation of reset, finish and end.
+// The dialog in the middle of the picture: the text of a mark, and confirmation of reset, finish and end.
 // Drawn with Dear ImGui; needs an ImGui frame to be open.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-/// Of content.view->question, which is one.
+/// The size of the dialog for content.view->question, which must be set.
 glm::vec2 session_dialog_size(const OverlayContent& content, const PanelPainter& painter);
 /// An answer goes into content.requests and ends the question.
 void draw_session_dialog(const OverlayContent& content, const PanelPlace& place);

@@ -1,5 +1,5 @@
-// What stands in the middle where the picture is not the session's of now: the cause, and what to do, in
-// words for a trainee. Drawn with Dear ImGui; needs an ImGui frame to be open.
+// The panel in the middle while the picture does not show the session as it is now: the cause, and what to
+// do, worded for a trainee. Drawn with Dear ImGui; needs an ImGui frame to be open.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -16,7 +16,7 @@ struct SightWords {
     std::string advice;  ///< may be empty
 };
 
-/// Of a sight that has words.
+/// The text for a sight that has one.
 SightWords words_of_sight(const OverlayContent& content);
 
 glm::vec2 sight_panel_size(const OverlayContent& content, const glm::vec2& available);

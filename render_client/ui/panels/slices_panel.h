@@ -14,7 +14,7 @@ namespace osteomill {
 std::vector<glm::vec2> slices_panel_sizes(const PanelPainter& painter);
 void draw_slices_panel(const OverlayContent& content, const PanelPlace& place);
 
-/// Where the slices cross, in the picture of the bone.
+/// Marks, in the picture of the bone, the place where the slices cross.
 void draw_slices_cross(const OverlayContent& content, const PanelPainter& painter, const glm::ivec2& size_px);
 
 }  // namespace osteomill

@@ -13,12 +13,11 @@
 
 namespace osteomill {
 
-/// Pictures on the GPU: of the scan that is looked at, and of the cases. Needs the OpenGL context, as a
-/// Texture2D does.
+/// Pictures on the GPU: the scan's preview, and the cases'. Needs the OpenGL context, as a Texture2D does.
 struct StartPicture {
     std::optional<gl::Texture2D> texture{};
     glm::ivec2 size_px{0};
-    std::uint64_t number = 0;              ///< of the page's voxels that it has,
+    std::uint64_t number = 0;              ///< number of the page's voxels that it has,
     glm::dvec3 slices_at_mm{0.0};          ///< where the slices in it meet,
     std::optional<double> threshold_hu{};  ///< and of the contour in it
     std::optional<glm::dvec2> drag{};      ///< where a drag began, pixels of the picture
@@ -39,7 +38,7 @@ struct StartScreen {
     StartPicture picture{};
 };
 
-/// As large as is useful for what the page shows, within `available`.
+/// The panel's size: as large as is useful for the page's contents, within `available`.
 glm::vec2 start_panel_size(const StartPage& page, const glm::vec2& available);
 
 void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place);

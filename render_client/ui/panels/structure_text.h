@@ -6,7 +6,7 @@
 namespace osteomill {
 
 /// The nearest by name with its distance, and every structure that was touched, for as long as the session
-/// lasts; empty where the session protects nothing.
+/// lasts; empty if the session protects nothing.
 PanelText structure_text(const OverlayContent& content);
 /// Those that the burr touches, or is nearer to than is to be warned of; mostly none.
 PanelText structure_warnings(const OverlayContent& content);

@@ -18,7 +18,7 @@ struct Rgba {
 
 enum class ThemeName { dark, light };
 
-/// What a piece of text or a line stands for.
+/// The meaning of a piece of text or of a line.
 enum class Tone { plain, dim, good, warning, left, back, up, depth, removed };
 inline constexpr std::size_t tone_count = 9;
 
@@ -26,7 +26,7 @@ struct Theme {
     std::array<Rgba, tone_count> tones;
     Rgba panel;  ///< behind text; a little of the picture shows through
     Rgba control, control_hovered, control_active;
-    Rgba grid;                                  ///< of plots
+    Rgba grid;                                  ///< in plots
     Rgba on_picture;                            ///< lines and letters over the picture, without a panel
     Rgba behind_letter;                         ///< round what stands on the picture
     glm::vec3 background_low, background_high;  ///< linear RGB, see SceneAppearance

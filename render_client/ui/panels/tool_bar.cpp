@@ -37,7 +37,7 @@ std::string burr_words(const Burr& burr) {
                              burr.diameter_mm);
 }
 
-/// The one that was chosen; of an arm with a choice of its own the one in the tool.
+/// The burr that was chosen; for an arm that chooses itself, the burr in the tool.
 std::optional<std::size_t> burr_in_use(const OverlayContent& content) {
     if (content.session == nullptr) return std::nullopt;
     std::optional<std::size_t> burr;
@@ -170,7 +170,7 @@ void press(const ToolButton& button, const OverlayContent& content) {
 /// The head's section through the spindle, tip down, with its shank, to the scale of the largest of a set: a
 /// pixel for each `mm_per_px`.
 void draw_burr(const Burr& burr, const ImVec2& first, const ImVec2& size, float mm_per_px) {
-    constexpr int steps = 24;  // of half the outline
+    constexpr int steps = 24;  // on half the outline
     ImDrawList& canvas = *ImGui::GetWindowDrawList();
     const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
     const float radius_mm = static_cast<float>(burr.radius_mm());
@@ -202,7 +202,7 @@ void draw_burr(const Burr& burr, const ImVec2& first, const ImVec2& size, float 
     canvas.AddLine(at(0.0f, 0.9f * top_mm), {middle, first.y}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
                    2.0f);
     canvas.AddConvexPolyFilled(points.data(), static_cast<int>(points.size()), ink);
-    // As many edges as can be seen from one side.
+    // Draws the edges that can be seen from one side.
     for (int edge = 1; edge < burr.edges / 2; ++edge) {
         const float across = 2.0f * static_cast<float>(edge) / static_cast<float>(burr.edges / 2) - 1.0f;
         const int seen = steps / 2;
@@ -213,7 +213,7 @@ void draw_burr(const Burr& burr, const ImVec2& first, const ImVec2& size, float 
     }
 }
 
-/// Of the largest head of a set, from its tip to where it ends, or across.
+/// The largest extent of a set's heads, along the axis from tip to end, or across.
 float largest_mm(const std::vector<Burr>& burrs) {
     double largest_mm = 0.5;
     for (const Burr& burr : burrs) largest_mm = std::max({largest_mm, burr.diameter_mm, burr.head.length_mm});

@@ -1,4 +1,4 @@
-// The tool bar: buttons for all controls of the session, with words, signs and keys. Drawn with Dear ImGui;
+// The tool bar: buttons for all controls of the session, with labels, signs and keys. Drawn with Dear ImGui;
 // needs an ImGui frame to be open.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace osteomill {
 /// Whether there is a session that can be controlled, by this client or another.
 bool has_tool_bar(const OverlayContent& content);
 
-/// With words, with signs alone, and of those only the most used.
+/// With labels, with signs alone, and only the most used signs.
 std::vector<glm::vec2> tool_bar_sizes(const OverlayContent& content, const PanelPainter& painter);
 /// Pressed buttons set content.requests and content.view.
 void draw_tool_bar(const OverlayContent& content, const PanelPlace& place);

@@ -8,7 +8,7 @@
 
 namespace osteomill {
 
-/// What the newest frames said of the tool, oldest first. A frame whose time is not later than the one before
+/// The tool's states in the newest frames, oldest first. A frame whose time is not later than the one before
 /// is left out; one that is earlier starts a new session and forgets what was there.
 class ToolHistory {
   public:

@@ -1,4 +1,4 @@
-// The tour of the start page: what it is for, in words, on three cards over it.
+// The tour of the start page: three cards over it that explain it.
 #pragma once
 
 #include "render_client/ui/start/start_page.h"

@@ -22,8 +22,8 @@ class TransferEditor {
     void choose(const std::optional<TransferFunction>& function);
     void set_mode(TransferMode mode);
 
-    /// The point within reach of (value, opacity), the nearest first; lets go where there is none. Reaches
-    /// are half-widths above zero.
+    /// The point within reach of (value, opacity), the nearest first; lets go if there is none. Reaches are
+    /// half-widths above zero.
     void select_near(double value, double opacity, double value_reach, double opacity_reach);
     std::optional<std::size_t> selected() const { return selected_; }
 

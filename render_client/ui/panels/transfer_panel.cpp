@@ -32,7 +32,7 @@ class Field {
     double hu_at(float x) const { return highest_hu() * static_cast<double>((x - first_.x) / size_.x); }
     double value_at(float x) const { return stiffness_at_hu(hu_at(x)); }
     double opacity_at(float y) const { return 1.0 - static_cast<double>((y - first_.y) / size_.y); }
-    /// How far apart in value two pixels are at x; above zero also where the relation is flat.
+    /// How far apart in value two pixels are at x; above zero also if the relation is flat.
     double value_reach(float x, double px) const {
         const auto half = static_cast<float>(px);
         return std::max(0.5 * (value_at(x + half) - value_at(x - half)), 0.02);
@@ -97,7 +97,7 @@ void draw_axes(const PanelPainter& painter, const Field& field) {
         canvas.AddText(ImGui::GetFont(), letter, {middle_or_end.x - part * width, middle_or_end.y}, ink,
                        text.c_str());
     };
-    // As far apart as their numbers need.
+    // Ticks are as far apart as their numbers need.
     const float room = field.size().x / (1.4f * small_print * painter.width_of("2000"));
     const double step_hu = room * 500.0f > static_cast<float>(Field::highest_hu()) ? 500.0 : 1000.0;
     for (double hu = 0.0; hu <= Field::highest_hu(); hu += step_hu) {

@@ -10,10 +10,10 @@ namespace osteomill {
 
 struct ShelvedCase {
     std::string name;
-    std::string argument;  ///< of haptic_server --case
+    std::string argument;  ///< for haptic_server --case
     bool is_built_in = false;
     std::string description{};      ///< a sentence, or what is wrong with its scene
-    std::string protected_names{};  ///< of its tissues, "pulp, nerve canal"; empty: none
+    std::string protected_names{};  ///< names of its protected tissues, "pulp, nerve canal"; empty: none
 
     bool operator==(const ShelvedCase&) const = default;
 };
@@ -26,12 +26,12 @@ std::filesystem::path home_of_cases();
 /// none.
 std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder);
 
-/// Why a case cannot have this name, in one line; empty where it can: a name of a file in any language, no
+/// Why a case cannot have this name, in one line; empty if it can: a name of a file in any language, no
 /// dot first, no blank at its ends, none like it in `folder`.
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder);
 
-/// Where a session that begins at `began` has its report: case, trainee and the local time, in `reports`.
-/// Names as as_file_name makes them.
+/// The report folder of a session that begins at `began`: named by case, trainee and local time, in
+/// `reports`. Names as as_file_name makes them.
 std::filesystem::path report_folder(const std::filesystem::path& reports, const std::string& case_name,
                                     const std::string& trainee, std::time_t began);
 

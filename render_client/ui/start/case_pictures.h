@@ -8,7 +8,7 @@
 namespace osteomill {
 
 struct CasePicture {
-    std::string_view name;  ///< of the case
+    std::string_view name;  ///< the case's
     std::span<const std::uint8_t> png;
 };
 

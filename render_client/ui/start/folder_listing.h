@@ -10,7 +10,7 @@ namespace osteomill {
 struct FolderListing {
     std::filesystem::path folder;        ///< absolute
     std::vector<std::string> folders{};  ///< by name, without hidden ones
-    std::vector<std::string> files{};    ///< likewise
+    std::vector<std::string> files{};    ///< by name, without hidden ones
     std::string problem{};               ///< why it cannot be read, one line; empty: it can
 };
 

@@ -17,8 +17,8 @@ struct SegmentChoice {
     std::string name;
     bool is_protected = false;
     double warn_mm = usual_warn_mm(true);  ///< where it is protected
-    bool is_target = false;                ///< of one at most
-    std::string material{};                ///< empty: as its CT numbers say, or of labels its name
+    bool is_target = false;                ///< true for one at most
+    std::string material{};                ///< empty: by its CT numbers; for labels, by its name
 };
 
 struct ImportForm {
@@ -32,8 +32,8 @@ struct ImportForm {
     double threshold_hu = 300.0;
     double spacing_mm = 0.1;
     bool is_spacing_chosen = false;     ///< by a person; else it follows the region
-    std::uint64_t available_bytes = 0;  ///< of this machine's memory; 0: not known
-    bool keeps_soft_tissue = true;      ///< for people who look at the CT in the window
+    std::uint64_t available_bytes = 0;  ///< this machine's memory; 0: not known
+    bool keeps_soft_tissue = true;      ///< for people who view the CT in the window
     std::string name{};
     std::string description{};  ///< empty: a sentence about its bone
     PassMarks pass{};           ///< as chosen; kept while no segment is a target or protected
@@ -45,15 +45,15 @@ bool takes_mark(const ImportForm& form, const PassMarkKind& kind);
 
 /// A bone of more voxels is refused, before an hour is spent on it.
 inline constexpr double most_imported_voxels = 1.5e9;
-/// Of the preview's voxels and pixels.
+/// The edge of the preview's voxels and pixels.
 inline constexpr double preview_mm_per_px = 0.5;
 
 double voxels_of(const ImportForm& form);
-/// Of the bone, if all of the region were bone.
+/// The bone's memory if all of the region were bone.
 double most_memory_bytes(const ImportForm& form);
 
-/// Of a computer with two cores: docs/cases.md's import by command, 401^3 voxels with the soft tissue, takes
-/// 4 s there.
+/// Measured on a computer with two cores: docs/cases.md's import by command, 401^3 voxels with the soft
+/// tissue, takes 4 s there.
 inline constexpr double imported_voxels_per_s = 1.6e7;
 
 /// An estimate of the import's time: to read the scan what the look at it took beyond its own voxels, and
@@ -63,11 +63,11 @@ double estimated_s(const ImportForm& form, const ScanPreview& look);
 /// bone_import, as a path, with what it takes to look at the scan and at the segmentations.
 std::vector<std::string> look_command(const std::string& bone_import, const ImportForm& form,
                                       const std::filesystem::path& voxels);
-/// Likewise to make a case of it in `folder`.
+/// The command that makes a case of it in `folder`.
 std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
                                         const std::filesystem::path& folder);
 
-/// Edge of a voxel where nobody has chosen one: 0.1 mm, of a finer scan its own, 0.02 mm at least, or longer
+/// Edge of a voxel if nobody has chosen one: 0.1 mm, of a finer scan its own, 0.02 mm at least, or longer
 /// (usual_spacing.h).
 double default_spacing_mm(const ImportForm& form, const ScanPreview& look);
 

@@ -28,7 +28,7 @@ std::string month(int number) {
     return names[static_cast<std::size_t>(number - 1)];
 }
 
-/// Of a folder's name: "CASE-TRAINEE", and the local time in words.
+/// A folder's name, parsed: "CASE-TRAINEE", and the local time as text.
 struct NamedFolder {
     std::string whose;
     std::string when;
@@ -49,7 +49,7 @@ std::optional<NamedFolder> parts_of(const std::string& name) {
                            stamp.substr(10, 2), stamp.substr(12, 2))};
 }
 
-/// "Anna, jaw" and the verdict, of a report; empty where there is none of ours.
+/// "Anna, jaw" and the verdict, of a report; empty if there is none of ours.
 std::pair<std::string, std::string> said_by_report(const fs::path& folder) {
     try {
         const auto json = parse_foreign_json(read_text(folder / "metrics.json", json_kind), "");

@@ -10,7 +10,7 @@ namespace osteomill {
 struct KeptSession {
     std::filesystem::path folder{};
     std::filesystem::path recording{};  ///< in it
-    /// "Anna, jaw, 28 November 14:05, not passed"; of what has no report what its folder's name says.
+    /// "Anna, jaw, 28 November 14:05, not passed"; without a report, only what the folder's name tells.
     std::string title{};
     bool is_whole =
         true;  ///< else its program was ended in the middle, and the recording is whole until then
@@ -23,7 +23,7 @@ struct KeptSession {
 /// `most_titled` have a title.
 std::vector<KeptSession> sessions_in(const std::filesystem::path& reports, std::size_t most_titled = 20);
 
-/// Of the folder of a session (report_folder()).
+/// The title of the session in this folder (report_folder()).
 std::string title_of_session(const std::filesystem::path& folder);
 
 }  // namespace osteomill

@@ -44,7 +44,7 @@ std::optional<ScanPreview> read_scan_preview(const std::string& preview_output) 
         }
         std::sscanf(line.c_str(), "HU from %lf to %lf", &look.least_hu, &look.most_hu);
         std::sscanf(line.c_str(), "grey from %lf to %lf", &look.black_hu, &look.white_hu);
-        // Of the line that tells what an import makes of the scan; it begins with a path.
+        // Parses the line on the bone that an import makes of the scan; it begins with a path.
         const std::size_t edges = line.rfind(" voxels of ");
         glm::dvec3 voxel_mm;
         if (edges != std::string::npos &&
@@ -145,7 +145,7 @@ Picture picture_of(const ScanVoxels& voxels, const ScanBox& covers, double mm_pe
 }
 
 std::array<const char*, 4> letters_of(const PreviewSlice& slice) {
-    constexpr std::array<const char*, 3> low{"R", "A", "I"};  // of patient LPS
+    constexpr std::array<const char*, 3> low{"R", "A", "I"};  // in patient LPS
     constexpr std::array<const char*, 3> high{"L", "P", "S"};
     const auto right = static_cast<std::size_t>(slice.right_axis);
     const auto down = static_cast<std::size_t>(slice.down_axis);
@@ -161,7 +161,7 @@ Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_
         const auto* pixel = picture.at(x, y);
         return pixel[0] == pixel[1] && pixel[1] == pixel[2];
     };
-    // Not where a segment's outline is: what is under that is not known.
+    // Not under a segment's outline, where the value is not known.
     const auto is_bone = [&](int x, int y) { return !is_grey(x, y) || *picture.at(x, y) >= grey; };
     for (const PreviewSlice& slice : preview_slices(look.covers, mm_per_px)) {
         const glm::ivec2 first(slice.first_px);

@@ -27,11 +27,11 @@ struct ScanPreview {
     ScanBox covers;  ///< centres of the outermost voxels
     double least_hu = 0.0;
     double most_hu = 0.0;
-    double black_hu = 0.0;  ///< of the picture's greys
+    double black_hu = 0.0;  ///< range of the picture's greys
     double white_hu = 0.0;
-    double finest_voxel_mm = 0.0;         ///< of the scan: the least of its voxels' edges; 0: not said
+    double finest_voxel_mm = 0.0;         ///< the least of the edges of the scan's voxels; 0: not stated
     std::vector<std::string> segments{};  ///< names, as segmentations have them
-    double took_s = 0.0;                  ///< to look at all of it
+    double took_s = 0.0;                  ///< to read all of it
 };
 
 /// The scan's voxels, x fastest, then y, then z.
@@ -44,11 +44,11 @@ struct ScanVoxels {
 /// A segment's outline in the slices, sRGB; `index` in ScanPreview::segments.
 std::array<std::uint8_t, 3> colour_of_segment(std::size_t index);
 
-/// What bone_import --preview VOXELS.raw wrote. Throws std::runtime_error, in one line, where that is not
-/// what the scan covers.
+/// The voxels that bone_import --preview VOXELS.raw wrote. Throws std::runtime_error, in one line, if they do
+/// not match the box that the scan covers.
 ScanVoxels read_scan_voxels(const std::filesystem::path& raw, const ScanBox& covers, double mm_per_px);
 
-/// Nothing where the text does not say what a scan covers.
+/// Nothing if the text does not say what a scan covers.
 std::optional<ScanPreview> read_scan_preview(const std::string& preview_output);
 
 /// One of the picture's slices: axial, coronal, sagittal.
@@ -61,14 +61,14 @@ struct PreviewSlice {
     int through_axis() const { return 3 - right_axis - down_axis; }
 };
 
-/// Of a picture with a pixel for each `mm_per_px`.
+/// The slices of a picture with a pixel for each `mm_per_px`.
 std::array<PreviewSlice, 3> preview_slices(const ScanBox& covers, double mm_per_px);
 
 /// The one with this pixel; nothing between two of them.
 std::optional<PreviewSlice> slice_at(const ScanBox& covers, double mm_per_px, const glm::dvec2& px);
 
-/// The slices through a place, patient LPS, with the segments outlined; the nearest ones where it is outside
-/// the scan.
+/// The slices through a place, patient LPS, with the segments outlined; the nearest ones if it is outside the
+/// scan.
 Picture picture_of(const ScanVoxels& voxels, const ScanBox& covers, double mm_per_px,
                    const glm::dvec3& place_mm);
 
@@ -76,15 +76,15 @@ Picture picture_of(const ScanVoxels& voxels, const ScanBox& covers, double mm_pe
 std::array<const char*, 4> letters_of(const PreviewSlice& slice);
 
 /// The picture with the edge of what has so many HU or more drawn into its slices, a pixel thick; nothing is
-/// drawn where the picture does not say its HU.
+/// drawn if the picture does not say its HU.
 Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_per_px, double threshold_hu);
 
 /// The box with two of its sides as they were dragged in a slice, from one pixel of the picture to another;
-/// kept within the scan. Nothing where the first lies in no slice.
+/// kept within the scan. Nothing if the first lies in no slice.
 std::optional<ScanBox> dragged_box(const ScanBox& covers, const ScanBox& before, double mm_per_px,
                                    const glm::dvec2& from_px, const glm::dvec2& to_px);
 
-/// Where a box is in a slice, pixels of the picture: upper left and lower right corner.
+/// A box's place in a slice, pixels of the picture: upper left and lower right corner.
 std::array<glm::dvec2, 2> box_in_slice(const ScanBox& covers, const ScanBox& box, double mm_per_px,
                                        const PreviewSlice& slice);
 

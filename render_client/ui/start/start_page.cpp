@@ -38,7 +38,7 @@ void remove_quietly(const std::filesystem::path& folder) {
     if (!folder.empty()) std::filesystem::remove_all(folder, ignored);
 }
 
-/// Of a scan's path: what a person calls it.
+/// A name for the scan, made of its path.
 std::string name_of_scan(const std::filesystem::path& scan) {
     const std::string name = scan.filename().string();
     const std::string stem = as_file_name(name.substr(0, name.find('.')));
@@ -52,7 +52,7 @@ std::string without_program(const std::string& line) {
     return is_program ? line.substr(colon + 2) : line;
 }
 
-/// Of a session's program; empty where all went well.
+/// How a session's program ended, for people; empty if all went well.
 std::string end_in_words(const ChildProgram& server) {
     const int status = server.status().value_or(0);
     if (status < 0)

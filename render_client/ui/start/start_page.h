@@ -47,7 +47,7 @@ class StartPage {
     /// Ends what it started: a session's server writes its report first.
     ~StartPage() { give_up_work(); }
 
-    /// Once in a while: looks after the programs that run. True where there is something new to show.
+    /// Once in a while: looks after the programs that run. True if there is something new to show.
     bool poll();
 
     View view() const { return view_; }
@@ -60,11 +60,11 @@ class StartPage {
     const std::vector<ShelvedCase>& cases() const { return cases_; }
     /// The sessions that were kept here, the newest first.
     const std::vector<KeptSession>& sessions() const { return sessions_; }
-    /// Its report in the user's browser, made before where there is none; a recording in a window of its own.
+    /// Its report in the user's browser, made before if there is none; a recording in a window of its own.
     void open_report_of(const KeptSession& session);
     void replay(const std::filesystem::path& recording);
-    std::size_t chosen = 0;  ///< of cases()
-    std::string trainee{};   ///< whose session it will be
+    std::size_t chosen = 0;  ///< index in cases()
+    std::string trainee{};   ///< who works in the session
     void start();
     /// The window has seen the end of the session: only its report remains to be written.
     void note_end_of_session();
@@ -76,25 +76,25 @@ class StartPage {
     bool is_session_running() const { return server_ != nullptr && server_->is_running(); }
     /// Started a session that has ended.
     bool has_served() const { return !report_folder_.empty() && server_ == nullptr; }
-    /// Of the last session, once it is written.
+    /// The last session's report, once it is written.
     const std::optional<std::filesystem::path>& report() const { return report_; }
-    /// In the user's browser.
+    /// Opens the report in the user's browser.
     void open_report() {
         if (report_) open_page(*report_);
     }
-    /// Of every session in the reports: tables and learning curves, which are opened when they are there.
+    /// Makes tables and learning curves of every session in the reports, and opens them once they are there.
     void compare_sessions();
     std::optional<std::size_t> tour_card{};  ///< which of the tour's cards is over the page
-    bool is_hidden = false;  ///< until the next session: what is left of the last is looked at
+    bool is_hidden = false;  ///< until the next session: the user inspects the result of the last
 
     ImportForm form{};
-    /// Of the scan, once it was looked at.
+    /// The scan's preview, once it is there.
     const std::optional<ScanPreview>& look() const { return look_; }
     const std::optional<ScanVoxels>& voxels() const { return voxels_; }
-    std::uint64_t voxels_number() const { return voxels_number_; }  ///< another for each look
+    std::uint64_t voxels_number() const { return voxels_number_; }  ///< another for each preview
     glm::dvec3 slices_at_mm{0.0};                                   ///< where the slices meet, patient LPS
-    bool is_working() const { return worker_ != nullptr; }          ///< looks or imports
-    /// At a scan that could not be looked at before.
+    bool is_working() const { return worker_ != nullptr; }          ///< makes a preview or imports
+    /// Retries the preview of a scan that failed before.
     void look_again() { look_at_scan(true); }
     void import();
     void give_up_work();
@@ -102,7 +102,7 @@ class StartPage {
     const FolderListing& listing() const { return listing_; }
     /// With the files that may be what the browser was opened for.
     void browse(const std::filesystem::path& folder);
-    /// What a person wrote: a folder is browsed, a file taken.
+    /// Goes to a path that a person typed: browses a folder, chooses a file.
     void go_to(const std::string& path);
     /// A file, or a folder of DICOM, for what the browser was opened for.
     void take(const std::filesystem::path& path);
@@ -132,7 +132,7 @@ class StartPage {
     std::string form_error_;          ///< as message() says it, until it is corrected
     std::filesystem::path reported_;  ///< whose report is being made
     std::unique_ptr<ChildProgram> worker_;
-    std::filesystem::path scratch_;  // of the look that is under way
+    std::filesystem::path scratch_;  // the preview's under way
     std::optional<ScanPreview> look_;
     std::chrono::steady_clock::time_point began_looking_{};
     std::optional<ScanVoxels> voxels_;

@@ -24,7 +24,7 @@ class BoneClutch {
     bool is_held() const { return held_.has_value(); }
 
     bool has_moved(const Camera& camera) const { return !(camera == held_->camera); }
-    /// Where the tool is to the bone when it is seen through `camera`. Only while it is held.
+    /// The tool's pose relative to the bone, seen through `camera`. Only while it is held.
     ToolPose pose(const Camera& camera) const;
 
   private:

@@ -40,7 +40,7 @@ void BoneOnScreen::begin(const Bone& bone) {
 
 BoneOnScreen::Outcome BoneOnScreen::work(const Bone& bone, const std::function<bool()>& has_time) {
     Outcome outcome;
-    // What has nothing to show for a look would fail with it again and again.
+    // If nothing is shown yet, the appearance has failed before and would fail again and again.
     if (!build_ && shown_ && shown_->look != look_) begin(bone);
     if (build_) build(bone, has_time, outcome);
     while (!unshown_.empty()) {
@@ -97,7 +97,7 @@ void BoneOnScreen::fail(const std::string& problem, Outcome& outcome) {
 }
 
 void BoneOnScreen::drop_shown(Outcome& outcome) {
-    // What a context has bound lives on, even where another deletes it.
+    // A texture that a context has bound lives on, even if another context deletes it.
     gl::Texture3D::unbind_all();
     drop(std::exchange(shown_, nullptr));
     unshown_.clear();

@@ -22,19 +22,19 @@ class BoneOnScreen {
 
     struct Outcome {
         bool other_textures = false;              ///< or none any more: all is to be drawn anew
-        DrawingCost cost = DrawingCost::unknown;  ///< of a picture of them
+        DrawingCost cost = DrawingCost::unknown;  ///< cost of a picture of them
         std::vector<VoxelBox> changed{};          ///< else: voxels of textures()->grid()
         bool is_news() const { return other_textures || !changed.empty(); }
     };
 
-    /// Of the bones that come from now on.
+    /// Limits the textures of bones that come from now on.
     void limit(const TextureLimits& limits) { limits_ = limits; }
     /// Makes large textures' memory from now on; must outlive this, as the driver's context must.
     void make_storage_by(gl::StorageThread& thread) { storage_ = &thread; }
 
     /// Another bone has come: it is prepared by work(). `tissues` as they are drawn.
     void replace(const Bone& bone, std::vector<TissueColour> tissues);
-    /// What is drawn is another session's, whose bone has not come yet.
+    /// Marks the drawn bone as a former session's; the new session's has not come yet.
     void expect_another() {
         if (shown_) shown_->is_of_former_bone = true;
     }
@@ -52,7 +52,7 @@ class BoneOnScreen {
     /// step. `bone` is the one that replace() had last, at the same address.
     Outcome work(const Bone& bone, const std::function<bool()>& has_time);
 
-    /// Null until the first are complete, and where there is no room for them beside those to come.
+    /// Null until the first are complete, and if there is no room for them beside those to come.
     const BoneTextures* textures() const { return shown_ ? &shown_->textures : nullptr; }
     /// How much of the preparation is done, 0 to 1, while one goes on.
     std::optional<double> preparation() const;
@@ -67,7 +67,7 @@ class BoneOnScreen {
     };
     void begin(const Bone& bone);
     void build(const Bone& bone, const std::function<bool()>& has_time, Outcome& outcome);
-    /// Drops what is shown where that is in the way. True: the build began anew.
+    /// Drops what is shown if that is in the way. True: the build began anew.
     bool make_room(const Bone& bone, Outcome& outcome);
     void show(Outcome& outcome);
     void fail(const std::string& problem, Outcome& outcome);
@@ -82,7 +82,7 @@ class BoneOnScreen {
     GatheredChanges unshown_;
     std::shared_ptr<TextureBuild> build_;
     ShadingSettings build_look_;
-    GatheredChanges unbuilt_;  ///< what changed while it went on
+    GatheredChanges unbuilt_;  ///< changes during the build
     std::string problem_;
 };
 

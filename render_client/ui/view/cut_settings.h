@@ -32,7 +32,7 @@ class CutSettings {
     /// off. Across the view: on, then off. A cut that comes on goes through the bone's middle.
     void step(std::size_t cut, const Camera& camera);
     /// Across an axis (0 to 2): on, whatever it was, with the side of `normal` gone, a unit vector along that
-    /// axis. The position counts from the middle; where there are no bounds yet, those that come confine it.
+    /// axis. The position counts from the middle; if there are no bounds yet, those that come confine it.
     void set(std::size_t axis, const glm::dvec3& normal, double position_mm);
     void switch_off(std::size_t cut) { cuts_[cut].is_on = false; }
     void turn_over(std::size_t cut);

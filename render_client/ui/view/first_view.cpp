@@ -18,7 +18,7 @@ namespace {
 constexpr double closest_mm = 10.0;
 /// Shown about tool and target, in their own size.
 constexpr double surroundings = 3.0;
-/// Of the bone's radius, shown at least: less of a vault is a wall.
+/// The least part of the bone's radius that is shown: a smaller part of a vault looks like a wall.
 constexpr double least_part = 0.25;
 constexpr double least_part_without_target = 0.45;
 

@@ -35,7 +35,8 @@ std::optional<BallInView> target_in_view(const Bone& bone, const SessionInfo& se
 Camera first_view(const Bone& bone, const BallInView& all, const std::optional<ToolPose>& tool,
                   double burr_radius_mm, const std::optional<BallInView>& target);
 
-/// The same of what a session has now: of the bone that the textures hold. `session` and `tool` may be null.
+/// The same for a session as it is now, with the bone that the textures hold. `session` and `tool` may be
+/// null.
 Camera first_view(const Bone& bone, const BoneTextures& textures, const SessionInfo* session,
                   const ToolState* tool);
 

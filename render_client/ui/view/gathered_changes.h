@@ -1,4 +1,5 @@
-// Changes of a bone that are yet to be shown, brick by brick: what comes over an earlier one joins it.
+// Changes of a bone that are yet to be shown, brick by brick: a later change of a brick joins the earlier
+// one.
 #pragma once
 
 #include <cstddef>

@@ -25,7 +25,7 @@ class InsetView {
   public:
     explicit InsetView(RendererChoice renderer);
 
-    // As of ScenePicture.
+    // These do the same as ScenePicture's.
     void forget_bone(DrawingCost cost) { picture_.forget_bone(cost); }
     void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
         picture_.mark_dirty(bone, changed);

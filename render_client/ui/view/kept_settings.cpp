@@ -20,7 +20,7 @@ namespace {
 
 const std::vector<std::string> theme_names{"dark", "light"};  // by ThemeName
 
-/// Throws SceneError where something is wrong.
+/// Throws SceneError if something is wrong.
 KeptSettings read_settings(const std::filesystem::path& file) {
     KeptSettings settings;
     const std::string name = file.string();

@@ -10,7 +10,7 @@ namespace osteomill {
 
 struct KeptSettings {
     ThemeName theme = ThemeName::dark;
-    bool sound = false;  ///< of the burr
+    bool sound = false;  ///< whether the burr is heard
     bool warns = true;   ///< a tone, near a protected structure
     bool details_shown = false;
     bool tour_seen = false;
@@ -20,15 +20,16 @@ struct KeptSettings {
 
 class SettingsFile {
   public:
-    /// Reads it. What it does not say is as usual; all is where something in it is wrong, and such a file is
-    /// never written over: no setting is worth an error, and a person's file worth more than settings.
+    /// Reads it. Settings that it leaves out have their defaults. If anything in it is wrong, all have, and
+    /// the file is never overwritten: no setting is worth an error, and a person's file is worth more than
+    /// settings.
     explicit SettingsFile(std::filesystem::path file);
 
     const KeptSettings& settings() const { return settings_; }
     /// One line about what is wrong in the file, where, and what would be right; empty: nothing.
     const std::string& wrong() const { return wrong_; }
-    /// Writes them, as a whole, where they are others than before. Returns one line about what went wrong,
-    /// once; else nothing.
+    /// Writes them, as a whole, if they are others than before. Returns one line about what went wrong, once;
+    /// else nothing.
     std::string keep(const KeptSettings& settings);
 
   private:

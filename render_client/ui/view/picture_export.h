@@ -14,17 +14,17 @@ class PictureExport {
   public:
     explicit PictureExport(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    /// Writes screenshot_0001.png or the next free number; the file. Throws std::runtime_error where it
+    /// Writes screenshot_0001.png or the next free number; the file. Throws std::runtime_error if it
     /// cannot.
     std::filesystem::path write(const Picture& picture) const;
 
-    /// Begins frames_0001 or the next free number; the folder. Throws std::runtime_error where it cannot.
+    /// Begins frames_0001 or the next free number; the folder. Throws std::runtime_error if it cannot.
     std::filesystem::path begin_frames();
     void end_frames() { frames_.reset(); }
     bool is_exporting() const { return frames_.has_value(); }
     /// The next frame, shown `now_s` (a clock that goes on) until the one after it. Frames come when they are
     /// drawn, so their times go into frames.ffconcat, which ffmpeg makes a video of the right speed from.
-    /// Throws std::runtime_error where it cannot write, and ends the export.
+    /// Throws std::runtime_error if it cannot write, and ends the export.
     void add_frame(const Picture& picture, double now_s);
 
   private:

@@ -12,9 +12,9 @@ namespace osteomill {
 
 class RecordingCamera {
   public:
-    /// The one that --camera names; where it is not given, `by_default` says which (as cameras_named has
-    /// it), and nothing is the person's own view. Throws std::runtime_error, in one line, where there are
-    /// several, or the recording does not say from where the trainee looked.
+    /// The one that --camera names; if it is not given, `by_default` says which (as cameras_named has it),
+    /// and nothing is the person's own view. Throws std::runtime_error, in one line, if there are several, or
+    /// the recording does not say from where the trainee looked.
     RecordingCamera(const RenderOptions& options, const RecordingPlayer* player,
                     const std::string& by_default = {});
 
@@ -22,7 +22,7 @@ class RecordingCamera {
     /// is the person's to turn.
     void aim(SessionPicture& session);
 
-    /// Of its pictures, where its file says it.
+    /// The size of its pictures, if its file states it.
     std::optional<glm::ivec2> size_px() const;
 
   private:

@@ -16,8 +16,8 @@ class Redraw {
     /// two frames without motion. A frame of a slow machine may be longer than the time.
     static constexpr std::chrono::milliseconds settling{250};
     static constexpr int settling_frames = 4;
-    /// Figures take at most a hundredth of the time, twice that of a core where two draw a frame; but they
-    /// come every five seconds at the least.
+    /// Figures take at most a hundredth of the time, twice that of a core if two draw a frame; but they come
+    /// every five seconds at the least.
     static constexpr int frames_between_figures = 100;
     static constexpr std::chrono::milliseconds shortest_figures_period{1000};
     static constexpr std::chrono::milliseconds longest_figures_period{5000};

@@ -15,7 +15,7 @@ class Screenshots {
 
     /// Whether the next after_frame() writes a picture.
     bool is_next_due() const { return !folder_.empty() && (frame_ + 1) % every_frames_ == 0; }
-    /// Writes frame_0001.png and so on where this frame is due.
+    /// Writes frame_0001.png and so on if this frame is due.
     void after_frame(const gl::Framebuffer& picture);
     /// Writes final.png.
     void after_last_frame(const gl::Framebuffer& picture) const;

@@ -14,7 +14,7 @@ struct DrawnSession {
     LinkUpdate link{};
     std::optional<ToolState> tool{};
     std::optional<OperatorCommand> operator_command{};
-    std::optional<int> preparation_percent{};  ///< of the bone or a look; none: all is ready
+    std::optional<int> preparation_percent{};  ///< progress of a bone or an appearance; none: all is ready
 };
 
 enum class SessionNews {

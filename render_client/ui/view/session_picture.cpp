@@ -76,7 +76,7 @@ bool SessionPicture::is_of_another_session() const {
            (session->scene_name != scene_name_ || source_.bone()->grid() != grid_);
 }
 
-/// How a person looked at it tells nothing of the next, and nothing of it is drawn in the next.
+/// A person's view of it tells nothing about the next, and nothing of it is drawn in the next.
 void SessionPicture::forget_session() {
     tool_ = {};
     if (bone_.drop_former_bone().is_news()) {

@@ -33,7 +33,7 @@ class SessionPicture {
                    RendererChoice renderer = RendererChoice::raycast, const ShadingSettings& look = {},
                    const StereoSettings& stereo = {});
 
-    /// Of the bones that come from now on.
+    /// Limits the textures of bones that come from now on.
     void limit_textures(const TextureLimits& limits) { bone_.limit(limits); }
     /// Makes the memory of large textures from now on; must outlive the picture.
     void make_storage_by(gl::StorageThread& thread) { bone_.make_storage_by(thread); }
@@ -48,10 +48,10 @@ class SessionPicture {
     SessionNews take_in();
     /// Draws bone, tool and panels; leaves the framebuffer bound. `elapsed_s`: since the last frame.
     const gl::Framebuffer& draw(double elapsed_s);
-    /// What was drawn last, for the window whose context is current.
+    /// Copies the last picture to the window whose context is current.
     void copy_to_window() const { picture_.copy_to_window(); }
 
-    /// How long the whole frame took, waiting excluded: what quality on demand goes by.
+    /// The duration of the whole frame, waiting excluded; it controls quality on demand.
     void frame_took(double frame_s) { picture_.frame_took(frame_s); }
     PictureQuality quality() const { return picture_.quality(); }
 
@@ -62,7 +62,7 @@ class SessionPicture {
     const Camera& camera() const { return camera_; }
     /// The first view again (first_view.h).
     void reset_camera() { camera_ = first_view_; }
-    /// Of the first view.
+    /// Sets the first view's magnification.
     void set_first_magnification(double factor) { first_magnification_ = factor; }
     /// A new appearance needs new textures, like a new bone; the view stays, and so does the picture until
     /// they are ready. Throws std::invalid_argument for an invalid transfer function.
@@ -71,9 +71,9 @@ class SessionPicture {
     const ViewSettings& view() const { return view_; }
     /// Panels take what a person asks of the session, from now on.
     void offer_controls() { takes_requests_ = true; }
-    /// Where there is no session, one can be started with this, which outlives the picture.
+    /// While there is no session, one can be started with this, which outlives the picture.
     void offer_start(StartScreen& start) { start_ = &start; }
-    /// What was requested since the last call.
+    /// The requests since the last call.
     SessionRequests take_requests() { return std::exchange(requests_, {}); }
     void show_operator(const std::optional<OperatorCommand>& command) { operator_command_ = command; }
 
@@ -81,7 +81,7 @@ class SessionPicture {
     void show_tool_at(const std::optional<ToolPose>& pose) { tool_.show_at(pose); }
 
     bool has_bone() const { return bone_.textures() != nullptr; }
-    /// How much of what is to be drawn is ready, in percent, while the bone or a look is prepared.
+    /// The share of the textures that is ready, in percent, while the bone or an appearance is prepared.
     std::optional<int> preparation_percent() const;
     /// Whether the burr turns in the picture: only while the source sends states.
     bool has_turning_burr() const { return tool_.has_turning_burr(); }
@@ -90,12 +90,12 @@ class SessionPicture {
     const LinkUpdate& link() const { return link_; }
     /// Null until a server has said hello.
     const SessionInfo* session() const { return source_.session(); }
-    /// Nothing where it is not known how the tool is now.
+    /// Nothing if it is not known how the tool is now.
     std::optional<ToolState> tool() const { return elements().tool ? tool_.state() : std::nullopt; }
     SessionSight sight() const;
     SightElements elements() const { return elements_of(sight()); }
 
-    /// What was measured so far, with the bone's checksum of now. Frame times are the caller's to add.
+    /// The measurements so far, with the bone's present checksum. The caller adds the frame times.
     RenderReport report() const;
 
   private:
@@ -108,7 +108,7 @@ class SessionPicture {
     void show_other_textures(DrawingCost cost);
     SessionNews news() const;
     void ask_for_ct();
-    /// Null where none is wanted, or there is nothing to see in it.
+    /// Null if none is wanted, or there is nothing to see in it.
     const gl::Framebuffer* draw_inset(const std::optional<DrawnTool>& tool, const SceneAppearance& look);
 
     SessionSource& source_;
@@ -126,7 +126,7 @@ class SessionPicture {
     double first_magnification_ = 1.0;
     bool has_taken_bone_ = false;
     bool has_first_view_ = false;
-    std::string scene_name_;  ///< of the bone that is shown, with its grid
+    std::string scene_name_;  ///< belongs to the bone that is shown, like the grid
     Grid grid_;
     LinkUpdate link_;
     ShownTool tool_;

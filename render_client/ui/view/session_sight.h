@@ -1,4 +1,4 @@
-// What a picture may say of a session: which of its elements are so, and which would be of another time, of
+// The elements of a session that a picture may show: those that are true now, and not of another time, of
 // another bone, or of nobody.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace osteomill {
 
-/// A server speaks 30 times a second: after so long without a word nothing of it is of now.
+/// A server sends 30 frames a second: after so long a silence its state counts as old.
 inline constexpr double longest_fresh_s = 0.25;
 
 enum class SessionSight {
@@ -41,7 +41,7 @@ constexpr SessionSight sight_of(const LinkUpdate& link, bool has_bone, bool is_r
 struct SightElements {
     bool tool = false;       ///< burr, spindle, force, distances, warnings, sound
     bool controls = false;   ///< buttons, keys and mouse act on the session
-    bool is_grey = false;    ///< what is drawn is not of now
+    bool is_grey = false;    ///< the picture is not current
     bool has_words = false;  ///< in the middle: the cause, and what to do
 };
 

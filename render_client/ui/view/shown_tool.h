@@ -19,13 +19,14 @@ class ShownTool {
     /// Shows the tool there instead of where the session has it; nothing: no longer.
     void show_at(const std::optional<ToolPose>& pose) { shown_pose_ = pose; }
 
-    /// As the session has it; nothing before the first state.
+    /// The session's tool; nothing before the first state.
     const std::optional<ToolState>& state() const { return state_; }
-    /// As it is shown.
+    /// The tool as it is shown.
     std::optional<ToolState> shown() const;
     /// Whether the burr turns in the picture: only while the source sends states.
     bool has_turning_burr() const;
-    /// Of `shown()`, with the hand's target where it is away from the burr. `session` may be null.
+    /// The tool to draw for `shown`, with the hand's target if that is away from the burr. `session` may be
+    /// null.
     DrawnTool drawn(const ToolState& shown, const SessionInfo* session,
                     const std::optional<OperatorCommand>& command) const;
 

@@ -46,15 +46,15 @@ class SlicesView {
     void zoom(double factor);
     HuWindow& window() { return window_; }
 
-    /// The slice's picture as it is now, made anew only where something has changed. `bone_version` goes up
-    /// with each change of the bone.
+    /// The slice's picture as it is now, made anew only if something has changed. `bone_version` goes up with
+    /// each change of the bone.
     const gl::Texture2D& picture(SlicePlane plane, int edge_px, const Bone* bone, std::uint64_t bone_version);
     SliceView view(SlicePlane plane, int edge_px) const;
 
   private:
     std::shared_ptr<const CtVolume> ct_;
     std::optional<glm::dvec3> cross_mm_;
-    glm::dvec3 centre_mm_{0.0};  // of the pictures, but for where across their planes they are
+    glm::dvec3 centre_mm_{0.0};  // the pictures' centre, but for the coordinate across their planes
     double width_mm_ = 30.0;
     HuWindow window_;
     std::vector<SliceTissue> tissues_;

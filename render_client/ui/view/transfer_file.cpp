@@ -92,7 +92,7 @@ std::optional<std::optional<TransferFunction>> TransferFile::open(const std::fil
     std::error_code failed;
     if (!std::filesystem::exists(file, failed)) return otherwise_;
     try {
-        // Of a case, which may be from elsewhere.
+        // A case's file may be from elsewhere.
         if (!lies_inside(file, file.parent_path()))
             throw SceneError(file.string() + ": is a link that leads out of its folder");
         return read_transfer(file);

@@ -15,7 +15,7 @@ namespace osteomill {
 /// A question to the user in the middle of the picture.
 enum class SessionQuestion {
     none,
-    mark,     ///< what is worth a note?
+    mark,     ///< the text of a note
     reset,    ///< undo everything?
     finish,   ///< end the session for everybody?
     surface,  ///< as which kind of file is the bone's surface saved?
@@ -24,11 +24,11 @@ enum class SessionQuestion {
 
 struct ViewSettings {
     ThemeName theme = ThemeName::dark;
-    float scale = 1.0f;  ///< of panels and letters: 2 on a display twice as dense
+    float scale = 1.0f;  ///< size of panels and letters: 2 on a display twice as dense
     bool panels_shown = true;
     bool playback_shown = true;  ///< the bar of a recording; in a film nobody can press it
     bool help_shown = false;
-    bool details_shown = false;  ///< of link, delay, picture and solver
+    bool details_shown = false;  ///< about link, delay, picture and solver
     bool is_fullscreen = false;
     bool cuts_panel_shown = false;
     bool transfer_panel_shown = false;
@@ -44,7 +44,7 @@ struct ViewSettings {
     bool light_field = false;  ///< a microscope's round field
     InsetKind inset = InsetKind::off;
     SessionQuestion question = SessionQuestion::none;
-    std::array<char, SessionControl::longest_text + 1> note{};  ///< of a mark, while it is written
+    std::array<char, SessionControl::longest_text + 1> note{};  ///< a mark's text, while it is written
     bool click_places = false;  ///< the next click on bone says where the tool goes
     bool moves_bone = false;    ///< drags move and turn the bone under the tool, which holds still
     bool drag_tilts = false;    ///< the left button tilts the handpiece instead of moving it

@@ -16,7 +16,7 @@ namespace osteomill {
 
 namespace {
 
-/// What this display offers where it is not OpenGL 3.3, in words.
+/// A message on the version that this display offers if it is not OpenGL 3.3.
 std::string offered_opengl() {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);

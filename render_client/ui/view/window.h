@@ -19,9 +19,9 @@ namespace osteomill {
 
 class Window {
   public:
-    /// Throws gl::NoOpenGl where there is no display or no OpenGL 3.3; the message says what to do. The
+    /// Throws gl::NoOpenGl if there is no display or no OpenGL 3.3; the message says what to do. The
     /// context is current on no thread. `quad_buffer`: with a back buffer for each eye; std::runtime_error
-    /// where the driver has none.
+    /// if the driver has none.
     Window(const glm::ivec2& size_px, const std::string& title, bool quad_buffer = false);
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -31,7 +31,7 @@ class Window {
 
     /// Reads what has happened, after waiting up to `at_most_s` for something to.
     void read_events(double at_most_s);
-    /// The window as it is, and all that happened since the last call. Throws std::runtime_error where the
+    /// The window as it is, and all that happened since the last call. Throws std::runtime_error if the
     /// display has gone (its server ended or shut this program out): nothing more can be shown.
     WindowInput take_input();
     /// The whole screen, or the place and size that it had before.
@@ -48,11 +48,11 @@ class Window {
 
     // Thread that draws.
 
-    /// One that shares the window's textures and must not outlive it; null where the driver makes none.
+    /// One that shares the window's textures and must not outlive it; null if the driver makes none.
     std::unique_ptr<gl::SecondContext> second_context() const;
     void make_context_current();
     void release_context();
-    /// Throws std::runtime_error where the display has gone or the graphics card was reset.
+    /// Throws std::runtime_error if the display has gone or the graphics card was reset.
     void require_drawable() const;
     void show_frame();
 

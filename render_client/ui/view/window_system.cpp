@@ -51,7 +51,7 @@ WindowSystem::WindowSystem() {
 }
 
 WindowSystem::~WindowSystem() {
-    // Under Wayland GLFW waits here for what the display has yet to say: of one that has gone, for ever.
+    // Under Wayland GLFW waits here for the display's pending messages: if the display has gone, for ever.
     if (!has_gone()) glfwTerminate();
 }
 

@@ -1,6 +1,6 @@
 // The system that shows GLFW's windows, X11 or Wayland. The one place that knows how they differ, and how
 // GLFW does: up to 3.3 (Debian 12) it was built for one of them, from 3.4 on (Debian 13) it takes Wayland
-// where there is one.
+// if there is one.
 //
 // Wayland tells no window where it is, nor that it is minimised or hidden, and moves none: GLFW refuses, with
 // no harm. Sizes are in units of which a dense display has several pixels each.
@@ -15,7 +15,7 @@ namespace osteomill {
 /// Alive from before the first window until after the last.
 class WindowSystem {
   public:
-    /// Throws gl::NoOpenGl where no display can be reached.
+    /// Throws gl::NoOpenGl if no display can be reached.
     WindowSystem();
     WindowSystem(const WindowSystem&) = delete;
     WindowSystem& operator=(const WindowSystem&) = delete;
@@ -29,8 +29,7 @@ class WindowSystem {
     /// Wayland: it has no refreshes for a window that is hidden, whose thread would wait for ever.
     int swap_interval() const { return error_of_wayland_ ? 0 : 1; }
 
-    /// The display's server ended or shut this program out; what is drawn then is lost without harm. On any
-    /// thread.
+    /// The display's server ended or shut this program out; drawing is then lost without harm. On any thread.
     bool has_gone() const;
 
     /// Why GLFW's last call on this thread failed.

@@ -12,13 +12,14 @@ namespace osteomill::study {
 struct CarveUpload {
     TexturePlan plan{};
     std::vector<TextureSize> textures{};
-    FrameMilliseconds by_frame{};  ///< what the 5 mm burr cuts from one frame to the next
+    FrameMilliseconds by_frame{};  ///< the cut of the 5 mm burr from one frame to the next
     FrameMilliseconds by_ball{};   ///< a ball of 5 mm at once, at the burr's first place
     std::size_t bricks_of_ball = 0;
 };
 
-/// Of a phantom, by render_client's default look and limits, `times` carves of either kind, each until OpenGL
-/// has finished. Needs a current context. Throws std::runtime_error where the burr meets no bone.
+/// Uploads `times` carves of either kind of a phantom, with render_client's default appearance and limits;
+/// each is timed until OpenGL has finished. Needs a current context. Throws std::runtime_error if the burr
+/// meets no bone.
 CarveUpload upload_carves(const std::string& phantom, int times);
 
 }  // namespace osteomill::study

@@ -13,8 +13,8 @@ namespace osteomill::study {
 struct FrameMilliseconds {
     std::vector<double> wall{};  ///< until the picture was there
     std::vector<double>
-        gpu{};  ///< the driver's own work (GL_TIME_ELAPSED); of a software rasteriser wall time
-    std::vector<double> cpu{};  ///< of all threads of the process
+        gpu{};  ///< the driver's own work (GL_TIME_ELAPSED); for a software rasteriser, wall time
+    std::vector<double> cpu{};  ///< all threads of the process
 };
 
 class FrameStopwatch {

@@ -17,8 +17,8 @@ struct WindowFrames {
     FrameMilliseconds carve{};               ///< and takes over what was cut
 };
 
-/// Of a phantom: `frames` of each motion. Writes `picture`, a PNG of the last frame before the first cut.
-/// Needs a current OpenGL context. Throws std::runtime_error where the bone cannot be drawn.
+/// Draws `frames` of each motion of a phantom. Writes `picture`, a PNG of the last frame before the first
+/// cut. Needs a current OpenGL context. Throws std::runtime_error if the bone cannot be drawn.
 WindowFrames draw_window(const std::string& phantom, const glm::ivec2& size_px, int frames,
                          const std::filesystem::path& picture);
 

@@ -1,5 +1,5 @@
-// A point of the stability map: a scene, a hand, and the coupling between them. Plain values; what running
-// one gives is a MapOutcome (map_outcome.h).
+// A point of the stability map: a scene, a hand, and the coupling between them. Plain values; a run gives a
+// MapOutcome (map_outcome.h).
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ enum class MapScene {
     wall      ///< the spindle is off and the burr is pressed on the bone
 };
 
-/// What holds the arm, from nothing to a firm hand.
+/// The grip on the arm, from none to a firm hand.
 enum class MapGrip {
     bare_arm,  ///< 0.5 N s/m and a steady push, no hand; cutting, it slides on a plane
     light,     ///< hand_model.h
@@ -27,8 +27,8 @@ struct MapCase {
     bool is_ideal_device = true;  ///< no encoder steps and no Coulomb friction: they hide limit cycles
 
     double spindle_rpm = 10'000.0;    ///< cutting
-    double depth_mm = 1.0;            ///< cutting: of the burr's lowest point, up to its diameter
-    double relative_stiffness = 1.0;  ///< cutting: of the bone, 1 = that of K_t = 230 N/mm^2
+    double depth_mm = 1.0;            ///< cutting: the burr's lowest point's, up to its diameter
+    double relative_stiffness = 1.0;  ///< cutting: the bone's, 1 = that of K_t = 230 N/mm^2
     double edge_n_per_mm = 0.0;       ///< cutting: K_te and K_re of edges that rub
     double wall_n_per_mm = 1.5;       ///< wall: stiffest spring that the device claims to render
 

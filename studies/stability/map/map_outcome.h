@@ -10,11 +10,11 @@ struct MapOutcome {
     bool is_stable = false;       ///< verdict.h
     double limit_cycle_n = 0.0;   ///< rms of the force's fast part, beyond the truth's
     double injected_mj = 0.0;     ///< energy that the hand got beyond what it had put in
-    double rms_error_n = 0.0;     ///< of the force about the truth's, tick by tick
+    double rms_error_n = 0.0;     ///< force against the truth's, tick by tick
     double mean_error_n = 0.0;    ///< |mean force - truth's mean force|
     double peak_n = 0.0;          ///< largest force on the hand
     double largest_jump_n = 0.0;  ///< between two ticks
-    double depth_error_mm = 0.0;  ///< of the burr across the surface, rms, against the truth's
+    double depth_error_mm = 0.0;  ///< the burr's place across the surface, rms, against the truth's
     double removed_mm3 = 0.0;     ///< bone that was cut in the window
     double max_residual_n = 0.0;  ///< largest force left over by a contact solve
     double fallbacks = 0.0;       ///< ticks without a balance, until they were damped

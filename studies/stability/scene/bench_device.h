@@ -20,7 +20,7 @@ namespace osteomill::study {
 /// From the release on.
 struct DeviceTick {
     glm::dvec3 tool_mm{0.0};  ///< where it really is
-    glm::dvec3 force_n{0.0};  ///< of the motors, from here to the next tick
+    glm::dvec3 force_n{0.0};  ///< the motors', from here to the next tick
     double taken_mj = 0.0;    ///< by the force from the release to the next tick
 };
 

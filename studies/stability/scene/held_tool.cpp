@@ -13,7 +13,7 @@ constexpr double mm_per_m = 1000.0;
 /// A millionfold what an arm has in a substep.
 constexpr double guided_inertia_n_s_per_mm = 1e6;
 
-/// Of the hand on the tool but for what depends on the tool's velocity, half a substep ahead.
+/// The hand's force on the tool half a substep ahead, without the terms that depend on the tool's velocity.
 glm::dvec3 hand_force_n(const HeldTool& tool, const HandIntent& intent, const ToolMotion& motion,
                         double time_s, double substep_s) {
     const double middle_s = time_s + 0.5 * substep_s;

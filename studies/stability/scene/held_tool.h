@@ -4,7 +4,7 @@
 //     m dv/dt = u + push + clamp(K (target - x), max_push) + B (v_target - v) - b v - friction
 //
 // mm, s, N. The target moves evenly. The hand is hand_model.h's without its slow correction by eye, and
-// without anyone who waits for the tool: what a few tenths of a second show.
+// without anyone who waits for the tool: it is valid for a few tenths of a second.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -23,7 +23,7 @@ struct HeldTool {
     double arm_damping_n_s_per_mm = 0.0001;
     double hand_stiffness_n_per_mm = 0.0;
     double hand_damping_n_s_per_mm = 0.0;
-    double max_push_n = 0.0;          ///< of the hand's spring
+    double max_push_n = 0.0;          ///< by the hand's spring
     double coulomb_friction_n = 0.0;  ///< 0: none
     /// It slides on a plane across z: its height stays, whatever pushes.
     bool is_guided_in_height = false;

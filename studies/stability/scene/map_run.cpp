@@ -64,7 +64,7 @@ RunRecord run_session(const MapCase& c, const ScenePlan& plan, const Bone& bone,
         const ToolState& last = session.exchange().tool.front();
         if (!last.fault.empty()) run.is_astray = true;
         if (record.empty() || run.burr_mm.size() == record.size()) return;
-        // What the loop made of the tick before.
+        // The loop's result of the tick before.
         run.burr_mm.push_back(last.burr_position_mm);
         run.removed_mm3.push_back(last.removed_mm3);
         const glm::dvec3 off_mm = record.back().tool_mm - truth[record.size() - 1].tool_mm;

@@ -30,8 +30,8 @@ inline constexpr double touch_mm_per_s = 3.0;
 
 /// In ticks.
 struct SceneTiming {
-    std::size_t ramp = 30;    ///< of the guided ticks: speed and force come on
-    std::size_t guided = 80;  ///< with the ramp
+    std::size_t ramp = 30;    ///< part of the guided ticks, in which speed and force come on
+    std::size_t guided = 80;  ///< includes the ramp
     std::size_t settling = 300;
     std::size_t window = 400;
     std::size_t tail = 30;
@@ -56,7 +56,7 @@ struct ScenePlan {
     MapScene scene = MapScene::cutting;
     Burr burr{};
     double depth_mm = 0.0;            ///< cutting
-    double relative_stiffness = 1.0;  ///< cutting: of the bone
+    double relative_stiffness = 1.0;  ///< cutting: the bone's
     double wall_n_per_mm = 0.0;       ///< wall
     HeldTool tool{};
     Mount mount{};
@@ -65,15 +65,15 @@ struct ScenePlan {
     SceneTiming timing{};
 
     glm::dvec3 burr_at_release_mm{0.0};
-    glm::dvec3 steady_force_n{0.0};  ///< cutting: of the bone on the burr
+    glm::dvec3 steady_force_n{0.0};  ///< cutting: by the bone on the burr
     double feed_mm_per_s = 0.0;      ///< cutting
-    ToolMotion at_release{};         ///< of the tool
+    ToolMotion at_release{};         ///< the tool's
     HandIntent intent{};             ///< time 0 is the release
 };
 
 ScenePlan plan_of(const MapCase& c);
 
-/// Of the spring that the tool's motion may be stored in: the wall's or the mount's; 0: none.
+/// The stiffness of the spring that may store the tool's energy: the wall's or the mount's; 0: none.
 double rendered_spring_n_per_mm(const ScenePlan& plan);
 
 /// The tool's motion in a guided tick, `ticks` before the release or at it.

@@ -21,9 +21,9 @@ constexpr std::size_t coarse_stride = 4;
 /// the burr goes on. The others, which it meets again where it returns or goes deeper, in one of five.
 constexpr double near_mm = 1.2;
 constexpr int refreshes_per_far_look = 5;
-/// Of the slot that the burr begins in.
+/// The length of the slot that the burr begins in.
 constexpr double slot_mm = 3.0;
-/// Gaps are not followed beyond this: it takes 20 mm/s to close it between two looks at what is far.
+/// Gaps are not followed beyond this: to close it between two updates of far patches takes 20 mm/s.
 constexpr float most_gap_mm = 0.1f;
 
 /// Edges of a patch that cuts faster rub with all their force.

@@ -1,4 +1,4 @@
-// Bone without voxels around one burr, in continuous time: what the truth of the cutting scene mills.
+// Bone without voxels around one burr, in continuous time: the truth of the cutting scene mills it.
 //
 // The burr's surface is split into patches of equal area, rings of constant height times equal angles. A
 // patch resists in proportion to the rate at which it cuts new bone along its normal n, by the law of
@@ -9,11 +9,11 @@
 // with w the velocity over a substep of h, E the force of edges that rub, which is there as soon as the patch
 // cuts, and u_0 so slow (0.01 mm/s) that nobody tells it from rest,
 //
-// and has no bone before it until it has closed its gap. What has been cut is the union of the spheres along
-// the path so far, the slot included: refresh() measures each patch's gap against it (the ray along the
-// normal, up to where it leaves the last sphere); in between gaps follow the motion linearly. So a burr that
-// draws back, sways or returns meets only bone that is still there. The bone's flat surface {z = 0} cuts the
-// rings: each counts with the share of its height that lies below.
+// and has no bone before it until it has closed its gap. The cut bone is the union of the spheres along the
+// path so far, the slot included: refresh() measures each patch's gap against it (the ray along the normal,
+// up to where it leaves the last sphere); in between gaps follow the motion linearly. So a burr that draws
+// back, sways or returns meets only bone that is still there. The bone's flat surface {z = 0} cuts the rings:
+// each counts with the share of its height that lies below.
 //
 // The spindle points along +z. Patches reach `headroom_mm` higher than the burr is deep; a burr that sinks
 // farther feels too little. mm, s, N.
@@ -69,16 +69,16 @@ class SweptBone {
     std::vector<float> normal_x_, normal_y_, normal_z_, gap_mm_, far_gap_mm_;
     std::vector<std::uint8_t> engaged_, engaged_next_;
     std::vector<glm::dvec3> whole_n_s_per_mm_;  // law of a patch that is wholly in bone
-    std::vector<glm::dvec3> whole_edge_n_;      // likewise, of its edges
+    std::vector<glm::dvec3> whole_edge_n_;      // force of the edges on such a patch
     std::vector<double> share_in_bone_;
     double patch_area_mm2_ = 0.0;
     double ring_height_mm_ = 0.0;
     std::size_t patches_per_ring_ = 0;
 
     bool has_engaged_ = false;            // since the last refresh
-    glm::dmat3 force_per_velocity_{0.0};  // of the engaged patches
+    glm::dmat3 force_per_velocity_{0.0};  // the engaged patches'
     glm::dvec3 force_per_gap_rate_{0.0};
-    glm::dvec3 edge_force_n_{0.0};  // of those that rub with all their force
+    glm::dvec3 edge_force_n_{0.0};  // patches' that rub with all their force
     glm::dvec3 last_velocity_{0.0};
     std::vector<glm::dvec3> path_mm_;
     glm::dvec3 looked_far_from_mm_{0.0};  // where far_gap_mm_ was measured

@@ -68,7 +68,7 @@ bool has_been_dying(const FastForce& fast, std::size_t end, double limit_n) {
     return true;
 }
 
-/// Of the fast force's rms.
+/// The rms of the fast force that counts as small.
 double most_small_n(const JudgedRun& run) {
     const auto window = run.truth_force_n.subspan(run.window_begins, run.window_ends - run.window_begins);
     return std::max(least_limit_cycle_n, limit_cycle_share * mean_length(window)) +

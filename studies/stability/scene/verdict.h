@@ -4,12 +4,12 @@
 //   - grows: rms in the window's second half more than 1.5 times that in its first, and above a third of
 //     what is small,
 //   - small: rms over the window below max(0.03 N, 5 % of the mean), and half an encoder step of the rendered
-//     spring on top of that, where there are any: a staircase is no limit cycle; and the force gave back no
+//     spring on top of that, if there are any: a staircase is no limit cycle; and the force gave back no
 //     more energy than it may have stored: the largest drawdown of the energy that it took (EnergyLedger's
 //     rule), less that of the truth and less F^2 / 2K of the largest force on the spring that the method
 //     renders, is below 0.25 mJ or a tenth of what the run took, if that is more,
-//   - dies: of four equal parts of the run, from the release on, the first is not small, and each other shows
-//     at most 0.85 of the one before.
+//   - dies: the run, from the release on, is split into four equal parts; the first is not small, and each
+//     other shows at most 0.85 of the one before.
 //
 // The numbers. 0.03 N on top of about 1 N is at the edge of what fingers on a stylus tell apart, and an
 // eighth of the smallest limit cycle in the project's table of chatter. A ring that dies is no limit cycle:
@@ -33,7 +33,7 @@ struct JudgedRun {
     std::span<const glm::dvec3> truth_force_n;
     std::span<const double> truth_taken_mj;
     /// Judged are ticks [begins, ends), both at least fit_reach_ticks after the release and before the end;
-    /// of a run that went astray, what there is of its second half.
+    /// for a run that went astray, as much of its second half as there is.
     std::size_t window_begins = 0;
     std::size_t window_ends = 0;
     double spring_n_per_mm = 0.0;  ///< that the method renders; 0: none
@@ -43,7 +43,7 @@ struct JudgedRun {
 
 struct Verdict {
     bool is_stable = false;
-    /// Root of the difference of the mean squares of both fast parts; of a run too short for the fit, rms of
+    /// Root of the difference of the mean squares of both fast parts; for a run too short for the fit, rms of
     /// its force about the truth's.
     double limit_cycle_n = 0.0;
     double injected_mj = 0.0;

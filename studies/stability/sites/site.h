@@ -1,5 +1,5 @@
-// A site where bone ends, and the motion of a hand there: what the stability study tries beside slots and
-// walls.
+// A site where bone ends, and the motion of a hand there. The stability study tries such sites beside slots
+// and walls.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct SiteShape {
     std::function<double(const glm::dvec3&)> distance_mm;  ///< signed, negative in bone
     glm::dvec3 low_mm{0.0};
     glm::dvec3 high_mm{0.0};
-    /// Of the bone, 1 = that of K_t = 230 N/mm^2; empty: 1 everywhere.
+    /// The bone's stiffness, 1 = that of K_t = 230 N/mm^2; empty: 1 everywhere.
     std::function<double(const glm::dvec3&)> relative_stiffness{};
 };
 
@@ -26,7 +26,7 @@ struct Site {
     std::string name;  ///< without the burr
     Burr burr{};
     SiteShape shape;
-    std::vector<Waypoint> motion;  ///< of the hand's intent
+    std::vector<Waypoint> motion;  ///< the hand's intent
 };
 
 }  // namespace osteomill::study

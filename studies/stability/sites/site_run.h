@@ -26,9 +26,9 @@ struct SiteTick {
     glm::dvec3 hand_mm{0.0};  ///< where it really is
     glm::dvec3 burr_mm{0.0};  ///< in the bone
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
-    glm::dvec3 force_n{0.0};  ///< of the motors, from here to the next tick
+    glm::dvec3 force_n{0.0};  ///< the motors', from here to the next tick
     bool spindle_on = false;
-    /// The milling model's, on the burr, over the way here: what the hand should feel.
+    /// The milling model's force on the burr, over the way here: the hand should feel it.
     glm::dvec3 model_n{0.0};
     /// On a burr that is rigidly the hand, over the hand's way here, in steps of 20 us.
     glm::dvec3 rigid_n{0.0};
@@ -37,7 +37,7 @@ struct SiteTick {
 struct SiteRun {
     std::vector<SiteTick> ticks;
     SolveCounts solve;
-    std::uint64_t faults = 0;  ///< of any kind
+    std::uint64_t faults = 0;  ///< all kinds together
 };
 
 /// Until the hand has gone its way, or three times as long as it meant to take. Throws std::invalid_argument

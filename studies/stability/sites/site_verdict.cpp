@@ -26,7 +26,7 @@ double energy_mj(const std::vector<SiteTick>& ticks, glm::dvec3 SiteTick::*force
     return most_mj;
 }
 
-/// Of the ticks up to and with `last`.
+/// The mean of the ticks up to and with `last`.
 glm::dvec3 mean_n(const std::vector<SiteTick>& ticks, std::size_t last, glm::dvec3 SiteTick::*force_n) {
     glm::dvec3 sum_n(0.0);
     for (std::size_t i = last + 1 - mean_ticks; i <= last; ++i) sum_n += ticks[i].*force_n;

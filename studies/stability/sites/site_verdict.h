@@ -1,4 +1,4 @@
-// Verdict on a run at a site: what a hand would not forgive, in numbers.
+// Verdict on a run at a site: measures of the faults that a hand would not forgive.
 #pragma once
 
 #include "studies/stability/sites/site_run.h"

@@ -22,7 +22,7 @@ struct Bench {
     double tick_s = 1e-3;
     int substeps = 100;                ///< per tick: 10 us at 1 kHz
     double sensor_resolution_m = 0.0;  ///< 0: the position is read exactly
-    double max_force_n = 0.0;          ///< of the motors; 0: no limit
+    double max_force_n = 0.0;          ///< the motors'; 0: no limit
     std::size_t delay_ticks = 0;       ///< from a reading to its force
 };
 

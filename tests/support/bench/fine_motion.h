@@ -1,9 +1,10 @@
 // The motion of a body, with Coulomb friction, in substeps of a few microseconds.
 //
 // Implicit midpoint: the spring and the damper act at the middle of the substep, where the velocity is the
-// mean of its ends. Of second order, and it neither gains nor loses a spring's energy, so that what a run
-// gains is the sampled force's doing; semi-implicit Euler would shift the position by half a substep against
-// the force, 1 % of what a hold of 1 ms does at 10 us. A constant force alone is followed exactly.
+// mean of its ends. The method is of second order, and neither gains nor loses a spring's energy, so that any
+// energy a run gains comes from the sampled force. Semi-implicit Euler would shift the position by half a
+// substep against the force: at 10 us, 1 % of the shift by a hold of 1 ms. A constant force alone is followed
+// exactly.
 //
 // Coulomb friction is a force against the motion; where it would turn the motion round within the substep,
 // the body stops at the time that this happens, and rests while the other forces are no larger than the

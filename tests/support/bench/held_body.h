@@ -1,4 +1,4 @@
-// A haptic device and the hand on it, in one dimension: what the sampled force acts on.
+// A haptic device and the hand on it, in one dimension, on which the sampled force acts.
 //
 //     m dv/dt = -b v - k x - friction + u        x from where the hand's spring is at rest
 //
@@ -13,7 +13,8 @@ namespace osteomill::testing {
 struct HeldBody {
     double mass_kg = 0.045;
     double damping_n_s_per_m = 0.1;
-    double hand_stiffness_n_per_m = 0.0;  ///< of the spring to where the hand means to be; 0: nobody holds it
+    double hand_stiffness_n_per_m = 0.0;  ///< spring to the place where the hand means to be; 0: nobody holds
+                                          ///< it
     double coulomb_friction_n = 0.0;      ///< 0: the body is linear
 };
 

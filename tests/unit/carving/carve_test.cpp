@@ -112,7 +112,7 @@ TEST(Carve, CrescentAloneEqualsTheFullSearch) {
     EXPECT_EQ(checksum(crescent), checksum(full));
 }
 
-/// What the formula of voxel_coverage.h says of every voxel, asked one by one in double precision.
+/// Applies the formula of voxel_coverage.h to every voxel, one by one in double precision.
 void carve_voxel_by_voxel(Bone& bone, const Sweep& sweep, VoxelCoverage coverage) {
     const SweepSeenFrom seen(sweep, glm::dvec3(0.0), coverage);
     const glm::ivec3 size = bone.grid().size_voxels;
@@ -169,7 +169,7 @@ TEST(Carve, ChangesRebuildTheBoneInAnotherCopy) {
         }
 
       private:
-        /// What lies between two voxels that lost bone may be in a change, nothing beyond them.
+        /// Voxels between two that lost bone may be in a change, but none beyond them.
         void expect_rows_end_where_bone_went(const BrickChange& change, BrickFractions fractions) const {
             const BrickFractions before = std::as_const(copy_).fractions(copy_.slot(change.brick));
             const auto is_in_row_and_set = [&](std::size_t row, std::size_t voxel) {

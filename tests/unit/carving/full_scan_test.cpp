@@ -78,7 +78,7 @@ class Copy final : public ChangeSink {
     }
     const Bone& bone() const { return bone_; }
     bool is_true() const { return is_true_; }
-    /// Of the brick that was pushed most often; starts to count anew.
+    /// How often the brick was pushed that was pushed most; starts to count anew.
     int most_pushed() {
         int most = 0;
         for (const auto& [brick, count] : pushed_) most = std::max(most, count);

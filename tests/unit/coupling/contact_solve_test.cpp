@@ -152,8 +152,8 @@ TEST(ContactSolve, BalancesARingThatPullsSidewaysOnceItsBurrIsHeldEnough) {
 }
 
 TEST(ContactSolve, SaysHowStronglyAContactDrivesTheBurr) {
-    // Of n f^T + f n^T over two, with n and f at right angles: f/2, 0, -f/2. Pushing back by b along n: half
-    // of -b -+ sqrt(b^2 + f^2).
+    // With n and f at right angles, n f^T + f n^T over two has the eigenvalues f/2, 0, -f/2. With a push back
+    // by b along n they are half of -b -+ sqrt(b^2 + f^2).
     const glm::dvec3 along = glm::normalize(glm::dvec3(1.0, 2.0, -1.0));
     const glm::dvec3 across = glm::normalize(glm::cross(along, {0.3, 0.1, 1.0}));
     const glm::dvec3 axis = glm::cross(along, across);
@@ -172,7 +172,7 @@ TEST(ContactSolve, HasABalanceOnceTheBurrIsDampedByMoreThanDrivesIt) {
     std::mt19937 random(5);
     for (int i = 0; i < 300; ++i) {
         const std::vector<Contact> contacts = random_contacts(random, 40, 3.0);
-        // What could drive it at most: every contact at once.
+        // The largest possible drive: every contact at once.
         double drive_n_per_mm = 0.0;
         for (const Contact& c : contacts)
             drive_n_per_mm += 0.5 * (glm::length(c.force_n_per_mm) + glm::dot(c.normal, c.force_n_per_mm));

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double tick_s = 0.001;
 
-/// What is rendered at each tick for a model force along x that a sample of every `ticks_per_sample` takes
-/// from `samples`.
+/// The force rendered at each tick for a model force along x, which takes a new value from `samples` every
+/// `ticks_per_sample`.
 std::vector<double> rendered(ForceReconstruction force, const std::vector<double>& samples,
                              int ticks_per_sample) {
     std::vector<double> result;

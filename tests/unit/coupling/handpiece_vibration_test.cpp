@@ -18,7 +18,7 @@ namespace {
 
 constexpr double tick_s = 0.001;
 constexpr double feed_mm_per_s = 6.0;
-constexpr double resistance_n_s_per_mm = 0.05;  // of a patch that advances along its normal
+constexpr double resistance_n_s_per_mm = 0.05;  // a patch's, as it advances along its normal
 constexpr double mean_n = resistance_n_s_per_mm * feed_mm_per_s;
 
 Burr burr_of(int edges, double rev_per_s, double run_out_mm) {
@@ -76,7 +76,7 @@ class Cut {
     double given_mj() const { return given_mj_; }
     double taken_mj() const { return taken_mj_; }
 
-    glm::dvec3 more_mean_n{0.0};  ///< of the coupling, that is not of the cut
+    glm::dvec3 more_mean_n{0.0};  ///< from the coupling, not from the cut
     bool is_felt = true;
     bool spindle_on = true;
 

@@ -1,4 +1,4 @@
-// What a hand feels of the shank behind its burr.
+// The force on a hand by the shank behind its burr.
 #include <gtest/gtest.h>
 
 #include <cmath>

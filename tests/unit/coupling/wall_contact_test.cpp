@@ -25,8 +25,8 @@ constexpr double encoder_step_m = 55e-6;
 struct Direct {
     std::string coupling;
     int ticks_per_step;
-    /// Of the largest wall of which all eigenvalues of the linear form, from model step to model step, lie
-    /// inside the unit circle: bare arm, 0.5 N s/m.
+    /// Stiffness of the largest wall for which all eigenvalues of the linear form, from model step to model
+    /// step, lie inside the unit circle: bare arm, 0.5 N s/m.
     double edge_n_per_m;
 };
 

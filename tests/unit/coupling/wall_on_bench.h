@@ -11,7 +11,7 @@ namespace osteomill::testing {
 
 struct Wall {
     double stiffness_n_per_m = 1500.0;
-    /// Where it stands. Far to the left the arm never leaves it, and what is left is linear.
+    /// The wall's position. If it is far to the left, the arm never leaves it, and the system is linear.
     double at_m = 0.0;
     double push_n = 0.0;          ///< steady, on the device
     bool starts_at_rest = false;  ///< as if pressed for long at the origin, by the force that this takes

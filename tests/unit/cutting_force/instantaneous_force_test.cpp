@@ -28,7 +28,7 @@ ReferenceCase slot_1_mm_deep() {
 /// Steps of a tenth of a tooth period through a slot 1 mm deep; force and angle of the last `count` steps.
 struct Instant {
     glm::dvec3 force_n;
-    double turned_rad;  // of the edges, at the middle of the step
+    double turned_rad;  // by the edges, at the middle of the step
 };
 
 std::vector<Instant> last_instants(const ReferenceCase& c, int count) {

@@ -112,7 +112,7 @@ intrinsics = [[500, 0, 319.5], [0, 500, 239.5], [0, 0, 1]]
                 0.0, 1e-9);
     const Pinhole left = cameras[0].pinhole_at(trainee);
     EXPECT_NEAR(left.focal_px.x, 240.0 / 0.25, 1e-9);
-    // What both see 80 mm ahead lies in the middle: 2 mm to the right of the left eye.
+    // A point that both see 80 mm ahead lies in the middle: 2 mm to the right of the left eye.
     EXPECT_NEAR(left.focal_px.x * 2.0 / 80.0 + left.centre_px.x, 319.5, 1e-9);
     EXPECT_EQ(cameras_named("trainee").front().pose_at(0.0, first, trainee).position_mm, trainee.eye_mm);
 }

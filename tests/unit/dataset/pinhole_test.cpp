@@ -7,7 +7,7 @@ namespace {
 
 const Pinhole skewed{{640, 480}, {800.0, 700.0}, {300.0, 260.0}};
 
-/// As the header has it.
+/// Projects by the header's formula.
 glm::dvec2 projected(const Pinhole& pinhole, const Pose& pose, const glm::dvec3& point_mm) {
     const glm::dvec3 seen = glm::conjugate(pose.rotation) * (point_mm - pose.position_mm);
     return pinhole.focal_px * glm::dvec2(seen) / seen.z + pinhole.centre_px;

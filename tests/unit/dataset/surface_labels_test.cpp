@@ -80,8 +80,7 @@ TEST_F(SurfaceLabelsTest, AreThoseOfABallInClosedFormAndOfRaysInDoublePrecision)
     }
 }
 
-// A lining of one voxel is seen as one: what lies in front of the surface, less than half full, does not
-// count.
+// A lining of one voxel is seen as one: voxels in front of the surface, less than half full, do not count.
 TEST(TissueOfSurface, IsThatOfTheBoneWithinTheSurface) {
     const Bone bone = made_bone(
         grid, [](const glm::dvec3& p) { return -p.z; },

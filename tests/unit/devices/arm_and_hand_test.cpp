@@ -85,7 +85,7 @@ TEST(ArmAndHand, StaysPutUnderLessThanItsFrictionAndSlipsUnderMore) {
 
     ArmAndHand slipping(ArmModel{}, plain_spring(0.0, 0.0, 0.0), glm::dvec3(0.0));
     run(slipping, 0.1, {}, 0.30 * x_axis);
-    // What is left after friction accelerates it: (0.30 - 0.26) N on 45 g for 0.1 s, less a little damping.
+    // The force left after friction accelerates it: (0.30 - 0.26) N on 45 g for 0.1 s, less a little damping.
     const double distance_mm = 0.5 * mm_per_m * 0.04 / 0.045 * 0.01;
     EXPECT_NEAR(slipping.position_mm().x, distance_mm, 0.1 * distance_mm);
 }

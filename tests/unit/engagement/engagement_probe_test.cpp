@@ -128,7 +128,7 @@ TEST(Engagement, GapOfAHeadThatIsNoBallIsTheDistanceToAFlatSurface) {
 }
 
 TEST(Engagement, SaysWithWhatForceEdgesRub) {
-    // The same slot at half immersion: what the patches that advance add up to is the reference's edge force.
+    // The same slot at half immersion: the advancing patches add up to the reference's edge force.
     const Bone bone = testing::make_block({-4.0, -4.0, -4.0}, {4.0, 4.0, 0.0}, 0.1);
     Burr burr{.cutting_coefficients_n_per_mm2 = glm::dvec3(0.0)};
     auto engagement = std::make_unique<Engagement>();
@@ -150,7 +150,7 @@ TEST(Engagement, SaysWithWhatForceEdgesRub) {
 }
 
 TEST(Engagement, PlungingAlongTheSpindlePushesNothingSideways) {
-    // Off the lattice, into flat bone: what touches are whole rings.
+    // Off the lattice, into flat bone: whole rings touch.
     const Bone bone = flat_block();
     auto engagement = std::make_unique<Engagement>();
     for (const double diameter_mm : {1.0, 2.3, 5.0}) {

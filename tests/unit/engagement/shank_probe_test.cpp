@@ -21,7 +21,7 @@ Burr burr_with(const ShankProfile& shank) {
 std::unique_ptr<Engagement> sampled(const ShankProfile& shank, const Bone& bone,
                                     const glm::dvec3& position_mm, const glm::dvec3& axis = up) {
     auto engagement = std::make_unique<Engagement>();
-    engagement->shank_count = 7;  // of an older step
+    engagement->shank_count = 7;  // from an older step
     ShankProbe(burr_with(shank)).sample(bone, position_mm, axis, *engagement);
     return engagement;
 }

@@ -1,4 +1,4 @@
-// What every contact law must do on a flat block, whatever its formula.
+// Duties of every contact law on a flat block, whatever its formula.
 #include "simulation/force_models/contact_law.h"
 
 #include <gtest/gtest.h>
@@ -123,7 +123,8 @@ TEST_P(EveryContactLaw, FitsASmallBurr) {
 
 TEST_P(EveryContactLaw, LosesItsDirectionWhollyWithinBone) {
     ContactBench bench(wide_block(), {.name = "1 mm", .diameter_mm = 1.0});
-    // What the lattice leaves of sums that cancel; at that depth in a flat face it would be 0.3 N and more.
+    // The sums cancel up to the lattice's error; at that depth in a flat face the force would be 0.3 N and
+    // more.
     for (const glm::dvec3& position : {glm::dvec3(0.0, 0.0, -1.1), glm::dvec3(0.031, 0.017, -1.123)})
         EXPECT_LT(glm::length(bench.at(*law, position, true).force_n), 0.1);
 }

@@ -42,7 +42,7 @@ class EveryErodingModel : public ::testing::TestWithParam<std::string> {
     }
     void step(ForceModel& model, const BurrCommand& command) { model.step(command, 0.0, changes, *result); }
 
-    /// What a pass through the block removes in steps of that many a second, mm^3.
+    /// The volume that a pass through the block removes, in that many steps a second, mm^3.
     double removed_by_a_pass(double rate_hz) {
         const auto model = make();
         const auto steps = static_cast<int>(0.3 * rate_hz);

@@ -137,8 +137,8 @@ TEST(BoneFromHu, ATissueInBoneIsAsFatAsItsLabels) {
 }
 
 TEST(BoneFromHu, ATissueThatComesToTheSurfaceHasOfItWhatLiesOverIt) {
-    // Labelled up to the surface, as a segmentation of bone is: what of the surface's voxels is bone is its
-    // own, sideways it takes nothing.
+    // Labelled up to the surface, as a segmentation of bone is: bone in the surface's voxels keeps its own
+    // label, and takes none from its neighbours.
     const auto half_ball = [](const glm::dvec3& at_mm) { return at_mm.z < 0.0 && glm::length(at_mm) < 3.0; };
     EXPECT_NEAR(volumes_in_block_mm3(half_ball)[0], 18.0 * pi, 0.01 * 18.0 * pi);
     const auto rod = [](const glm::dvec3& at_mm) {

@@ -19,7 +19,7 @@ using testing::eventually;
 using testing::FrameProxy;
 using testing::ServedBone;
 
-/// What a proxy does to a session, and what it sees of it.
+/// A proxy that meddles with a session, and counts what passes.
 class Meddler {
   public:
     enum class Mode { watch, drop_states, drop_one_brick };

@@ -129,7 +129,7 @@ TEST(RealTimeCode, AllocatesNothingWithAShankThatTouches) {
 TEST(RealTimeCode, AllocatesNothingWithAnOperator) {
     OperatorChannel input;
     ClientDevice device(input, start, DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
-    // What an operator says is good for a fifth of a second only; the pedal is up at first.
+    // An operator's command is valid for a fifth of a second only; the pedal is up at first.
     bool pedal = false;
     const auto say_again = [&input, &pedal] {
         input.back() = {.command = OperatorCommand{.hand_target_mm = {2.0, 0.0, 0.2},

@@ -7,7 +7,7 @@
 namespace osteomill::burr_change_test {
 namespace {
 
-/// A burr 0 of three whose milling loop finds, or does not find, room for what is wanted.
+/// A burr 0 of three whose milling loop finds, or does not find, the space for the wanted one.
 struct Tool {
     BurrChanger burr{0, 3};
     MillingResult latest;
@@ -15,7 +15,7 @@ struct Tool {
     bool spindle_on = false;
     double room_mm = 0.1;
 
-    /// A tick, after which the milling loop looks at what is wanted.
+    /// A tick, after which the milling loop examines the wanted change.
     void tick(std::optional<std::size_t> asked) {
         burr.tick(asked, spindle_on, position_mm, latest);
         latest.burr = burr.burr();

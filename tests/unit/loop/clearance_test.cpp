@@ -11,7 +11,7 @@
 namespace osteomill {
 namespace {
 
-/// What a 2 mm burr sees at `burr_mm` of a block whose top is z = 0.
+/// The milling result of a 2 mm burr at `burr_mm`, at a block whose top is z = 0.
 std::unique_ptr<MillingResult> seen_from(const glm::dvec3& burr_mm) {
     const Bone block = testing::make_block({-4.0, -4.0, -4.0}, {4.0, 4.0, 0.0}, 0.1);
     const Burr burr{.name = "2 mm", .diameter_mm = 2.0, .spindle_rev_per_s = 500.0};

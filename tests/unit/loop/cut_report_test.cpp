@@ -131,7 +131,7 @@ TEST(CutReport, IsFiniteForOddResults) {
     EXPECT_FALSE(report.take(*result, 1.0));
 }
 
-/// What the report makes of the milling model's own engagement agrees with the force that it milled with.
+/// The report of the milling model's own engagement agrees with the force that it milled with.
 TEST(CutReport, OfTheMillingModelKnowsStiffnessAndTorqueOfTheBlock) {
     const Burr burr{.diameter_mm = 2.0, .edges = 6, .spindle_rev_per_s = 500.0};
     MillingModel model(testing::make_block({-3.0, -3.0, -2.0}, {3.0, 3.0, 0.0}, 0.1), {burr}, {}, {});

@@ -1,4 +1,4 @@
-// What the steps of an arm's encoders do to the force that its hand feels: the tooth scene, milled on the
+// The effect of an arm's encoder steps on the force that its hand feels: the tooth scene, milled on the
 // virtual clock.
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ class NotingArm final : public HapticDevice {
     void stop() noexcept override {}
 
     bool is_finished() const { return arm_.is_finished(); }
-    /// Of the ticks in which there is a force.
+    /// The mean over ticks with a force.
     double mean_force_n() const { return force_sum_n_ / felt_ticks_; }
     double noise_n() const { return std::sqrt(fast_squares_n2_ / felt_ticks_); }
     double jumps_per_s() const { return jumps_ / (felt_ticks_ * MillingSession::tick_s); }
@@ -73,7 +73,7 @@ void drill_tooth(NotingArm& arm, const Scene& scene) {
     });
 }
 
-// The bar of a knock is 0.03 N; what is left of it at the arm's 0.055 mm is in docs/results/stability.md.
+// The bar of a knock is 0.03 N; docs/results/stability.md has its remainder at the arm's 0.055 mm.
 TEST(EncoderNoise, OfTheSimulatedArmIsNotFeltAsTaps) {
     const Scene scene = phantom_scene("tooth");
     NotingArm shipped(scene, ArmModel{});

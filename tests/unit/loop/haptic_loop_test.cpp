@@ -25,7 +25,7 @@ class Bench {
     TripleBuffer<ToolState> tool;
     TripleBuffer<ToolState> status;
     HapticLoopOptions options{.burr_count = 3, .start_burr = 1};
-    MillingResult next;  // what the milling loop says from now on
+    MillingResult next;  // the milling loop's result from now on
     HandpieceVibration* vibration = nullptr;
     SessionGate gate;
     TripleBuffer<Placement> placements;
@@ -506,7 +506,7 @@ TEST(HapticLoop, PlacesTheToolUnderAHandThatStaysWhereItIs) {
     EXPECT_LT(glm::distance(bench.shown().force_n, glm::dvec3(0.0, 0.5, 0.0)), 1e-9);
 }
 
-/// What may be wrong with a session whose tool moves relative to the hand's bone, beside that.
+/// Another fault in a session whose tool moves relative to the hand's bone.
 class InterruptedBench : public ::testing::TestWithParam<bool> {
   public:
     InterruptedBench() {

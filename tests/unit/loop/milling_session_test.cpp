@@ -208,7 +208,7 @@ TEST(MillingSession, RunsInThreadsOnTheRealClockAndStopsWhenTold) {
     Bone copy = block();
     std::atomic<bool> done{false};
     std::uint64_t shown = 0;
-    std::thread streaming([&] {  // what the streaming loop would do
+    std::thread streaming([&] {  // the work of the streaming loop
         for (bool last_round = false; !last_round;) {
             last_round = done.load();
             follow(session->exchange().changes, copy);

@@ -32,7 +32,7 @@ struct Tick {
     std::uint64_t missed;
 };
 
-/// A loop of 1 kHz that notes its ticks.
+/// A loop of 1 kHz that records its ticks.
 struct Noted {
     std::vector<Tick> ticks;
     PeriodicLoop loop;
@@ -98,7 +98,7 @@ TEST(PeriodicLoop, CountsTicksThatAreDoneAfterTheNextDeadline) {
 
 TEST(PeriodicLoop, TicksAtOnceForACallerWhoKeepsTheOrder) {
     LateClock stopwatch({});
-    stopwatch.work(70.0);  // what it shows does not matter
+    stopwatch.work(70.0);  // its reading does not matter
     Noted noted(0.5);
     noted.loop.tick_now(stopwatch);
     noted.loop.tick_now(stopwatch);

@@ -19,7 +19,7 @@ constexpr double radius_mm = 1.0;
 constexpr double pressed_mm = 0.3;
 /// Bone that may be left in a burr that counts as clear: a voxel.
 constexpr double overlap_mm = 0.1;
-/// What a damper, a virtual tool's mass or a filter may still pull with when the hand turns.
+/// The force with which a damper, a virtual tool's mass or a filter may still pull when the hand turns.
 constexpr double most_pull_n = 0.05;
 
 struct SunkCase {

@@ -30,7 +30,7 @@ class TlsStreamTest : public ::testing::Test {
         lab_.emplace();
     }
 
-    /// Where what goes wrong is found out by a deadline elsewhere, this one ends the test.
+    /// Runs until `is_so`, or up to a deadline: in the product a deadline elsewhere finds such faults.
     void run_until(const std::function<bool()>& is_so) {
         io_.restart();
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);

@@ -26,7 +26,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// Of testing::write_block, and a margin of 2 mm around it where no bone is.
+/// The grid of testing::write_block, with an empty margin of 2 mm around it.
 const Grid around_block{.size_voxels = {68, 60, 52}, .spacing_mm = 0.2, .origin_mm = {-6.7, -5.9, -6.1}};
 
 StructureMask ball(const glm::dvec3& centre_mm, double radius_mm) {
@@ -51,7 +51,7 @@ class CaseFolder : public ::testing::Test {
                                           {"flap", {200, 200, 200}, ball({0.0, 0.0, 0.0}, 2.0)},
                                           {"air", {1, 2, 3}, ball({0.0, -5.5, -5.5}, 0.3)}});
     }
-    /// What was said, of an error or on the way.
+    /// The messages of making the case, or its error.
     std::string made(const CaseParts& parts) {
         std::ostringstream messages;
         try {

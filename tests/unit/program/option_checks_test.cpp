@@ -41,7 +41,7 @@ TEST(ParseArguments, LeavesHelpThatNamesExclusionsInOrder) {
     EXPECT_THAT(sub->help(), HasSubstr("--dataset DIR Excludes: --cut --inset --look --renderer --speed\n"));
 }
 
-// As a script writes it whose variable is not set.
+// A script whose variable is not set gives such a value.
 TEST(ParseArguments, RefusesAnEmptyValueWhereverItMayBe) {
     CLI::App app;
     std::string name, file;

@@ -24,7 +24,7 @@ class Paper {
     void wait() const {
         while (!stream_.has_caught_up()) std::this_thread::yield();
     }
-    /// What has come since the last time; something must have.
+    /// The text since the last call; there must be some.
     std::string text() const {
         wait();
         return pipe_.read(65'536);

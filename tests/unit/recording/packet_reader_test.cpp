@@ -23,7 +23,7 @@ class PacketReaderTest : public ::testing::Test {
         writer.write(Stamp{}, "second");
         good_ = testing::bytes_of(file_);
     }
-    /// What is said of these bytes as a file; empty where all packets can be read.
+    /// The message on these bytes as a file; empty if all packets can be read.
     std::string complaint(const std::string& bytes) const {
         testing::write_bytes(file_, bytes);
         try {

@@ -21,7 +21,7 @@ using testing::MadeRecording;
 
 constexpr double for_ever = std::numeric_limits<double>::infinity();
 
-/// Goes to the end; what stands in the way, or nothing.
+/// Goes to the end; returns the error that stops it, or nothing.
 std::string complaint(const std::filesystem::path& file) {
     try {
         Playhead playhead(file);

@@ -57,8 +57,7 @@ TEST(PlanMetricsTest, OfACutThatIsThePlanAreWithoutFault) {
 }
 
 TEST(PlanMetricsTest, OfAShiftedSphereAreThoseOfTwoSpheres) {
-    // Of two spheres a distance d apart: what they share, a lens; the surfaces differ by d |cos|, d / 2 in
-    // the mean.
+    // Two spheres a distance d apart share a lens; their surfaces differ by d |cos|, d / 2 in the mean.
     const double d = 0.6;
     const double shared_mm3 =
         3.14159265358979 / 12.0 * (4.0 * radius_mm + d) * (2.0 * radius_mm - d) * (2.0 * radius_mm - d);

@@ -63,7 +63,7 @@ class Judged : public ::testing::Test {
         page_ = report_html(trace, metrics, all_rows, {}, reference_sessions(folder, trace));
     }
 
-    std::string csv_;  // of the last report
+    std::string csv_;  // the last report's
     std::string page_;
     testing::TemporaryFolder folder_;
 };

@@ -103,7 +103,7 @@ TEST(PedalLatch, LetsAPressCountLateAndAReleaseAtOnce) {
     EXPECT_NEAR(waited, 50, 1);
     EXPECT_TRUE(tick(true, 0.3)) << "what turns is not stopped by a delay that grew";
     EXPECT_FALSE(tick(false, 0.3));
-    // What waits frees nothing that is locked.
+    // A statement that waits frees nothing that is locked.
     loop.tick(PedalStatement{}, 0.5);
     for (int i = 0; i < 400; ++i) ASSERT_FALSE(tick(true, 0.05));
 }

@@ -23,7 +23,7 @@ constexpr double tick_s = 0.01;
 constexpr double limit_n = 3.0;
 constexpr double time_to_zero_s = 0.05;  // the promise
 
-/// What can happen in a tick.
+/// An event of a tick.
 struct Event {
     Fault fault = Fault::none;
     PedalSeen pedal = PedalSeen::up;
@@ -248,7 +248,7 @@ TEST(SafetyMonitor, ComesBackFromEveryStateOnceAllIsWell) {
 /// go.
 class WrongSession {
   public:
-    /// Of a watchdog's own, all that lie outside the bone.
+    /// All faults of the watchdog's own that occur outside the bone.
     static constexpr std::array reasons{Fault::device_lost,  Fault::device_jumped,  Fault::model_stalled,
                                         Fault::not_a_number, Fault::energy_to_hand, Fault::paused,
                                         Fault::overrun};
@@ -287,7 +287,8 @@ class WrongSession {
 };
 
 /// A spindle that any fault has stopped starts by a fresh press alone, whatever else is wrong before, with
-/// and after it. Of a pedal that is pressed during the first fault, what withdraws it does, and nothing else.
+/// and after it. A pedal that is pressed during the first fault is withdrawn by the faults that withdraw it,
+/// and by nothing else.
 TEST(SafetyMonitor, LetsNoFaultHideAnotherThatWithdrawsThePedal) {
     int pairs = 0;
     for (const Fault first : WrongSession::reasons)

@@ -14,7 +14,7 @@
 namespace osteomill {
 namespace {
 
-/// As a client of the library unpacks it, the CRC checked.
+/// The message as a client of the library unpacks it, the CRC checked.
 template <typename Message>
 typename Message::Pointer unpacked(const IgtlMessage& bytes) {
     auto header = igtl::MessageHeader::New();

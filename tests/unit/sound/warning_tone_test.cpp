@@ -70,7 +70,7 @@ TEST(WarningTone, BeginsAndEndsWithoutAClickAndStaysWithinTheScale) {
     float largest_step = 0.0f;
     for (std::size_t i = 1; i < samples.size(); ++i)
         largest_step = std::max(largest_step, std::abs(samples[i] - samples[i - 1]));
-    // Of 0.3 times the steepest slope of the five sines.
+    // The bound is 0.3 times the steepest slope of the five sines.
     EXPECT_LT(largest_step, 0.3 * 2.0 * std::numbers::pi * 880.0 * 2.23 / second);
     EXPECT_LT(std::abs(samples.front()), 1e-3f);
     WarningTone over_loud;

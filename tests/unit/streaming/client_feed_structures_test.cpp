@@ -1,4 +1,4 @@
-// What a client is sent of protected structures, and when.
+// Messages about protected structures to a client, and their time.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -52,7 +52,7 @@ TEST_F(ClientFeedOfStructures, TellsWhereProtectedStructuresAreBeforeTheFirstSta
     EXPECT_TRUE(arrived->mask == structures[0].mask);
     ASSERT_TRUE(state);
     EXPECT_EQ(state->state.distances, std::vector{near});
-    // What is as it was is no news; a distance that changes is.
+    // An unchanged distance is no news; a changed one is.
     feed_->request_state({.tool = {.time_s = 0.03}, .distances = {near}}, false);
     EXPECT_FALSE(feed_->next());
     const StructureDistance nearer{.tissue = 0, .distance_mm = 0.6};

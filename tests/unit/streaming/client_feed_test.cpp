@@ -12,7 +12,7 @@
 namespace osteomill {
 namespace {
 
-/// Carves the mirror and tells a feed, as the server does at every frame.
+/// Carves the mirror and passes the changes to a ClientFeed, as the server does at every frame.
 class Carver final : public ChangeSink {
   public:
     Carver(BoneReplica& mirror, ClientFeed& feed) : bone_(mirror.bone()), mirror_(mirror), feed_(feed) {}
@@ -39,7 +39,7 @@ class Carver final : public ChangeSink {
         feed_.note(mirror_.take_changes());
     }
 
-    /// Likewise, only the lower half of the bricks, and voxel by voxel.
+    /// Carves only the lower half of the bricks, voxel by voxel.
     void carve_first_bricks(int voxels) {
         for (int i = 0; i < voxels; ++i) {
             const std::size_t slot = random_() % (bone_.stored_bricks() / 2);

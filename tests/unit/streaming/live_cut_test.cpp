@@ -1,4 +1,4 @@
-// What the edges cut joins the tool's state where the streaming server takes it, behind the haptic loop.
+// The state of the cut joins the tool's state in the streaming server, behind the haptic loop.
 #include <gtest/gtest.h>
 
 #include "haptic_server/streaming/live_session.h"

@@ -1,4 +1,4 @@
-// From where the one who moves the tool looks, on its way from a window into a recording.
+// The operator's viewpoint, on its way from a window into a recording.
 #include <gmock/gmock.h>
 
 #include "common/recording/packet_reader.h"

@@ -44,7 +44,7 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
     void mill() {
         for (int i = 0; i < 50; ++i) testing::carve_somewhere(milled_, random_, *this);
     }
-    /// What the milling loop does with its queue, some of it a time.
+    /// Consumes a part of the queue, as a step of the milling loop does.
     void milling_steps(std::size_t bricks) {
         gate_.restored_changes += restored_.consume_all(
             [&](const BrickChange& change, BrickFractions fractions) {

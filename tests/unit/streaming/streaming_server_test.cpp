@@ -243,7 +243,7 @@ TEST(StreamingServer, MovesTheToolOnlyForWhoAnswersWhatIsNow) {
         client.read_into(seen);
         return seen.states() > by_then + 5;
     }));
-    // Where frames took their time, its lease has run out since, and there is no command.
+    // If frames took long, its lease has run out since, and there is no command.
     const std::optional<OperatorCommand> command = served.operator_command();
     EXPECT_EQ(command.value_or(OperatorCommand{.burr = 1}).burr, 1U);
     EXPECT_TRUE(eventually([&, number = std::uint64_t{7}]() mutable {

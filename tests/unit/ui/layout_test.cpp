@@ -7,7 +7,7 @@ namespace {
 
 constexpr float margin = 10.0f;
 
-/// What the client asks for with everything open, at scale 1.
+/// The client's requests with everything open, at scale 1.
 std::vector<PanelRequest> many_panels(float scale) {
     return {{Anchor::top, {scale * glm::vec2(300, 40)}},
             {Anchor::lower_left, {scale * glm::vec2(320, 70)}},

@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Frames drawn in a second that is looked at sixty times, where this happens each time.
+/// Frames drawn in a second with sixty polls, if this happens at each.
 template <typename Happens>
 int frames_in_a_second(Redraw& redraw, Redraw::Time began, Happens&& happens,
                        milliseconds frame = milliseconds(5)) {

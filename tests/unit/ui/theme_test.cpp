@@ -42,7 +42,8 @@ glm::dvec3 lab(const glm::dvec3& rgb) {
     return {116.0 * f.y - 16.0, 500.0 * (f.x - f.y), 200.0 * (f.y - f.z)};
 }
 
-/// What a dichromat sees, severity 1 of Machado, Oliveira and Fernandes (2009), rows over linear RGB.
+/// Colours as a dichromat sees them, severity 1 of Machado, Oliveira and Fernandes (2009), rows over linear
+/// RGB.
 const glm::dmat3 as_seen_by_all(1.0);
 const glm::dmat3 as_seen_by_protanopes = glm::transpose(
     glm::dmat3(0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116, 1.051998));

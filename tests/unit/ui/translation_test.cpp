@@ -34,7 +34,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
         text.replace(at, from.size(), to);
 }
 
-/// The literal that begins at `at`, with those that C++ joins to it, and `at` behind it; "" where there is
+/// The literal that begins at `at`, with those that C++ joins to it, and `at` behind it; "" if there is
 /// none.
 std::string literal_at(const std::string& source, std::size_t& at) {
     std::string text;
@@ -67,7 +67,7 @@ std::map<std::string, std::string> sources_in(const char* folder) {
     return sources;
 }
 
-/// Where the arguments of each call of that function begin.
+/// The offsets at which the arguments of each call of that function begin.
 std::vector<std::size_t> calls_of(const std::string& source, const std::string& function) {
     std::vector<std::size_t> calls;
     for (std::size_t at = source.find(function + "("); at != std::string::npos;
@@ -89,7 +89,7 @@ bool has_word(const std::string& text) {
     return false;
 }
 
-/// Words among a call's arguments that are not handed to tr; what is behind ## is not shown.
+/// Words among a call's arguments that are not handed to tr; text behind ## is not shown.
 std::vector<std::string> bare_words(const std::string& source, std::size_t at) {
     std::vector<std::string> bare;
     for (int depth = 1; at < source.size() && depth > 0;) {
@@ -142,7 +142,7 @@ std::set<std::string> english_words() {
             std::ranges::replace(as_written, '_', ' ');
             words.insert(as_written);
         }
-    // Of the help, what is no name of a key.
+    // All of the help, but names of keys.
     for (const HelpLine& line : all_help()) {
         words.insert(line.meaning);
         if (has_word(line.name)) words.insert(line.name);

@@ -5,7 +5,7 @@
 namespace osteomill {
 namespace {
 
-/// As long as the way is, with the bone in sight.
+/// Counts notches for the whole way, with the bone in sight.
 int notches_for(double way_mm, double mm_per_px) {
     int notches = 0;
     for (double left_mm = way_mm; left_mm > 0.05 && notches < 1000; ++notches)

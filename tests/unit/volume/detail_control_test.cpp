@@ -65,7 +65,8 @@ TEST(DetailControl, HoldsTheRateOfFramesWhateverAPixelCosts) {
         double took_s = full_frame_s;
         for (int frame = 0; frame < 30; ++frame) {
             const double divisor = control.divisor_for(Extent::whole, pixels);
-            // What is left over besides pixels makes coarse ones dearer than fine ones.
+            // Work that does not depend on the pixels makes a pixel of a coarse frame dearer than one of a
+            // fine frame.
             took_s = full_frame_s / (divisor * divisor) * (1.0 + 0.1 * divisor);
             control.drew(Extent::whole, static_cast<std::int64_t>(pixels / (divisor * divisor)), took_s);
         }

@@ -1,4 +1,4 @@
-// A test with an OpenGL context of its own; skipped with a plain message where there is none.
+// A test with an OpenGL context of its own; skipped with a plain message if there is none.
 #pragma once
 
 #include <gtest/gtest.h>

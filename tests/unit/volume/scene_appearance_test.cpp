@@ -41,7 +41,7 @@ TEST_F(SceneAppearanceTest, CutShowsTheTissuesInsideAsAFlatFaceWhereTheCutIs) {
     const Picture whole = picture.draw(&textures, nullptr, camera).read_back();
     EXPECT_GT(whole.at(middle.x, middle.y)[1], 2 * whole.at(middle.x, middle.y)[0]);
 
-    picture.set_appearance({.cuts = {{{0.0, -1.0, 0.0}, 0.5}}});  // what is in front of y = -0.5 is gone
+    picture.set_appearance({.cuts = {{{0.0, -1.0, 0.0}, 0.5}}});  // all in front of y = -0.5 is gone
     const gl::Framebuffer& cut = picture.draw(&textures, nullptr, camera);
     const Picture inside = cut.read_back();
     EXPECT_GT(inside.at(middle.x, middle.y)[0], 2 * inside.at(middle.x, middle.y)[1]) << "the red core";
@@ -105,7 +105,7 @@ TEST_F(SceneAppearanceTest, SeveralCutsLeaveWhatNoneTakesAway) {
     picture.set_appearance(
         {.cuts = {{{1.0, 0.0, 0.0}, 0.0}, {{0.0, 0.0, 1.0}, 0.0}, {{0.0, 1.0, 0.0}, -2.9}}});
     const gl::Framebuffer& drawn = picture.draw(&textures, nullptr, camera);
-    // What is left is a splinter on the right hand of the patient, below, in front of y = -2.9.
+    // A splinter is left on the right hand of the patient, below, in front of y = -2.9.
     EXPECT_EQ(drawn.depth_at({middle.x + 15, middle.y - 15}), 1.0f);
     EXPECT_EQ(drawn.depth_at({middle.x - 15, middle.y + 15}), 1.0f);
     EXPECT_LT(drawn.depth_at({middle.x - 4, middle.y - 4}), 1.0f);
@@ -144,7 +144,7 @@ TEST_F(SceneAppearanceTest, WetBoneHasHighlightsWhereALampIsMirroredAndElsewhere
         EXPECT_GT(brighter, 100);
         EXPECT_GT(as_before, 5 * brighter);
     }
-    // As published: matt, always.
+    // The published surface is always matt.
     const BoneTextures published(ball, {}, {.shading = Shading::surface_voxels});
     RaycastRenderer renderer;
     ScenePicture picture(renderer, size_px);

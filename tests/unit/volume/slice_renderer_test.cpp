@@ -51,7 +51,7 @@ struct CarvedSlab {
     static constexpr double centre_height_mm = 1.5;
 
     CarvedSlab() { carve_sphere(bone, {0.0, 0.0, centre_height_mm}, radius_mm); }
-    /// Of the hollow's wall.
+    /// The height of the hollow's wall.
     static double height_mm(double from_axis_mm) {
         return centre_height_mm - std::sqrt(radius_mm * radius_mm - from_axis_mm * from_axis_mm);
     }
@@ -98,7 +98,7 @@ TEST_P(BothRenderers, ShowTheRimOfACarvedSphereWithinHalfAVoxel) {
     const gl::Framebuffer& picture = drawn(textures, camera);
     // Seen from the height d above the middle, the hole of a plate of half thickness h is bounded by the rim
     // of the upper face (radius sqrt(r^2 - h^2), at distance d - h), of the lower one, or by a tangent of the
-    // ball: of these the one that is seen under the smallest angle, all round.
+    // ball: by the one that is seen under the smallest angle, all round.
     const double d = camera.distance_mm, h = 0.5;
     const double rim_mm = std::sqrt(radius_mm * radius_mm - h * h);
     const double tangent = std::min({rim_mm / (d - h), rim_mm / (d + h)});

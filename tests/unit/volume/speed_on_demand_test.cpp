@@ -1,4 +1,4 @@
-// Quality on demand, with times made up: what a pixel costs is what the test says.
+// Quality on demand, with made-up times: the test sets the cost of a pixel.
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/scene_picture.h"
 #include "studies/render/made_bone.h"

@@ -86,7 +86,7 @@ Bone ball() {
     return made_bone(grid, [](const glm::dvec3& p) { return 1.5 - glm::length(p); });
 }
 
-/// Where a ball's outline is centred, which is a little beside where its centre is seen.
+/// The column of the centre of a ball's outline, which is a little beside the ball's centre.
 double column_of_outline(const Camera& camera, double radius_mm, const glm::ivec2& size_px) {
     const glm::dvec3 to_ball = -camera.eye_mm();
     const double aside = glm::dot(to_ball, camera.right());

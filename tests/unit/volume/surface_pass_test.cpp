@@ -21,7 +21,7 @@ glm::dvec3 ray_of(const Camera& camera, int x, int y) {
     return direction / glm::dot(direction, camera.forward());
 }
 
-/// Along the camera's axis to a ball about the origin; nothing where the ray passes it.
+/// Along the camera's axis to a ball about the origin; nothing if the ray passes it.
 std::optional<double> depth_of_ball(const Camera& camera, const glm::dvec3& ray, double radius_mm) {
     const glm::dvec3 eye = camera.eye_mm();
     const double a = glm::dot(ray, ray), b = glm::dot(eye, ray),
@@ -38,7 +38,7 @@ Camera camera_from_aside() {
     return camera;
 }
 
-/// What a picture measured against closed form.
+/// The errors of a picture against closed form.
 struct Errors {
     int pixels = 0;
     double deepest_voxels = 0.0;   ///< along the camera's axis, where the ray is steeper than 12 degrees
@@ -154,7 +154,7 @@ TEST_F(SurfacePassTest, DrawsPartsAsItDrawsTheWhole) {
     }
 }
 
-// As its picture, it is within a voxel of the ball.
+// Like its picture, the measured surface is within a voxel of the ball.
 TEST_F(SurfacePassTest, MeasuresASoftStructureInFrontOfBoneAndNoneBehind) {
     const Bone bone = made_bone(grid, [](const glm::dvec3& p) { return 2.8 - glm::length(p); });
     const BoneTextures textures(bone, {});

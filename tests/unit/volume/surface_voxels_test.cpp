@@ -141,7 +141,7 @@ TEST_F(SurfaceTextureTest, IsShadedAgainOnlyRoundTheChangeAndEqualsAFreshOne) {
             surface.texture().read_back(bytes);
             return bytes;
         };
-        // What lies in tiles that no brick has is nobody's business.
+        // Tiles that no brick has may hold anything.
         const auto expected = texels(fresh), found = texels(updated);
         const glm::ivec3 size = places.texture_size();
         for (std::size_t slot = 0; slot < bone.stored_bricks(); ++slot) {

@@ -52,7 +52,7 @@ std::vector<Texels> content_of(const BoneTextures& textures) {
     return all;
 }
 
-/// Which texture differs, in how many bytes and in which at first; empty where none does.
+/// Which texture differs, in how many bytes and in which at first; empty if none does.
 std::string first_difference(const std::vector<Texels>& are, const std::vector<Texels>& would_be) {
     for (std::size_t texture = 0; texture < would_be.size(); ++texture) {
         const auto [at, other] = std::ranges::mismatch(are[texture], would_be[texture]);
@@ -85,7 +85,7 @@ struct Held {
     ShadingSettings look{};
     TextureLimits limits{};
     bool is_labelled = true;
-    double opacity = 0.5;  ///< of one of two tissues
+    double opacity = 0.5;  ///< one of two tissues'
 };
 
 class HeldEachWay : public OffscreenTest, public ::testing::WithParamInterface<Held> {
@@ -119,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(
         Held{"dense", {}, {.layout = BoneLayout::dense}}, Held{"atlas", {}, {.layout = BoneLayout::atlas}},
         Held{"surface voxels", {.shading = Shading::surface_voxels}, {.layout = BoneLayout::atlas}},
         Held{"partly hidden", {}, {.layout = BoneLayout::dense}, true, 0.0},
-        // What is too much for the bone itself leaves a coarser copy, whose codes are not told anew.
+        // A budget that is too small for the bone itself leaves a coarser copy, whose codes are not
+        // made again.
         Held{"coarse", {}, {.budget_bytes = 30'000, .layout = BoneLayout::dense}, false}));
 
 using TextureBuildTest = OffscreenTest;

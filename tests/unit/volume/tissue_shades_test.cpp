@@ -46,7 +46,7 @@ TEST(TissueShades, TellEnamelFromDentineWithinATooth) {
     ASSERT_TRUE(shades.has_value());
     const glm::vec3 dentine = colour_at(*shades, 1, 50), enamel = colour_at(*shades, 1, 110);
     EXPECT_GT(enamel.b, 1.1f * dentine.b) << "whiter";
-    // What lies between is between.
+    // Stiffnesses in between have shades in between.
     float blue = dentine.b;
     for (int stiffness = 51; stiffness <= 110; ++stiffness) {
         const float next = colour_at(*shades, 1, static_cast<std::uint8_t>(stiffness)).b;

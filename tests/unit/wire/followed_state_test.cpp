@@ -11,7 +11,7 @@ namespace {
 
 class FollowedStateTest : public ::testing::Test {
   protected:
-    /// What is left of a brick of the server's.
+    /// A change of these voxels, with the fractions of the server's brick.
     ChangedBrick told(const VoxelMask& voxels) const {
         ChangedBrick changed{.change = {brick_, voxels}};
         std::ranges::copy(servers_.fractions(3), changed.fractions.begin());

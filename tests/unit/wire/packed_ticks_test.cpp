@@ -55,7 +55,7 @@ v2::Ticks packed_by_hand(const v2::TickQuantities& quantities, std::uint32_t cou
     return message;
 }
 
-/// As the haptic loop leaves a tick: its hand is written exactly.
+/// A tick as the haptic loop leaves it: its hand is written exactly.
 TickSample input_tick_of(std::mt19937& random, std::uint64_t number) {
     TickSample tick = tick_of(random, 0.001 * static_cast<double>(number), false);
     const ToolPose hand = as_written({tick.hand_mm, tick.spindle_axis});
@@ -68,7 +68,7 @@ TickSample input_tick_of(std::mt19937& random, std::uint64_t number) {
     return tick;
 }
 
-/// Of one tick at rest, as a reader of the protocol's page would make them.
+/// The quantities of one tick at rest, as a reader of the protocol's page would make them.
 v2::TickQuantities at_rest() {
     v2::TickQuantities quantities;
     for (int i = 0; i < 18; ++i) quantities.add_quantity()->add_step(0);

@@ -178,7 +178,7 @@ TEST(SceneMessages, BringBackPlanTraineeAndSettings) {
     EXPECT_TRUE(std::holds_alternative<WireError>(session_info_from(hello)));
     hello.mutable_plan()->mutable_sphere()->set_radius_mm(std::nan(""));
     EXPECT_TRUE(std::holds_alternative<WireError>(session_info_from(hello)));
-    hello.mutable_plan()->mutable_cylinder()->set_radius_mm(1.0);  // of no length
+    hello.mutable_plan()->mutable_cylinder()->set_radius_mm(1.0);  // but no length
     EXPECT_TRUE(std::holds_alternative<WireError>(session_info_from(hello)));
     hello.clear_plan();
     EXPECT_FALSE(std::get<SessionInfo>(session_info_from(hello)).plan);

@@ -124,7 +124,7 @@ TEST(Snapshot, RefusesABoneThatWouldFillTheMemoryHoweverItCompresses) {
     v2::SnapshotBegin begin = of_a_small_block().begin;
     for (const auto set_size : {&v2::Grid::set_size_x, &v2::Grid::set_size_y, &v2::Grid::set_size_z})
         (begin.mutable_grid()->*set_size)(4000);
-    begin.set_brick_count((1U << 20U) + 1);  // of 4 KiB
+    begin.set_brick_count((1U << 20U) + 1);  // 4 KiB each
     EXPECT_THAT(error_of({.begin = begin, .pieces = {}, .end = {}}), HasSubstr("4096 MiB"));
     begin.set_brick_count(1U << 20U);
     EXPECT_THAT(error_of({.begin = begin, .pieces = {}, .end = {}}), HasSubstr("0 bricks came"));

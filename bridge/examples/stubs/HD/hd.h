@@ -1,4 +1,4 @@
-/* What openhaptics_arm.c uses of OpenHaptics' HD interface, so that it is compiled without it. No code of its maker. */
+/* The part of OpenHaptics' HD interface that openhaptics_arm.c uses, to compile without it. No code of its maker. */
 #ifndef STUB_HD_H
 #define STUB_HD_H
 #define HDCALLBACK

@@ -1,4 +1,4 @@
-// What reaches the hand, whatever the server or the network does: bridge/osteomill_bridge.h.
+// The force on the hand, whatever the server or the network does: bridge/osteomill_bridge.h.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -56,7 +56,7 @@ class BridgedArm : public ::testing::Test {
         const std::lock_guard lock(mutex);
         return force;
     }
-    /// As the loop does it.
+    /// A tick as the loop does it.
     DeviceState tick(const glm::dvec3& force_n) {
         now_s += 0.001;
         const DeviceState state = device.read(now_s);

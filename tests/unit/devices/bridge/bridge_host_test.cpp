@@ -90,7 +90,7 @@ class LyingArm {
         omb_put_hello(message.data(), nonce, &arm);
         return sealed(std::move(message));
     }
-    /// As the welcome that came last wants it, or with what `change` makes of it.
+    /// A pose that answers the last welcome, altered by `change`.
     Datagram pose(const std::function<void(omb_pose&)>& change = [](omb_pose&) {}) {
         Datagram message = begun(OMB_POSE, session);
         omb_pose pose = testing::ready_pose();

@@ -1,5 +1,5 @@
 // Both ends of a bridge in one thread and with a clock of its own: the header's side on a real socket, the
-// server's side as a BridgeHost. What is under way can be lost, doubled, kept back or changed.
+// server's side as a BridgeHost. Messages under way can be lost, doubled, kept back or changed.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ class BridgePair {
     void answer() {
         if (host.awaits_answer()) send_back(host.answer(now_ns, wanted));
     }
-    /// As if it came from there.
+    /// Delivers the datagram as if it came from there.
     void deliver(const Datagram& datagram, const PeerAddress& from) {
         hear(datagram, from);
         answer();
@@ -119,13 +119,13 @@ class BridgePair {
         return std::vector<Datagram>{one};
     };
     std::vector<Datagram> sent;     // by the arm
-    std::vector<Datagram> answers;  // of the server
+    std::vector<Datagram> answers;  // the server's
     PeerAddress peer;
     int fresh_poses = 0;
     bool has_fresh_pose = false;  ///< among what was heard last
     bool is_server_stopped = false;
     std::uint64_t now_ns = 1'000'000'000;
-    /// What the arm takes for it.
+    /// The arm's clock at a given time of this clock.
     std::function<std::uint64_t(std::uint64_t)> arm_clock_ns = [](std::uint64_t ns) { return ns; };
 };
 

@@ -47,7 +47,7 @@ omb_arm arm_of(const DeviceLimits& limits) {
     return arm;
 }
 
-/// What the motors gave, tick by tick.
+/// The motors' forces, tick by tick.
 struct Felt {
     std::vector<glm::dvec3> force_n;
 
@@ -198,7 +198,7 @@ TEST(BridgedSession, OnAPoorWayMillsTheSameWithoutAJump) {
         bridged.bridge.pass_on = PoorWay(seed);
         bridged.bridge.pass_back = PoorWay(seed + 100);
         const MillingSessionReport over = mill(bridged);
-        // Of a dozen seeds the mean is 1 %, the most 2.3.
+        // Over a dozen seeds the mean is 1 %, the most 2.3 %.
         EXPECT_NEAR(over.removed_mm3[0], built_in.removed_mm3[0], 0.03 * built_in.removed_mm3[0]);
         EXPECT_LT(bridged.felt.largest_jump_n(), 0.3);
         EXPECT_GT(bridged.bridge.host.counts().out_of_order, 100u);

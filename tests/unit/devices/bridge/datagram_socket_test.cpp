@@ -83,7 +83,7 @@ TEST(DatagramSocket, RemovesNothingOfOthers) {
     EXPECT_THAT(refusal(), HasSubstr("is a file, and no socket"));
     EXPECT_TRUE(std::filesystem::is_symlink(path));
     std::filesystem::remove(path);
-    // What stands there at the end is another's.
+    // The file that stands there at the end is another's.
     for (const bool is_socket : {false, true}) {
         {
             const DatagramSocket own{BridgeAddress(BridgePath{path})};

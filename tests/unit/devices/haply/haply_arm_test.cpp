@@ -38,7 +38,7 @@ class HaplyArmOnService : public ::testing::Test {
         find(is_new);
         ASSERT_TRUE(becomes([](const DeviceState& state) { return state.connected; }));
     }
-    /// As the loop does it.
+    /// A tick as the loop does it.
     DeviceState tick(const glm::dvec3& force_n) {
         now_s += 0.001;
         const DeviceState state = arm->read(now_s);

@@ -10,7 +10,7 @@
 namespace osteomill {
 namespace {
 
-/// As the documentation has it for version 3.1, shortened, with a wireless grip.
+/// The documentation's message for version 3.1, shortened, with a wireless grip.
 const std::string first_message = R"({
   "inverse3": [{
     "device_id": "04BA",

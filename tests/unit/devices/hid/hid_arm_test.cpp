@@ -41,7 +41,7 @@ class PluggedArm : public ::testing::Test {
         };
         hid.plug(plugged);
     }
-    /// As the loop does, every millisecond: until the reading is as it shall be.
+    /// Ticks as the loop does, every millisecond, until the reading is as it shall be.
     template <typename Condition>
     bool loop_until(const glm::dvec3& force_n, Condition&& condition) {
         return eventually([&] {

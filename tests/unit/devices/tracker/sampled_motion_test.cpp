@@ -31,7 +31,7 @@ struct Link {
 };
 
 struct Played {
-    std::vector<double> true_time_s;  // of the motion, where it is
+    std::vector<double> true_time_s;  // the time in the motion at which it was there
     std::vector<SampledMotion::Pose> poses;
     double delay_s = 0.0;
     int absent = 0;  ///< ticks without a pose after the first
@@ -210,12 +210,12 @@ TEST(SampledMotion, FollowsClocksThatDrift) {
 struct OddClock {
     const char* name;
     double rate_hz;
-    std::function<double(double)> stamp_s;  ///< of a sample made at a time of ours
+    std::function<double(double)> stamp_s;  ///< for a sample made at a time of ours
     std::function<double(double)> arrival_s = [](double made_s) { return made_s + 0.003; };
 };
 
 struct Followed {
-    double oldest_s = 0.0;  ///< of what was played, less the delay that was told
+    double oldest_s = 0.0;  ///< largest age of the played pose beyond the stated delay
     int losses = 0;         ///< after the first pose
     int present = 0;        ///< ticks with a pose
     bool is_there_at_end = false;
@@ -274,7 +274,7 @@ std::vector<OddClock> odd_clocks() {
 TEST(SampledMotion, IsNeverFarBehindTheHandWhateverTheSendersClockDoes) {
     for (const OddClock& clock : odd_clocks()) {
         const Followed followed = follow(clock);
-        // Beside what is allowed, by the steps of samples; and where none comes, by the silence.
+        // Beside what is allowed, by the steps of samples; and if none comes, by the silence.
         const double step_s = 1.0 / clock.rate_hz;
         const double silence_s =
             std::clamp(5.0 * step_s, SampledMotion::least_silence_s, SampledMotion::most_silence_s);
@@ -350,7 +350,7 @@ TEST(SampledMotion, FollowsNoSlopeOfSamplesCloserThanTheTrackersNoise) {
     }
 }
 
-/// Of a hand that is as fast as hands are, at odd times.
+/// Samples of a hand that is as fast as hands are, at odd times.
 std::vector<SampledMotion::Sample> wild_samples(std::mt19937& random) {
     std::uniform_real_distribution<double> share(-1.0, 1.0);
     std::vector<SampledMotion::Sample> samples{{.stamp_s = 3.0}};

@@ -62,7 +62,7 @@ class TrackedHand : public ::testing::Test {
     glm::dvec3 position_mm{10.0, 20.0, 30.0};
     glm::dquat turn = glm::angleAxis(std::numbers::pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));  // z to -y
     double now_s = 0.0;
-    double clock_rate = 1.0;  // of the tracker's to ours
+    double clock_rate = 1.0;  // the tracker's relative to ours
     int ticks = 0;
     DeviceState state;
 };

@@ -21,7 +21,7 @@ Bytes packed(const Message& message) {
     return {begin, begin + message->GetPackSize()};
 }
 
-/// As the library's own senders make it.
+/// A TRANSFORM as the library's own senders make it.
 Bytes transform(const char* name, const glm::dvec3& position_mm, const glm::dquat& turn,
                 double stamp_s = 12.5) {
     auto message = igtl::TransformMessage::New();
@@ -107,8 +107,8 @@ TEST_F(Heard, TakesTheFirstNameWhereNoneIsSaid) {
     EXPECT_EQ(samples.size(), 1u);
 }
 
-/// Of protocol 3: an extended header of 12 bytes (sizes of itself, metadata's header and metadata; message
-/// id) in front, metadata behind.
+/// A message of protocol 3: an extended header of 12 bytes (sizes of itself, metadata's header and metadata;
+/// message id) in front, metadata behind.
 Bytes with_metadata(const Bytes& plain, const Bytes& header, const std::string& metadata) {
     constexpr std::ptrdiff_t head = 58;
     Bytes body{0, 12, 0, static_cast<std::uint8_t>(header.size()),
@@ -126,7 +126,7 @@ Bytes with_metadata(const Bytes& plain, const Bytes& header, const std::string& 
     return message;
 }
 
-/// Of one entry: how many, length of the key, encoding, length of the value.
+/// The header of one entry: how many, length of the key, encoding, length of the value.
 Bytes one_entry(const std::string& key, const std::string& value) {
     return {0, 1, 0, static_cast<std::uint8_t>(key.size()),  0, 3,
             0, 0, 0, static_cast<std::uint8_t>(value.size())};

@@ -25,7 +25,7 @@ class BoneOfFileTest : public ::testing::Test {
         }
         return volume;
     }
-    /// As another program writes it: without our keys.
+    /// The file as another program writes it: without our keys.
     std::filesystem::path foreign(const HuVolume& volume) const {
         NrrdWriter writer(path_, {.voxel = NrrdVoxel::int16, .grid = volume.grid});
         writer.add(std::as_bytes(std::span(volume.hu)));

@@ -139,8 +139,8 @@ TEST_P(CarvedBone, StaysAsItWasWhereTheNewOneCannotBeMade) {
         << "nothing is left beside";
 }
 
-/// Decodes a bone file, changes a byte of the data, encodes it with a CRC that fits: what only a digest
-/// tells.
+/// Decodes a bone file, changes a byte of the data, encodes it with a CRC that fits: only a digest finds such
+/// damage.
 void change_byte(const std::filesystem::path& path, std::uint64_t at) {
     const BoneFile file(path);
     std::vector<std::byte> bytes(

@@ -1,4 +1,4 @@
-// What was removed, read back by ITK, which reads NRRD with teem's code, as 3D Slicer does.
+// The removed bone, read back by ITK, which reads NRRD with teem's code, as 3D Slicer does.
 #include "imaging/bone_file/removed_bone.h"
 
 #include <gtest/gtest.h>

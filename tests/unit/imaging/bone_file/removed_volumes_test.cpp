@@ -24,7 +24,7 @@ class RemovedVolumes : public ::testing::Test {
 TEST_F(RemovedVolumes, ComeBackFromAFile) {
     VolumesByTissue removed_mm3{};
     removed_mm3[0] = 1.25;
-    removed_mm3[7] = 1e-12;  // what differences of sums leave
+    removed_mm3[7] = 1e-12;  // the error of a difference of sums
     removed_mm3[255] = 1234.567890123;
     EXPECT_EQ(text_of_removed(removed_mm3), "0:1.250000000 255:1234.567890123");
     VolumesByTissue read_back = read({{removed_key, text_of_removed(removed_mm3)}});

@@ -100,7 +100,7 @@ TEST(MetaImageHeader, SaysWhatElementsAreAsMetaIoDoes) {
     EXPECT_EQ(parse(with(meta_header(), "MET_SHORT", "MET_ULONG")).voxels.type, VoxelType::uint32);
 }
 
-// As a matrix of four digits is rounded.
+// The tilt here is the rounding of a matrix of four digits.
 TEST(MetaImageHeader, SaysNothingOfAxesThatRoundingTilts) {
     const std::string text = meta_header(
         "LOCAL", "TransformMatrix = 0.8450 -0.1978 0.4969 0.3647 0.8927 -0.2647 -0.3912 0.4049 0.8265\n");

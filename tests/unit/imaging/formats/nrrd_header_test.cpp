@@ -59,8 +59,8 @@ TEST(NrrdHeader, SaysWhatVoxelsThereAre) {
                 ElementsAre("one two.raw"));
 }
 
-/// Where voxel (1, 1, 1) of steps of 1, 2 and 3 along the space's own axes from (10, 20, 30) lies in patient
-/// LPS, mm.
+/// The place of voxel (1, 1, 1) in patient LPS, mm, with steps of 1, 2 and 3 along the space's own axes from
+/// (10, 20, 30).
 glm::dvec3 place_in(const std::string& space) {
     const std::string text = with_line("left-posterior-superior", space);
     const bool has_time = space.ends_with("time") || space.size() == 4;

@@ -36,8 +36,8 @@ TEST(NumberedName, FillsOneNumberInAndNothingElse) {
 
 class VoxelFiles : public ::testing::Test {
   protected:
-    /// What is said of 100 bytes of this encoding, from the file's 3rd byte on: of their room, or as they are
-    /// read.
+    /// The message on 100 bytes of this encoding, from the file's 3rd byte on: about their size, or from
+    /// reading them.
     std::string reading(const std::string& bytes, Encoding encoding) {
         write_bytes(folder_ / "x.raw", "ab" + bytes);
         data_ = {.encoding = encoding, .parts = {{.file = folder_ / "x.raw", .begin = 2, .bytes = 100}}};

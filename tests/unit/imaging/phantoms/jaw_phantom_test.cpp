@@ -20,7 +20,7 @@ const Bone& jaw() {
     return bone;
 }
 
-/// What is there: a tissue, or nothing (0).
+/// The tissue there, or none (0).
 DentalTissue at(const glm::ivec3& voxel) {
     return jaw().fraction_at(voxel) == 0 ? DentalTissue{} : static_cast<DentalTissue>(jaw().tissue_at(voxel));
 }
@@ -67,7 +67,7 @@ TEST(JawPhantom, HasTheVolumesOfAnatomy) {
                              of(DentalTissue::carious_lesion);
     EXPECT_GT(teeth_mm3, 0.5 * blocks_mm3);
     EXPECT_LT(teeth_mm3, 0.75 * blocks_mm3);
-    // Of the crown, enamel is a third to a half, so of the tooth a fifth to a third.
+    // Enamel is a third to a half of the crown, so a fifth to a third of the tooth.
     EXPECT_GT(of(DentalTissue::enamel), 0.2 * teeth_mm3);
     EXPECT_LT(of(DentalTissue::enamel), 0.33 * teeth_mm3);
     // A tube of 2.6 mm where it is widest and 1.6 where it is narrowest, 46 mm long.

@@ -9,7 +9,7 @@
 
 namespace osteomill::testing {
 
-/// Of "tooth", "jaw" or "mastoid". Throws std::invalid_argument for an unknown name.
+/// The bone of the phantom "tooth", "jaw" or "mastoid". Throws std::invalid_argument for an unknown name.
 inline Bone make_bone(const std::string& phantom) {
     return bone_from_hu(std::get<HuSlices>(make_phantom(phantom)), phantom_threshold_hu,
                         stiffness_of(phantom_scene(phantom)));

@@ -37,7 +37,7 @@ TEST(ColourDifference, IsThatOfThePublishedPairs) {
 }
 
 TEST(ColourDifference, IsSmallOfRedAndGreenToWhomTheyAreOne) {
-    // Ishihara's: of about the same lightness.
+    // Ishihara's colours have about the same lightness.
     EXPECT_LT(least_difference({180, 100, 60}, {120, 130, 60}), 12.0);
     EXPECT_GT(least_difference({0, 0, 0}, {255, 255, 255}), 90.0);
     EXPECT_EQ(least_difference({10, 20, 30}, {10, 20, 30}), 0.0);

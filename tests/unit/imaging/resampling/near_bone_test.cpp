@@ -11,7 +11,7 @@ namespace {
 
 std::uint64_t clear_far_from_bone(HuVolume& volume, double threshold_hu) {
     const glm::ivec3 size = volume.grid.size_voxels;
-    // As many as are needed: a slice is cleared as soon as those above it have been looked at.
+    // Exactly the slices that are needed: a slice is cleared as soon as those above it have been processed.
     NearBone near(volume.grid, threshold_hu, 2 * kept_voxels_around_bone + 1);
     const auto slice = [&](int z) {
         return std::span(volume.hu).subspan(static_cast<std::size_t>(size.x * size.y * z),

@@ -35,7 +35,7 @@ WholeImage scan_of_marker(const glm::dmat3& direction) {
     return image;
 }
 
-/// Where the refined marker is: centroid of HU above 0.
+/// The refined marker's place: centroid of HU above 0.
 glm::dvec3 found_marker(const HuVolume& volume) {
     glm::dvec3 sum(0.0);
     double weight = 0.0;

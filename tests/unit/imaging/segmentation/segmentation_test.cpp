@@ -77,7 +77,7 @@ TEST_F(SegmentationFile, HasNamesAndLayersAsSlicerWritesThem) {
     EXPECT_FALSE(nerve.contains({30, 30, 20}));
 }
 
-// As 3D Slicer up to 4.10 writes them: a layer each, and no word of layers or labels.
+// 3D Slicer up to 4.10 writes segmentations so: a layer for each segment, and no keys of layers or labels.
 TEST_F(SegmentationFile, GivesEachSegmentALayerWhereNoneIsNamed) {
     std::string voxels(24, '\0');
     voxels[0] = 1;

@@ -20,7 +20,7 @@ const glm::ivec2 size_px(128, 96);
 const Grid grid{.size_voxels = {64, 64, 48}, .origin_mm = {-3.15, -3.15, -2.35}};
 const std::array<TissueColour, 2> tissues{{{1, {230, 190, 150}}, {2, {200, 80, 70}}}};
 
-/// Two tissues, a carved hollow, edges: what a picture of a small bone can get wrong.
+/// Two tissues, a carved hollow, edges: the features that a picture of a small bone can get wrong.
 Bone carved_bone() {
     Bone bone = made_bone(
         grid, [](const glm::dvec3& p) { return 2.2 - glm::length(p * glm::dvec3(0.8, 0.9, 1.1)); },

@@ -47,7 +47,7 @@ TEST(ScanPreview, SaysThePatientsDirectionsAtTheEdges) {
         return std::vector<std::string>(letters.begin(), letters.end());
     };
     const auto slices = preview_slices(covers, 0.5);
-    // As radiologists see them: the patient's right on the left, the face and the crown above.
+    // Radiologists' view: the patient's right on the left, the face and the crown above.
     EXPECT_EQ(texts(letters_of(slices[0])), (std::vector<std::string>{"R", "L", "A", "P"}));
     EXPECT_EQ(texts(letters_of(slices[1])), (std::vector<std::string>{"R", "L", "S", "I"}));
     EXPECT_EQ(texts(letters_of(slices[2])), (std::vector<std::string>{"A", "P", "S", "I"}));

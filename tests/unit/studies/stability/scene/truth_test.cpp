@@ -30,7 +30,7 @@ ScenePlan disturbed_plan(const char* method) {
     return plan;
 }
 
-/// What the disturbance shakes within the first few milliseconds rings faster than anybody judges.
+/// The disturbance makes the first few milliseconds ring faster than anybody judges.
 constexpr std::size_t shaken_ticks = 5;
 
 TEST(Truth, DoesNotDependOnTheSubstep) {

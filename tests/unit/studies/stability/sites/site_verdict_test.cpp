@@ -40,7 +40,7 @@ TEST(SiteVerdict, CountsEnergyThatARigidBurrWouldNotGive) {
 TEST(SiteVerdict, TimesAForceThatNothingCutExplains) {
     SiteRun run = steady();
     for (std::size_t i = 400; i < 520; ++i) run.ticks[i].model_n = glm::dvec3(0.0);
-    // Of 120 ms the model's mean over 20 ms is under 0.1 N for 102.
+    // The model's mean over 20 ms is under 0.1 N for 102 of the 120 ms.
     EXPECT_NEAR(verdict_on(run).stuck_ms, 102.0, 2.0);
     for (std::size_t i = 400; i < 520; ++i) run.ticks[i].spindle_on = false;
     EXPECT_EQ(verdict_on(run).stuck_ms, 0.0) << "a wall";
