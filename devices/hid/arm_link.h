@@ -1,5 +1,5 @@
 // The conversation with a haptic arm that is plugged in, report by report: wakes it up, has it calibrated,
-// keeps only the newest of what it says, and lets a force through only when that is safe.
+// keeps only its newest reading, and lets a force through only when that is safe.
 //
 //             first report           calibrated          a small force is wanted
 //   waking ----------------> uncalibrated ----> waiting <------------------------> driving

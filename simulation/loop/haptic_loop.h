@@ -71,9 +71,9 @@ class HapticLoop {
     /// The tick of session time `now_s`, after `missed_periods` missed deadlines. Real-time safe, as
     /// settle().
     void tick(double now_s, std::uint64_t missed_periods) noexcept;
-    /// The last tick's millisecond is over, by which so much was removed since the start: that is what the
-    /// tick's row says. The next tick does so itself, with what it knows; for callers that keep the order of
-    /// the loops, and at the end.
+    /// Ends the last tick's millisecond and completes its row: so much was removed since the start. Otherwise
+    /// the next tick does so, with the volume that it knows; for callers that keep the order of the loops,
+    /// and at the end.
     void settle(double total_removed_mm3) noexcept;
 
     /// Ends the session: from the next tick on the force fades, whatever is requested, and the spindle stops.
