@@ -1,7 +1,8 @@
 // Words of the window in a person's language, found by the English ones as gettext does. English is in the
 // sources; every other language is a file beside this one: LANGUAGE.toml, "English" = "translated".
 //
-// What a server says (faults, notices) comes in English, and is translated as a whole if the file has it.
+// A server's messages (faults, notices) come in English, and each is translated as a whole if the file has
+// it.
 #pragma once
 
 #include <fmt/format.h>

@@ -56,7 +56,7 @@ struct HapticLoopOptions {
     std::vector<double> spindle_rev_per_s{};  ///< each burr's; empty: no other speed can be chosen
     bool has_shank = false;                   ///< any burr of the set: its torque is reported
     double removed_before_mm3 = 0.0;  ///< by the sessions before: the reported volume continues from there
-    /// What the hand did before the first tick.
+    /// The hand's pose before the first tick.
     ToolPose start_pose{};
 };
 
