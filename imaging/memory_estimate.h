@@ -10,8 +10,8 @@ namespace osteomill {
 /// An import that would take more is refused.
 inline constexpr std::uint64_t most_import_bytes = std::uint64_t{3} << 29;
 
-/// A scan that takes more than this as float, with what is known of its slices' shapes, lies in a scratch
-/// file while it is refined.
+/// A scan that takes more than this as float, with the shapes of its slices, lies in a scratch file while it
+/// is refined.
 inline constexpr std::uint64_t most_scan_bytes = std::uint64_t{512} << 20;
 
 /// Slices of the result that are refined at once: as many as bricks are thick, fewer if they are large.

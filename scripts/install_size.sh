@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What a bare Debian installs for packages, with all that they need: how many, megabytes to fetch and on the disk.
+# The size of packages on a bare Debian, with all that they need: how many, megabytes to fetch and on the disk.
 #   scripts/install_size.sh LIST_OR_PACKAGE...     such as: scripts/packages.txt libinsighttoolkit5-dev
 set -euo pipefail
 

@@ -2,7 +2,7 @@
 # Has a bare Debian of their suite install the project's packages from a signed repository of them (apt_repository.sh), use them, also as
 # two machines, upgrade them, and remove them: nothing is to be left. try_upgrade.sh goes from a suite to the next.
 #   scripts/try_packages.sh [FOLDER]      FOLDER as of scripts/package.sh: out/packages/SUITE
-# As root.
+# Needs root.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/suite.sh

@@ -2,7 +2,7 @@
 # Upgrades a bare Debian that has the project's packages to the next Debian: they are to come along from the repository (apt_repository.sh),
 # keep what the lab changed, work, read a recording of before, and leave nothing when they are removed.
 #   scripts/try_upgrade.sh [FOLDER NEXT_FOLDER]      packages of both as scripts/package.sh leaves them: the supported suites'
-# As root.
+# Needs root.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/suite.sh

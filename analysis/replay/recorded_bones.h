@@ -1,4 +1,4 @@
-// The bone of a recording as it was at the beginning and is at the end, for what is made of the two.
+// The bone of a recording at the beginning and at the end, for results that need both.
 #pragma once
 
 #include <filesystem>

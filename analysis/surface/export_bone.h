@@ -1,4 +1,4 @@
-// bone_export without its main: a bone file in, its surface or what was removed of it out.
+// bone_export without its main: a bone file in, its surface or the removed bone out.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The surface of what is left of a bone, as triangles.
+// The surface of the remaining bone, as triangles.
 //
 // The surface is where the fraction, linear between the centres of voxels, is one half. It is made by
 // OpenVDB's volumeToMesh: dual contouring, a vertex in each cell of eight neighbouring voxels that the

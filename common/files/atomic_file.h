@@ -36,8 +36,8 @@ struct WriteTarget {
 /// Throws std::runtime_error, as why_no_target says, for a link to follow that leads to nothing.
 WriteTarget write_target(const std::filesystem::path& path, Link link);
 
-/// One line for a link that leads to nothing: it may be an old one, or one of somebody else's, and to make a
-/// file where it leads is what nobody asked for. Empty for all other paths.
+/// One line for a link that leads to nothing: it may be old, or somebody else's, and nobody asked for a file
+/// at its target. Empty for all other paths.
 std::string why_no_target(const std::filesystem::path& path);
 
 class AtomicFile {

@@ -22,10 +22,10 @@ struct NamedFile {
 std::vector<NamedFile> files_written_in(const std::string& option, const std::filesystem::path& folder,
                                         std::span<const char* const> names);
 
-/// Throws std::invalid_argument with one line for the first two that are one file, also by way of links or of
-/// another spelling of a folder, if either of them is written; where one is what the other is called while
-/// it is written (NAME.part.EXT); where one is written into a folder that is read; and for a link to write to
-/// that leads to nothing. Devices and pipes may be written to by all.
+/// Throws std::invalid_argument with one line for the first conflict: two names of one file, also by way of
+/// links or of another spelling of a folder, of which one is written; a name that another file has while it
+/// is written (NAME.part.EXT); a file written into a folder that is read; and a link to write to that leads
+/// to nothing. Devices and pipes may be written to by all.
 void require_distinct(std::span<const NamedFile> files);
 
 }  // namespace osteomill

@@ -1,6 +1,6 @@
-// The version of Osteomill that a file needs. A version whose files an older one cannot read writes into them
-// which version can, under one key that every reader asks for first (docs/compatibility.md); this one
-// writes what 0.3 reads, and so no such key.
+// The version of Osteomill that a file needs. If older versions cannot read a file, its writer states the
+// version that can, under one key that every reader checks first (docs/compatibility.md). This version writes
+// files that 0.3 reads, and so no such key.
 #pragma once
 
 #include <optional>

@@ -40,8 +40,8 @@ class HelpFormatter : public CLI::Formatter {
     }
 };
 
-/// Lets every option, of subcommands, too, take the mark off what it is given and refuse what is empty; and
-/// gives them their help.
+/// Makes every option, of subcommands, too, take the mark off its value and refuse an empty one; and sets the
+/// format of the help.
 inline void prepare(CLI::App& app) {
     app.formatter(std::make_shared<HelpFormatter>());
     for (CLI::Option* option : app.get_options())

@@ -36,7 +36,7 @@ struct RecordingReport {
     std::string error{};             ///< one line; empty where all frames are in the file
 };
 
-/// One line about a recording that has ended with an error: what, and where that which was written lies and
+/// One line about a recording that has ended with an error: the error, and where the frames written so far
 /// can be read. Empty if all frames are in the file.
 std::string ending_of(const RecordingReport& report);
 

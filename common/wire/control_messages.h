@@ -1,4 +1,4 @@
-// Controls of a session, what came of them and what can be done now, in and out of messages.
+// Controls of a session, their outcomes and the controls possible now, in and out of messages.
 #pragma once
 
 #include <variant>

@@ -161,7 +161,8 @@ void BridgeArm::run() {
                 tell_who_waits();
             }
         }
-        // The loop's next force knows of this pose, so that is what answers it; but it need not run.
+        // The loop's next force takes this pose into account, so it answers the pose; but the loop need not
+        // run.
         const bool is_overdue = !is_driven(now_ns) || now_ns - request_ns > longest_answer_ns;
         if (host_.awaits_answer() && (has_force || is_overdue))
             socket_.send(host_.answer(now_ns, wanted(now_ns)), host_.peer());

@@ -2,8 +2,8 @@
 //
 // Axes, as the service has them by default: right-handed, x to the right, y away from the user, z up, the
 // origin at the base (docs.haply.co, Inverse SDK 3.5, "Basis Permutation"). Device space is the same in mm.
-// Positions and forces are those of the cursor, about which the grip turns: that is where the burr's centre
-// is, so turning the grip does not move the burr.
+// Positions and forces are those of the cursor, about which the grip turns: the burr's centre is there, so
+// turning the grip does not move the burr.
 //
 // No document of the maker's was found that has all of this; if a number is our own, it is on the safe side.
 #pragma once

@@ -1,5 +1,5 @@
 // The conversation with a haptic arm that is plugged in, report by report: wakes it up, has it calibrated,
-// keeps only the newest of what it says, and lets a force through only when that is safe.
+// keeps only its newest reading, and lets a force through only when that is safe.
 //
 //             first report           calibrated          a small force is wanted
 //   waking ----------------> uncalibrated ----> waiting <------------------------> driving
@@ -10,8 +10,7 @@
 //   waking        silent: it is sent zero currents every wake_after_s. The motors are without current in all
 //                 states but `driving`
 //   uncalibrated  its counters mean nothing. An arm with a calibration switch asks; its counters are set to
-//   the
-//                 profile's, and it is calibrated once it reads so. An arm that is calibrated at power-up
+//                 the profile's, and it is calibrated once it reads so. An arm that is calibrated at power-up
 //                 passes on at once
 //   waiting       it reads positions; output is enabled once a force of at most small_force_n is wanted, so
 //                 that the hand is never met by one that was there before it

@@ -5,7 +5,7 @@
 //     d(target)/dt = fastest_mm_per_s |u| u,  u: deflection, a share of the full one     (fine about the
 //     centre)
 //
-// Where the thread that reads the mouse says nothing for Permission::by_message_s the mouse counts as lost: a
+// If the thread that reads the mouse is silent for Permission::by_message_s, the mouse counts as lost: a
 // button that was down must not stay down because a USB bus hangs.
 //
 // The left button is the pedal, the right one goes on to the next burr of the scene's set.

@@ -58,8 +58,8 @@ class SampledMotion {
     static constexpr double least_apart_s = 0.5 / fastest_rate_hz;
     /// Half a voxel of 0.1 mm.
     static constexpr double most_bulge_mm = 0.05;
-    /// The distance between two samples that noise and a long lever from marker to burr may add to
-    /// fastest_hand_mm_per_s.
+    /// Two samples may be so much farther apart than at fastest_hand_mm_per_s: noise, and a long lever from
+    /// marker to burr.
     static constexpr double noise_mm = 1.0;
     /// A wrist that flicks; and the noise of a small marker.
     static constexpr double fastest_turn_rad_per_s = 20.0;

@@ -2,9 +2,9 @@
 // pedal.
 //
 // TRANSFORM: a rotation in float32, column by column, then the position in mm. A marker that is hidden is no
-// sample: some servers then send the identity, to the bit (where no marker is), newer ones say so
-// in metadata ("TransformStatus" that is not "OK"). STRING: text; the pedal is down if it is "1", "on",
-// "true" or "down" in either case.
+// sample: some servers then send exactly the identity, a place where no marker is; newer ones report it in
+// metadata ("TransformStatus" that is not "OK"). STRING: text; the pedal is down if it is "1", "on", "true"
+// or "down" in either case.
 #pragma once
 
 #include <cstdint>

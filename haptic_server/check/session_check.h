@@ -1,5 +1,5 @@
-// Checks by haptic_server --check of what a session would use: its port, its certificates, the disk for its
-// recording.
+// Checks by haptic_server --check of the things that a session would use: its port, its certificates, the
+// disk for its recording.
 #pragma once
 
 #include <chrono>

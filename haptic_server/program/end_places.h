@@ -23,8 +23,8 @@ class EndPlaces {
 
     /// Twice a second.
     bool look_is_due() const { return std::chrono::steady_clock::now() >= next_look_; }
-    /// A line for each thing that has gone wrong since the last call: a folder is gone, or the file that the
-    /// bone is from is no longer what was loaded.
+    /// A line for each thing that has gone wrong since the last call: a folder is gone, or the bone's file
+    /// has changed since it was loaded.
     std::vector<std::string> look(const BoneSource& source);
 
   private:

@@ -27,8 +27,8 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
 /// how many ticks lasted at most that long and longer than the pair before.
 nlohmann::ordered_json histograms_us(const MillingSessionReport& report);
 
-/// Adds what came of each protected structure, as "structures", and what watching them took in memory, as
-/// "structures_memory_bytes"; nothing if none is.
+/// Adds the results for each protected structure, as "structures", and the memory to watch them, as
+/// "structures_memory_bytes"; nothing if there are no structures.
 void add_structures(nlohmann::ordered_json& json, const StructureWatch& structures, const Scene& scene);
 
 /// The outcome of a recording, under "recording": file, frames, bytes, pauses (while the disk was full),

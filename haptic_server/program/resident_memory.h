@@ -8,7 +8,7 @@
 namespace osteomill {
 
 /// The most bytes that were resident at once: VmHWM of the text of /proc/self/status; std::nullopt if it
-/// has none. (getrusage would also count what the program that started this one had resident.)
+/// has none. (getrusage would also count the resident memory of the program that started this one.)
 std::optional<std::uint64_t> peak_resident_bytes(std::istream& status);
 
 }  // namespace osteomill

@@ -55,8 +55,8 @@ class Reading {
     bool takes_long_ = false;
 };
 
-/// The surface of what is left and what was removed, as far as the recording can be read. Returns why it is
-/// not read further.
+/// The surface of the remaining bone, and the removed bone, as far as the recording can be read. Returns why
+/// it is not read further.
 std::string write_bones(const ReplayOptions& options, const std::atomic<bool>& stop) {
     Reading reading(options, stop, "bones");
     const RecordedBones bones = bones_of(options.recording, std::ref(reading));

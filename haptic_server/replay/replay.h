@@ -9,8 +9,8 @@
 namespace osteomill {
 
 /// Reads the recording, or shows it to clients until its end or `stop`. Prints "listening on ADDRESS:PORT" on
-/// standard output once clients can connect. Throws std::exception with one line for what stands in the way,
-/// also if only the later part of a recording cannot be read: after what could be.
+/// standard output once clients can connect. Throws std::exception with one line on the obstacle. If only the
+/// later part of a recording cannot be read, it does so after the readable part.
 void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, const ProgramOutput& output);
 
 }  // namespace osteomill

@@ -68,7 +68,8 @@ class SessionControls {
     void begin_frame();
     /// For each of them, before it is applied to `bone`.
     void note(const BrickChange& change, const Bone& bone);
-    /// When all are: does what was requested and can be done now, and refuses what has waited too long.
+    /// When all are: carries out the requests that are possible now, and refuses those that have waited too
+    /// long.
     void end_frame(const Bone& bone, const ToolState& tool);
 
     std::vector<ControlEvent> take_events() { return std::exchange(events_, {}); }

@@ -28,8 +28,8 @@ struct BoneOfFile {
     std::shared_ptr<const BoneFile> file;  ///< stays open, so that another under its name is not taken for it
     std::string hu_digest;                 ///< digest of the file's CT numbers
     double threshold_hu = default_threshold_hu;
-    /// A line for people on what may be wrong with its CT numbers; empty if nothing is: that a file which
-    /// this project did not write does not look like HU (hu_histogram.h), that all of it is bone.
+    /// A line for people on a doubt about its CT numbers, or empty: all of it is bone, or a file from
+    /// elsewhere does not look like HU (hu_histogram.h).
     std::string doubt;
 };
 

@@ -1,4 +1,4 @@
-// CT numbers that only show where bone is left, for a bone that none were made for or whose source is gone.
+// CT numbers that only show the remaining bone, for a bone without CT numbers, or whose source is gone.
 #pragma once
 
 #include "common/bone/bone.h"
@@ -7,7 +7,7 @@
 namespace osteomill {
 
 /// The grid of a bone's picture: the bone's own if that has up to 2^25 voxels; else one of voxels 2, 4, 8 or
-/// 16 times as long, since nobody looks at more, and a head of 2048^3 would take most of a minute.
+/// 16 times as long: more detail is of no use for display, and a head of 2048^3 would take most of a minute.
 Grid picture_grid(const Grid& bone);
 
 /// From -1000 where there is no bone to 1600 (the reference bone) where all of a voxel is left; a longer

@@ -130,8 +130,8 @@ KeyValues describe(const Bone& bone, const RecordLayout& layout, std::uint64_t& 
 
 /// Sets what was milled away to air in the layer of slices from `first_z` on, which bricks begin with.
 ///
-/// Only bone can have been milled away: air and soft tissue have no fraction to lose, and what is stored with
-/// fraction 0 outside bone is distinguished from it by the stiffness code that only bone has.
+/// Only bone can have been milled away: air and soft tissue have no fraction to lose, and a voxel outside
+/// bone, stored with fraction 0, has no stiffness code, which only bone has.
 void clear_milled(const Bone& bone, int first_z, std::span<std::int16_t> hu) {
     const Grid& grid = bone.grid();
     const BoneContent& content = bone.content();

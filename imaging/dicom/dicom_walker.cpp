@@ -24,8 +24,8 @@ constexpr std::uint32_t pixel_data_tag = tag(0x7fe0, 0x0010);
 /// A value that is not taken apart here may be by GDCM. How deep that may go is bounded by the items that
 /// could be in it; so many are far from filling a stack.
 constexpr std::uint64_t most_items_in_values = 1000;
-/// Within an item that states its length GDCM computes the length of what does not, several times over at
-/// every level; if no item states its length it need not. Files state all lengths or none.
+/// Within an item that states its length, GDCM computes the length of items that do not, several times over
+/// at every level. If no item states its length, it need not. Files state all lengths or none.
 constexpr std::uint64_t most_effort = std::uint64_t{1} << 21U;
 constexpr std::uint64_t effort_of_level = 6;
 constexpr int none_open = -1;

@@ -91,7 +91,8 @@ TIFF* open_tiff(const std::filesystem::path& path) {
     return file;
 }
 
-/// "key=8" in what ImageJ says of a stack, `SizeC="8"` in what OME does; NaN if it says nothing.
+/// The number of "key=8" in ImageJ's description of a stack, or of `SizeC="8"` in OME's; NaN if there is
+/// none.
 double stated(const std::string& description, const std::string& key) {
     std::size_t at = description.find(key);
     while (at != std::string::npos && at > 0 && std::isalnum(static_cast<unsigned char>(description[at - 1])))

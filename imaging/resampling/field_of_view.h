@@ -24,8 +24,8 @@ class FieldOfView {
 
     /// How many voxels were not measured.
     std::uint64_t voxels_outside() const { return voxels_outside_; }
-    /// Sets to air what of the grid's slice z lies in voxels that were not measured. From any number of
-    /// threads.
+    /// Sets to air the part of the grid's slice z that lies in voxels that were not measured. From any number
+    /// of threads.
     void clear_outside(const Grid& grid, int z, std::span<std::int16_t> hu) const;
 
   private:

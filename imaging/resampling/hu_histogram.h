@@ -29,8 +29,8 @@ class HuHistogram {
     /// air and far below all other values.
     std::optional<float> fill_hu() const;
 
-    /// One line for people on what the values seem to be instead, and which option would make HU of them;
-    /// empty if they may be HU, or all are the same.
+    /// One line for people on the scale that the values seem to have instead, and on the option that would
+    /// make HU of them; empty if they may be HU, or all are the same.
     std::string doubt() const;
 
   private:

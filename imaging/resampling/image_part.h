@@ -28,8 +28,8 @@ bool is_axis_aligned(const SourceImage& image);
 /// voxels run left, posterior, superior.
 SourceImage part_of(const SourceImage& image, const ImageBox& box);
 
-/// Puts what slice k of the image has within the box into the part's values, which is where it belongs in the
-/// part that part_of gives; nothing for a slice outside.
+/// Copies the values of slice k that lie within the box to their place in the part that part_of gives; a
+/// slice outside changes nothing.
 void put_slice(const SourceImage& image, const ImageBox& box, int k, std::span<const float> slice,
                std::span<float> part_values);
 

@@ -125,9 +125,9 @@ double voxels_within(const Segmentation& segmentation, const Segment& segment, c
            voxel_volume_mm3(grid);
 }
 
-/// The value at which to cut, so that what is inside is as large as the segment: a half would make what is
-/// round and thin too small, a rod of four voxels by 2 %. Never above: two segments side by side would leave
-/// a gap.
+/// The value at which to cut, so that the inside is as large as the segment. A half would make round, thin
+/// shapes too small, a rod of four voxels by 2 %. Never above a half: two segments side by side would leave a
+/// gap.
 std::int16_t level_of(const Refiner& refiner, const Grid& grid, double wanted_voxels) {
     std::vector<std::uint64_t> with_value(half + 1);  // larger values count as a half
     std::mutex mutex;

@@ -29,8 +29,8 @@ class DatasetFrames {
   public:
     /// `on_session` is called whenever one begins, the first from here. Throws RecordingError, and
     /// std::runtime_error, in one line, for a bone that cannot be drawn and for a camera that follows a
-    /// trainee of whom the recording does not say from where they looked. All calls, and the end of this,
-    /// need an OpenGL context current, the same.
+    /// trainee whose viewpoint the recording does not state. All calls, and the end of this, need an OpenGL
+    /// context current, the same.
     DatasetFrames(std::filesystem::path recording, DatasetContents contents,
                   std::function<void(const Playhead&)> on_session);
 

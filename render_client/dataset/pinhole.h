@@ -42,8 +42,8 @@ Pose pose_of(const Camera& camera);
 /// The camera's viewpoint; for a pair of eyes, the point between them.
 Viewpoint viewpoint_of(const Camera& camera);
 
-/// Moves a camera to where it has that pose and sees as a pinhole does; near and far planes, and its distance
-/// from what it turns about, stay.
+/// Gives a camera that pose and a pinhole's projection; near and far planes, and the distance from its pivot,
+/// stay.
 void look_through(Camera& camera, const Pinhole& pinhole, const Pose& pose);
 
 /// The camera to draw with: its near and far planes enclose a ball.

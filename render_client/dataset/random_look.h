@@ -6,7 +6,7 @@
 // Gaussian, and adds noise of variance read^2 + shot * light, in linear light (Foi et al. 2008, IEEE Trans.
 // Image Process. 17).
 //
-// What is drawn by lot follows from seed, frame and camera alone. Lamps, tints and wetness are a frame's, the
+// The random values follow from seed, frame and camera alone. Lamps, tints and wetness are a frame's, the
 // same for all cameras; depth, labels and normals stay as they are.
 #pragma once
 
@@ -25,7 +25,7 @@ struct RandomLook {
     double wetness = 0.0;                  ///< strength of highlights, 0 to 0.8
     std::vector<glm::dvec3>
         tint_by_label{};  ///< 0.8 to 1.2 in all, 0.93 to 1.07 a channel; the tool has none
-    // Of the camera.
+    // The camera's.
     double exposure = 1.0;    ///< 0.7 to 1.4
     double blur_px = 0.0;     ///< standard deviation, 0 to 1
     double read_noise = 0.0;  ///< as a share of light 1, 0.001 to 0.01

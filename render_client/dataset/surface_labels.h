@@ -1,4 +1,4 @@
-// Labels of what a picture's pixels show: tools, the tissues of the bone, soft structures.
+// Labels of a picture's pixels: tools, the tissues of the bone, soft structures.
 //
 // The tissue of a point of bone's surface is the one that has most of the eight voxels about the point, each
 // weighted as in trilinear interpolation. Voxels that are less than half full lie outside the surface, where

@@ -32,7 +32,7 @@ class KeyFrames {
     void after_step(const Playhead& playhead);
 
     /// Takes the playhead back to the last key frame that is not later than `time_s`; the bone changes where
-    /// it differs from what it was there.
+    /// it differs from the key frame's.
     void wind_back(Playhead& playhead, double time_s) const;
 
     std::size_t memory_bytes() const { return memory_bytes_; }

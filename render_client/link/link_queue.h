@@ -45,7 +45,7 @@ class LinkQueue {
         return event;
     }
 
-    /// UI thread. Drops what is there, and what still comes of this connection, until own().
+    /// UI thread. Drops the events in the queue, and later ones of this connection, until own().
     void disown() {
         const std::scoped_lock lock(mutex_);
         events_.clear();

@@ -56,7 +56,7 @@ class RecordingPlayer final : public SessionSource {
     bool has_view() const { return outline_.has_view; }
     /// The moments worth seeing.
     const std::vector<RecordedMoment>& moments() const { return outline_.moments; }
-    /// Whether what it shows is that of time_s(), or the last that can be shown.
+    /// Whether it shows the state of time_s(), or the last that can be shown.
     bool has_arrived() const;
     /// Why it is not read further; empty while all is well.
     const std::string& error() const { return error_; }

@@ -46,7 +46,7 @@ struct LinkUpdate {
     std::vector<Structure> structures{};   ///< those that came since the last poll, or with bone()
     std::shared_ptr<const CtVolume> ct{};  ///< that was requested, once it is here
     std::vector<ControlEvent> events{};    ///< since the last poll
-    /// Of protected structures that are near the burr or were touched, as of the newest tool.
+    /// The distances of protected structures that are near the burr or were touched, as of the newest tool.
     std::vector<StructureDistance> distances{};
     /// From where the one who moves the tool looks, in a recording that says so.
     std::optional<Viewpoint> view{};

@@ -1,4 +1,4 @@
-// The JSON file of what a run measured (--json).
+// The JSON file of a run's measurements (--json).
 #pragma once
 
 #include <cstdint>

@@ -49,8 +49,8 @@ constexpr double cut_mm_per_notch = 0.5;
 /// rate of its frames is smooth. The link is polled as often, even if nothing is drawn.
 constexpr std::chrono::milliseconds shortest_frame(16);
 
-/// How often the mouse is read, and what it asks for sent, while the operator has the tool: four in five
-/// messages may be lost before the server takes that for silence.
+/// How often the mouse is read and its command sent while the operator has the tool: four in five messages
+/// may be lost before the server counts that as silence.
 constexpr std::chrono::milliseconds driving_period(10);
 /// Otherwise events wake the thread, but a mouse that reports a thousand times a second no oftener than this.
 constexpr std::chrono::milliseconds shortest_period(4);

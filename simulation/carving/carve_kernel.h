@@ -19,8 +19,8 @@ namespace osteomill {
 class CarveKernel {
   public:
     /// `base`: the voxel that positions are counted from, the first of a brick; `sweep` is seen from it.
-    /// Bricks that changed go to `changes` (null: the bone is left as it is), what voxels lose to `removed`,
-    /// the last of it with hand_on_voxels(); in a fixed order. Real-time safe, and so is all the rest.
+    /// Changed bricks go to `changes` (null: the bone is left as it is), the voxels' losses to `removed`, the
+    /// last of them with hand_on_voxels(); in a fixed order. Real-time safe, and so is all the rest.
     CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep, const CarveSettings& settings,
                 ChangeSink* changes, RemovalSink& removed) noexcept;
 

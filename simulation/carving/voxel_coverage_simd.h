@@ -2,11 +2,11 @@
 // double, with a flag for the voxels (one in a hundred) whose error could change the rounded level: these
 // need double precision.
 //
-// The margin: with u = 2^-24 and no position more than D = R + 4 from the path, the components of the
-// distance are off by at most u (2 D + 3) (positions are whole numbers, and the whole part of `from` is taken
-// off them first, which rounds nothing), the distance by u (6 D + 6), less what it is compared with by u (7 D
-// + 7), and what smoothing makes of that, which nowhere rises faster, by 6 u more. An error in the nearest
-// point's position on the path counts only by its square.
+// The margin, with u = 2^-24 and no position more than D = R + 4 from the path: the components of the
+// distance are off by at most u (2 D + 3), because positions are whole numbers and the whole part of `from`
+// is subtracted first without rounding. The distance is off by u (6 D + 6), its difference from the radius by
+// u (7 D + 7). Smoothing, whose slope is nowhere above 1, adds 6 u. An error in the nearest point's position
+// on the path counts only by its square.
 #pragma once
 
 #include <glm/common.hpp>

@@ -19,8 +19,8 @@
 namespace osteomill {
 
 /// A device's report of its pedal, and the time of the report. The loop's latch (safety/pedal_latch.h)
-/// decides what it permits: a device reports what it knows, never holds a pedal down or up by itself, and
-/// lets the report grow old while it knows nothing.
+/// decides what the pedal permits. A device only reports the pedal's state, never holds a pedal down or up by
+/// itself, and lets the report grow old while it knows nothing.
 struct PedalStatement {
     bool is_down = false;
     /// Session time; by default never. No later than the pedal was reported: a report from a queue is as old

@@ -16,7 +16,7 @@ class SampleLog {
 
     // From one other thread.
 
-    /// Hands on what was pushed, if that does not make it wait.
+    /// Hands on the pushed samples, unless it would have to wait.
     virtual void drain() = 0;
     /// Drains however long it takes: for sessions that run on a clock of their own.
     virtual void drain_all() = 0;

@@ -56,7 +56,7 @@ struct HapticLoopOptions {
     std::vector<double> spindle_rev_per_s{};  ///< each burr's; empty: no other speed can be chosen
     bool has_shank = false;                   ///< any burr of the set: its torque is reported
     double removed_before_mm3 = 0.0;  ///< by the sessions before: the reported volume continues from there
-    /// What the hand did before the first tick.
+    /// The hand's pose before the first tick.
     ToolPose start_pose{};
 };
 
@@ -71,9 +71,9 @@ class HapticLoop {
     /// The tick of session time `now_s`, after `missed_periods` missed deadlines. Real-time safe, as
     /// settle().
     void tick(double now_s, std::uint64_t missed_periods) noexcept;
-    /// The last tick's millisecond is over, by which so much was removed since the start: that is what the
-    /// tick's row says. The next tick does so itself, with what it knows; for callers that keep the order of
-    /// the loops, and at the end.
+    /// Ends the last tick's millisecond and completes its row: so much was removed since the start. Otherwise
+    /// the next tick does so, with the volume that it knows; for callers that keep the order of the loops,
+    /// and at the end.
     void settle(double total_removed_mm3) noexcept;
 
     /// Ends the session: from the next tick on the force fades, whatever is requested, and the spindle stops.

@@ -19,7 +19,7 @@ class SpindleSpeed {
     explicit SpindleSpeed(std::vector<double> own_rev_per_s) : own_rev_per_s_(std::move(own_rev_per_s)) {}
 
     /// Once a tick: how fast `burr` turns, as a share of its own speed. `chosen_rev_per_s`: 0 for its own. A
-    /// spindle that stands starts at what is chosen. Real-time safe.
+    /// spindle that stands starts at the chosen speed. Real-time safe.
     double tick(std::size_t burr, double chosen_rev_per_s, bool spindle_on, double tick_s) noexcept {
         if (burr >= own_rev_per_s_.size()) return 1.0;
         const double wanted = chosen_rev_per_s > 0.0 ? chosen_rev_per_s / own_rev_per_s_[burr] : 1.0;

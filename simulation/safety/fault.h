@@ -28,10 +28,10 @@ inline constexpr std::array told_first{Fault::device_lost,  Fault::device_jumped
                                        Fault::overrun,      Fault::in_bone};
 static_assert(told_first.size() == all_faults.size());
 
-/// Whether it ends the permission of a pedal for as long as it lasts, also of one that is pressed meanwhile:
-/// for other bone than the bone that the burr is in afterwards, or by a hand that did not move it there. Each
-/// does so by itself, whatever else is wrong (fault_set.h). Every fault ends it as it begins
-/// (safety_monitor.h).
+/// Whether the fault cancels a pedal's permission for as long as it lasts, even if the pedal is pressed
+/// meanwhile. The burr would otherwise turn in other bone than the bone of the press, or where no hand had
+/// moved it. Each such fault does so by itself, whatever else is wrong (fault_set.h). Every fault cancels the
+/// permission as it begins (safety_monitor.h).
 constexpr bool withdraws_pedal(Fault fault) noexcept {
     switch (fault) {
         case Fault::device_lost:

@@ -1,5 +1,6 @@
-// How much of a force that swings a coupling passes to the hand: a hand on rails goes through a slot 1 mm
-// deep with a 5 mm burr at 10 000 rpm, 4 mm/s that swing by 1 mm/s, beside a burr that is rigidly the hand.
+// The share of an oscillating force that a coupling passes to the hand. A hand on rails goes through a slot 1
+// mm deep with a 5 mm burr at 10 000 rpm, at 4 mm/s that swing by 1 mm/s; it is compared with a burr that is
+// rigidly fixed to the hand.
 #pragma once
 
 #include <complex>

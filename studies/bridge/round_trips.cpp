@@ -48,7 +48,7 @@ BridgeAddress beside(const BridgeAddress& where) {
     return udp;
 }
 
-/// Sends back what comes, as a thread that does nothing else.
+/// Sends datagrams back, as a thread that does nothing else.
 class Echo {
   public:
     explicit Echo(const BridgeAddress& where) : socket_(where) {

@@ -1,5 +1,5 @@
-// Round trips of the bridge's messages and of a bare echo, a thousand a second, in turns, so that what else
-// the machine does falls on both.
+// Round trips of the bridge's messages and of a bare echo, a thousand a second, in turns, so that other load
+// on the machine falls on both.
 #pragma once
 
 #include <vector>

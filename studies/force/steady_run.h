@@ -15,10 +15,11 @@ struct SteadyRun {
     int min_steps = 20;
 };
 
-/// How far the burr goes. A motion along the surface goes on for `run.travel_mm` (or `min_steps`). One that
-/// dives or climbs is steady only while the depth is near the case's: it passes that depth half-way and its
-/// depth changes by half a millimetre, and by a third of the case's depth, at most; but once half of the burr
-/// is under the surface a straight plunge is steady for good and starts at the case's depth.
+/// How far the burr goes. A motion along the surface goes on for `run.travel_mm` (or `min_steps`). A motion
+/// that dives or climbs is steady only while the depth is near the case's: it passes that depth half-way, and
+/// its depth changes at most by half a millimetre and by a third of the case's depth. A straight plunge is
+/// the exception: once half of the burr is under the surface it stays steady, and it starts at the case's
+/// depth.
 struct SteadyPath {
     glm::dvec3 start_mm{0.0};
     glm::dvec3 end_mm{0.0};

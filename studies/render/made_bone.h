@@ -30,7 +30,7 @@ inline Bone made_bone(const Grid& grid, const Depth& depth, const Label& label =
                   });
 }
 
-/// Lowers the bone to what lies outside a sphere; returns what changed.
+/// Removes the bone inside a sphere; returns the changes.
 inline std::vector<BrickChange> carve_sphere(Bone& bone, const glm::dvec3& centre_mm, double radius_mm) {
     std::vector<BrickChange> changes;
     const BoneContent& content = bone.content();

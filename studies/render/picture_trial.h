@@ -49,7 +49,7 @@ class PictureTrial {
     PictureTrial(const PictureTrial&) = delete;
     PictureTrial& operator=(const PictureTrial&) = delete;
 
-    /// The median of so many frames; with 0 the first is what counts, for what takes seconds.
+    /// The median of so many frames; with 0 the first frame's time, for ways that take seconds.
     DrawnWay draw(const DrawingWay& way, int times) const;
     /// Whether normals are taken from smoothed fractions: not if they do not fit, nor of surface voxels.
     bool has_smoothed_normals() const { return textures_->smoothed() != nullptr; }

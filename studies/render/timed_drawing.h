@@ -20,9 +20,9 @@ struct TimedPicture {
     Cost cost;
 };
 
-/// Draws the whole bone layer at `size_px` once unmeasured, then `times` times; the median of each (the
-/// smallest would hide what a driver does now and then, the mean what else runs on the machine). With `times`
-/// 0 the first time is what counts: for what takes seconds. Needs a current context.
+/// Draws the whole bone layer at `size_px` once unmeasured, then `times` times; the median of each. The
+/// smallest would hide a driver's occasional work, and the mean would include other load on the machine. With
+/// `times` 0, the first time, for drawing that takes seconds. Needs a current context.
 TimedPicture timed_drawing(BoneRenderer& renderer, const BoneTextures& bone, const Camera& camera,
                            const glm::ivec2& size_px, int times);
 

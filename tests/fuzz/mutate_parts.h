@@ -1,4 +1,4 @@
-// Mutation of what is made of parts, each behind its length: bytes inserted anywhere would spoil all lengths
+// Mutation of data made of parts, each behind its length: bytes inserted anywhere would spoil all lengths
 // that follow, and little would get past the first check.
 #pragma once
 

@@ -1,7 +1,7 @@
 // Targets that hostile input is fed to. Each target takes any bytes at all and throws BrokenInvariant if
 // the program would do what it must not; a crash, a leak, undefined behaviour, a hang or memory over the
-// bound is found by what runs it: libFuzzer with the sanitizers (tests/fuzz/run.sh), or the seeds in an
-// ordinary test.
+// bound is found by what runs it: libFuzzer with the sanitizers (tests/fuzz/run.sh), or an ordinary test with
+// the seeds.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// Who comes in, who may move the tool, and who is out again: haptic_server, packet_replay and render_client
-// with the certificates of a lab, lists of operators and of revoked certificates, and strangers who take up
-// places.
+// Access to a server, the right to move the tool, and their loss: haptic_server, packet_replay and
+// render_client with the certificates of a lab, lists of operators and of revoked certificates, and strangers
+// who take up places.
 #include <gmock/gmock.h>
 
 #include <algorithm>

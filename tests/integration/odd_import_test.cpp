@@ -32,7 +32,7 @@ std::string ramp(std::size_t voxels) {
 
 class OddImport : public ::testing::Test {
   protected:
-    /// The HU of what is imported at its own spacing of 1 mm, which changes none of them.
+    /// The HU of an import at the file's own spacing of 1 mm, which changes none of them.
     std::vector<std::int16_t> import(const std::filesystem::path& input) {
         said_ =
             run_program({BONE_IMPORT, input.string(), (folder_ / "bone.nrrd").string(), "--spacing-mm", "1"});

@@ -1,5 +1,5 @@
-// Who opens files to write, read from the sources: nothing is written but through the places below, and no
-// command line is taken in that does not ask first whether what is written may be what is read.
+// A check of the sources: files are opened to write only in the places below, and every program checks,
+// before it accepts its command line, that no output would overwrite an input.
 #include <gmock/gmock.h>
 
 #include <algorithm>

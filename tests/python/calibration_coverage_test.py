@@ -93,7 +93,7 @@ class CalibrationCoverageTest(unittest.TestCase):
     LABS = 200
 
     def assert_held(self, lab, low_percent, high_percent, **how):
-        """The share of labs for each coefficient is compatible with the level; by chance, one of six is not in one seed of a thousand."""
+        """Each coefficient's share of labs is compatible with the level; by chance the check fails for one seed of a thousand."""
         found = Simulation(lab, self.LABS, seed=11, **how)
         low = scipy.stats.binom.ppf(0.001 / 12, self.LABS, low_percent / 100)
         high = scipy.stats.binom.isf(0.001 / 12, self.LABS, high_percent / 100)

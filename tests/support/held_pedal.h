@@ -1,5 +1,5 @@
-// The pedal of an operator who means to drill: down, but lifted for a moment where the spindle has stood for
-// a while, as it does after a pause of a machine with much to do; nothing turns by a pedal that was never up.
+// The pedal of an operator who means to drill: down, but lifted for a moment once the spindle has stood for a
+// while, for instance after a pause of a busy machine. A pedal that was never up turns nothing.
 #pragma once
 
 #include <chrono>

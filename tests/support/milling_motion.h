@@ -7,8 +7,8 @@
 namespace osteomill::testing {
 
 /// A stroke every two seconds, each a little farther and deeper, with the burr lifted clear of the bone
-/// between them: where a machine with much to do makes the loops late, the force goes off, and what has sunk
-/// into bone by then stays without force and spindle until it is held clear.
+/// between them. If a busy machine makes the loops late, the force goes off, and a burr that has sunk into
+/// bone by then stays without force and spindle until it is held clear.
 inline void write_milling_motion(const std::filesystem::path& csv) {
     std::ofstream out(csv);
     out << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n";

@@ -1,4 +1,4 @@
-// DICOM as bytes, element by element, for tests that need what no library writes.
+// DICOM as bytes, element by element, for tests that need files that no library writes.
 #pragma once
 
 #include <fmt/format.h>

@@ -14,7 +14,7 @@ namespace {
 constexpr double advance_mm_per_s = 2.0;
 /// Keys tilt and move it as the mouse would at this speed.
 constexpr double keys_px_per_s = 100.0;
-/// A key that is held does not move the hand by what a thread that stood still has missed.
+/// A held key moves the hand at most for so long at once: a thread that stood still does not catch up.
 constexpr double longest_step_s = 0.1;
 
 }  // namespace
@@ -79,7 +79,7 @@ void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
     if (!input.ctrl && !input.alt && input.wheel.y != 0.0 && !panels_have(input))
         advanced_mm += picture_.wheel_step_mm * input.wheel.y;
     drags_hand_ = drags_hand_ && input.is_down[WindowInput::left];
-    // A burr that turns goes where the hand moves it; one that does not, as in air, where one points.
+    // A spinning burr follows the hand's motion; one that stands, as in air, follows the pointer.
     if (drags_hand_ && !picture_.drag_tilts && !hand_.command().pedal && picture_.over_bone_mm) {
         deeper_mm_ += advanced_mm;
         hand_.go_to(*picture_.over_bone_mm);

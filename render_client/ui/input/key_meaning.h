@@ -1,4 +1,4 @@
-// The key that a person means: a letter or sign is what is printed on it, wherever the layout has it.
+// The key that a person means: a letter or sign means the key that bears it, wherever the layout has it.
 #pragma once
 
 #include <string_view>

@@ -22,9 +22,9 @@ void prepare_panel_input(ImGuiIO& io);
 /// ImGui keeps them to itself.
 void give_clipboard(Clipboard& clipboard, ImGuiIO& io);
 
-/// Mouse and keys, frame after frame. A press that is shorter than a frame lasts for one. Keys are pressed
-/// one in a frame, in their order and with what was held then, and what is pressed again is released before;
-/// so none is lost or mistaken, however long a frame takes.
+/// Mouse and keys, frame after frame. A press that is shorter than a frame lasts for one. Each frame presses
+/// one key, in order, with the keys that were held at its time; a key that is pressed again is released
+/// first. So no press is lost or mistaken, however long a frame takes.
 class PanelInput {
   public:
     /// Whether presses wait for the frames after the next one.

@@ -37,7 +37,7 @@ class Panels {
     /// picture of `size_px` and drawn into pictures of `drawn_px`, which differ if two eyes share one.
     void begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s, ThemeName theme,
                float scale);
-    /// Draws what was put into the frame into each of these pictures; returns where that is in them.
+    /// Draws the frame's panels into each of these pictures; returns their places in them.
     std::vector<PixelBox> end(std::span<const gl::Framebuffer* const> pictures);
 
     /// The boxes of the panels that caught the mouse in the last frame, pixels, y down.

@@ -75,8 +75,8 @@ Picture picture_of(const ScanVoxels& voxels, const ScanBox& covers, double mm_pe
 /// The patient's directions at a slice's edges: left, right, above, below.
 std::array<const char*, 4> letters_of(const PreviewSlice& slice);
 
-/// The picture with the edge of what has so many HU or more drawn into its slices, a pixel thick; nothing is
-/// drawn if the picture does not say its HU.
+/// The picture with a contour at so many HU drawn into its slices, a pixel thick; nothing is drawn if the
+/// picture does not say its HU.
 Picture with_contour(const Picture& picture, const ScanPreview& look, double mm_per_px, double threshold_hu);
 
 /// The box with two of its sides as they were dragged in a slice, from one pixel of the picture to another;

@@ -1,5 +1,5 @@
-// The three slices through the CT that cross at one point: where that is, how they are shown, and their
-// pictures on the graphics card.
+// The three slices through the CT that cross at one point: the point, the slices' display, and their pictures
+// on the graphics card.
 #pragma once
 
 #include <array>

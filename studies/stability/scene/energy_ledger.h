@@ -2,9 +2,9 @@
 //
 //     taken = - sum_n u_n (x_{n+1} - x_n)
 //
-// u_n was set at tick n and held until tick n + 1. An observer that pairs u_n with the displacement before
-// it, x_n - x_{n-1}, as one that multiplies force and backward-difference velocity does, never sees what a
-// hold gives back too much.
+// u_n was set at tick n and held until tick n + 1. An observer that multiplies force and backward-difference
+// velocity pairs u_n with the displacement before it, x_n - x_{n-1}, and never sees the excess energy that a
+// hold gives back.
 #pragma once
 
 namespace osteomill::study {

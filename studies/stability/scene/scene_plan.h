@@ -2,7 +2,7 @@
 //
 //     guided      the tool is moved as in steady motion, so that the force, filters and delay lines are there
 //     release     time 0 of the record: from here on it moves as hand and force will have it
-//     settling    what the release shook dies out, or grows
+//    settling    the shake of the release dies out, or grows
 //     window      is judged
 //     tail        the judge's filter looks ahead
 //

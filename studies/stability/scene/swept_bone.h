@@ -52,8 +52,8 @@ class SweptBone {
     void make_patches(double stiffness);
     /// The same with edges that rub: each step of Newton's as long as it lowers what is left over.
     glm::dvec3 solve_with_edges(const glm::dmat3& of_tool, const glm::dvec3& drive_n, double substep_s);
-    /// Whether the sets of patches that cut, and of those whose edges rub with all their force, at velocity w
-    /// differ from those at hand, which they become.
+    /// Finds the patches that cut, and those whose edges rub with all their force, at velocity w; makes them
+    /// the current sets, and returns whether these changed.
     bool engage(const glm::dvec3& velocity_mm_per_s, double substep_s);
     /// Raises gaps to what the spheres of the path have cleared whose distance is in (beyond, within].
     void look_at_path(double beyond_mm, double within_mm, std::vector<float>& gap_mm) const;

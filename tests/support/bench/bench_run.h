@@ -1,5 +1,5 @@
 // A run of the bench: a device and a hand, moved in fine substeps, under a force that is set once a tick from
-// a sensed position; with what a real device does to it, each of which can be switched off.
+// a sensed position; with the imperfections of a real device, each of which can be switched off.
 //
 // The order within a tick: the sensor is read, the force law answers, its answer waits in the delay line, the
 // motors give what their limit allows until the next tick.

@@ -1,4 +1,4 @@
-// A coupling that says what a test wants, for what is built around one.
+// A coupling that returns the test's values, to test the code around a coupling.
 #pragma once
 
 #include "simulation/coupling/coupling.h"

@@ -96,8 +96,8 @@ TEST(VibrationInASlot, OfTheEdgesIsTheReferences) {
 TEST(VibrationInASlot, OfRunOutIsTheReferences) {
     const Slot slot = slot_of(6, 150.0, 0.004);
     const study::SteadyMotion motion = motion_of(slot);
-    // A chip that is thicker by as much all round is what one edge takes that is fed along itself. Only in
-    // front of the burr there is bone.
+    // An edge that is fed along itself takes a chip that is thicker by the same amount all round. Bone is
+    // only in front of the burr.
     const double thicker_mm = slot.burr.run_out_mm * std::sin(std::numbers::pi / slot.burr.edges);
     const auto of_one_edge = [&](double angle_rad) {
         study::SteadyMotion one = motion;

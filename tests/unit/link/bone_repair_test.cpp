@@ -1,4 +1,5 @@
-// A client whose copy of the bone came to differ, over real sockets: it asks for what differs and no more.
+// A client whose copy of the bone came to differ, over real sockets: it requests the differing parts and no
+// more.
 #include "render_client/link/bone_repair.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// A device and a coupling that do what a test says, tick by tick.
+// A device and a coupling that follow a test's script, tick by tick.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace osteomill::testing {
 
 inline constexpr double tick_s = 0.001;
 
-/// Reads what `script` says of the session time; remembers what was written.
+/// Reads the script's value at the session time; remembers the written forces.
 class ScriptedDevice final : public HapticDevice {
   public:
     std::function<DeviceState(double)> script = [](double) { return DeviceState{}; };

@@ -116,7 +116,7 @@ std::vector<HelpLine> all_help() {
     return all;
 }
 
-/// All that the window's sources translate, and what it needs in every session of what a server says.
+/// All texts that the window's sources translate, and the server's messages that it needs in every session.
 std::set<std::string> english_words() {
     std::set<std::string> words{"left", "back", "up"};  // axes of the plot
     for (const Fault fault : all_faults) {

@@ -1,4 +1,4 @@
-// Series as hospitals export them, in one folder with what belongs to them, and what their pixels mean.
+// Series as hospitals export them, in one folder with related files, and the meaning of their pixels.
 #include "imaging/dicom/dicom_image.h"
 
 #include <gmock/gmock.h>
