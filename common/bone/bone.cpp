@@ -129,8 +129,9 @@ std::uint64_t digest(const Bone& bone) {
 
 std::size_t memory_bytes(const Bone& bone) {
     const BoneContent& content = bone.content();
-    return content.slot_of_brick.memory_bytes() + content.brick_of_slot.size() * sizeof(BrickIndex) +
-           (content.stiffness.size() + content.tissue.size() + bone.stored_bricks()) * sizeof(ByteBrick);
+    return content.slot_of_brick.memory_bytes() +
+           content.brick_of_slot.size() * (sizeof(BrickIndex) + sizeof(ByteBrick*)) +
+           (content.stiffness.size() + content.tissue.size() + bone.own_bricks()) * sizeof(ByteBrick);
 }
 
 }  // namespace osteomill

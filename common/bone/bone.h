@@ -11,6 +11,7 @@
 
 #include "common/bone/brick.h"
 #include "common/bone/brick_table.h"
+#include "common/bone/fraction_bricks.h"
 #include "common/bone/grid.h"
 
 namespace osteomill {
@@ -44,7 +45,8 @@ struct BoneContent {
     }
 };
 
-/// A bone that can be milled. Copies share content and own their fractions.
+/// A bone that can be milled. Copies share content and own their fractions; those of a bone that is shared
+/// own only what changes in them.
 class Bone {
   public:
     /// Takes over content and initial fractions (one brick a slot). Throws std::invalid_argument where their
@@ -56,6 +58,12 @@ class Bone {
     std::shared_ptr<const BoneContent> shared_content() const { return content_; }
     std::size_t stored_bricks() const { return fraction_.size(); }
 
+    /// For a bone that many begin with, none of them in real time (fraction_bricks.h): a copy is of the
+    /// bricks that were milled since, and the first milling in a brick allocates.
+    void share() { fraction_.share(); }
+    /// Whose fractions it holds for itself: all, but of a shared bone.
+    std::size_t own_bricks() const { return fraction_.own_bricks(); }
+
     /// Slot of a brick, or BoneContent::no_slot. `brick` must lie within size_bricks.
     std::int32_t slot(const glm::ivec3& brick) const {
         return slot(brick_index(content_->size_bricks, brick));
@@ -66,7 +74,7 @@ class Bone {
     /// What is left of each voxel of a stored brick, 0 (none) to 255 (all).
     BrickFractions fractions(std::int32_t slot) const { return fraction_[static_cast<std::size_t>(slot)]; }
     std::span<std::uint8_t, brick_voxel_count> fractions(std::int32_t slot) {
-        return fraction_[static_cast<std::size_t>(slot)];
+        return fraction_.to_write(static_cast<std::size_t>(slot));
     }
 
     /// Fraction of any voxel; 0 outside the grid and in bricks without bone.
@@ -78,7 +86,7 @@ class Bone {
 
   private:
     std::shared_ptr<const BoneContent> content_;
-    std::vector<ByteBrick> fraction_;
+    FractionBricks fraction_;
 };
 
 /// Volume of the bone that is left, mm^3: voxel volume times the sum of fractions / 255.
@@ -96,9 +104,9 @@ std::uint64_t checksum_of_brick(BrickIndex brick, BrickFractions fractions);
 /// Digest of all that a bone is, its stiffness and tissues, too: two of one digest are milled alike.
 std::uint64_t digest(const Bone& bone);
 
-/// Bytes that this bone holds: brick table, stiffness, tissue and fractions. They follow the bricks that hold
-/// bone; the grid round them costs nothing. Room that a builder reserved and did not need is not counted: at
-/// a page a brick, the system never backs it.
+/// Bytes that this bone holds: brick table, stiffness, tissue and the fractions of its own. They follow the
+/// bricks that hold bone; the grid round them costs nothing. Room that a builder reserved and did not need is
+/// not counted: at a page a brick, the system never backs it.
 std::size_t memory_bytes(const Bone& bone);
 
 }  // namespace osteomill

@@ -49,7 +49,7 @@ double read_stiffness_factor(TomlReader& reader, const std::optional<TissueStren
                       factor * strength->relative_stiffness <= largest_relative_stiffness))
         reader.fail(
             "stiffness_factor",
-            fmt::format("'stiffness_factor' times the tissue's relative stiffness {} must be {} to {}",
+            fmt::format("'stiffness_factor' times the tissue's relative stiffness {} must be {:g} to {:g}",
                         strength->relative_stiffness, stiffness_per_code, largest_relative_stiffness));
     return factor;
 }

@@ -18,6 +18,7 @@ struct ArmModel {
     double resolution_mm = 0.055;         ///< of the position read, each axis; 0 reads exactly
     double max_force_n = 3.3;             ///< the motors give no more
     double max_stiffness_n_per_mm = 1.5;  ///< between the softest and the stiffest axis
+    int delay_ms = 0;                     ///< after which a written force acts, beside the tick that it takes
 };
 
 inline DeviceLimits limits_of(const ArmModel& arm) {
@@ -26,7 +27,8 @@ inline DeviceLimits limits_of(const ArmModel& arm) {
          .max_stiffness_n_per_mm = arm.max_stiffness_n_per_mm,
          .apparent_mass_kg = arm.mass_kg,
          .position_resolution_mm = arm.resolution_mm},
-        0.0, arm.coulomb_friction_n > 0.0 ? std::optional(arm.coulomb_friction_n) : std::nullopt);
+        0.001 * arm.delay_ms,
+        arm.coulomb_friction_n > 0.0 ? std::optional(arm.coulomb_friction_n) : std::nullopt);
 }
 
 }  // namespace osteomill

@@ -1,12 +1,18 @@
 #include "devices/simulated/held_arm.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace osteomill {
 
 HeldArm::HeldArm(const ArmModel& arm, const HandModel& hand, const glm::dvec3& start_mm)
-    : arm_(arm), motion_(arm, hand, start_mm), sensor_(arm.resolution_mm), target_mm_(start_mm) {
+    : arm_(arm),
+      motion_(arm, hand, start_mm),
+      sensor_(arm.resolution_mm),
+      target_mm_(start_mm),
+      late_n_(static_cast<std::size_t>(std::max(arm.delay_ms, 0)), glm::dvec3(0.0)) {
     sensor_.read(start_mm, 0.0);
 }
 
@@ -33,11 +39,13 @@ void HeldArm::advance(double now_s, const glm::dvec3& target_mm, const glm::dvec
 
 void HeldArm::set_motor_force(const glm::dvec3& force_n) noexcept {
     const double size_n = glm::length(force_n);
-    if (!std::isfinite(size_n)) {
-        motor_force_n_ = glm::dvec3(0.0);
-    } else {
-        motor_force_n_ = size_n > arm_.max_force_n ? force_n * (arm_.max_force_n / size_n) : force_n;
+    glm::dvec3 said_n = size_n > arm_.max_force_n ? force_n * (arm_.max_force_n / size_n) : force_n;
+    if (!std::isfinite(size_n)) said_n = glm::dvec3(0.0);
+    if (!late_n_.empty()) {
+        std::swap(said_n, late_n_[next_late_]);
+        next_late_ = (next_late_ + 1) % late_n_.size();
     }
+    motor_force_n_ = said_n;
 }
 
 }  // namespace osteomill

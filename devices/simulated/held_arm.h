@@ -2,6 +2,10 @@
 // the encoder readings. The common part of the simulated and the client-driven device. Device space.
 #pragma once
 
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <vector>
+
 #include "devices/position_sensor.h"
 #include "devices/simulated/arm_and_hand.h"
 
@@ -19,7 +23,8 @@ class HeldArm {
     /// `target_mm`, with its spindle along `spindle_axis` (unit). Real-time safe.
     void advance(double now_s, const glm::dvec3& target_mm, const glm::dvec3& spindle_axis) noexcept;
 
-    /// Force of the motors from now on; clamped to their maximum, zero if not finite. Real-time safe.
+    /// Force of the motors from now on, or from the arm's delay on, if it is said once a ms; clamped to their
+    /// maximum, zero if not finite. Real-time safe.
     void set_motor_force(const glm::dvec3& force_n) noexcept;
 
     /// As the encoders read it at the last advance.
@@ -33,6 +38,8 @@ class HeldArm {
     PositionSensor sensor_;
     glm::dvec3 target_mm_;
     glm::dvec3 motor_force_n_{0.0};
+    std::vector<glm::dvec3> late_n_;  // what was said and does not act yet: a ring
+    std::size_t next_late_ = 0;
     long long substeps_done_ = 0;
     double read_at_s_ = 0.0;
 };

@@ -2,8 +2,9 @@
 
 namespace osteomill {
 
-PrescribedDevice::PrescribedDevice(const ToolPose& start, const DeviceMapping& mapping)
-    : mapping_(mapping), hand_(as_written(start)) {}
+PrescribedDevice::PrescribedDevice(const ToolPose& start, const DeviceMapping& mapping,
+                                   const DeviceLimits& limits)
+    : mapping_(mapping), limits_(limits), hand_(as_written(start)) {}
 
 DeviceState PrescribedDevice::read(double now_s) noexcept {
     const glm::dvec3 position_mm = position_in_device_mm(mapping_, hand_.position_mm);

@@ -15,7 +15,7 @@ namespace osteomill {
 class PrescribedDevice final : public HapticDevice {
   public:
     /// Patient space. Until it is moved the hand rests at `start`, with the pedal up.
-    PrescribedDevice(const ToolPose& start, const DeviceMapping& mapping);
+    PrescribedDevice(const ToolPose& start, const DeviceMapping& mapping, const DeviceLimits& limits = {});
 
     /// Where the hand is from the next reading on. Patient space; `axis` is a unit vector. Between two
     /// readings, from the thread that advances the session. Rounded as the loop rounds it, and with it the
@@ -26,8 +26,8 @@ class PrescribedDevice final : public HapticDevice {
     void take_burr(std::size_t burr) noexcept { burr_ = burr; }
 
     std::string name() const override { return "prescribed hand"; }
-    /// Those of an ideal arm: see DeviceLimits.
-    DeviceLimits limits() const override { return {}; }
+    /// Of an ideal arm (DeviceLimits), unless others were given.
+    DeviceLimits limits() const override { return limits_; }
     void start() override {}
     /// The velocity is the mean since the reading before.
     DeviceState read(double now_s) noexcept override;
@@ -37,6 +37,7 @@ class PrescribedDevice final : public HapticDevice {
 
   private:
     DeviceMapping mapping_;
+    DeviceLimits limits_;
     ToolPose hand_;
     bool pedal_ = false;
     std::optional<std::size_t> burr_{};

@@ -8,13 +8,12 @@
 //     d(trajectory time)/dt = clamp((e_slowest - e) / (e_slowest - e_full), slowest_pace, 1)
 #pragma once
 
-#include <atomic>
-
 #include "common/scene/scene.h"
 #include "devices/simulated/held_arm.h"
 #include "devices/simulated/prescribed_device.h"
 #include "devices/simulated/trajectory.h"
 #include "simulation/device/haptic_device.h"
+#include "simulation/exchange/copiable_atomic.h"
 
 namespace osteomill {
 
@@ -30,11 +29,12 @@ class SimulatedDevice final : public HapticDevice {
     /// the trajectory begins.
     SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm,
                     const HandModel& hand);
-    /// On rails: always exactly on the trajectory, whatever the force, as the recorded arm was.
+    /// On rails: always exactly on the trajectory, whatever the force, as the recorded arm was; an ideal arm,
+    /// as a prescribed one is.
     SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm);
 
     std::string name() const override { return "simulated arm"; }
-    DeviceLimits limits() const override { return limits_of(arm_); }
+    DeviceLimits limits() const override { return rails_ ? rails_->limits() : limits_of(arm_); }
     void start() override {}
     /// The script's pedal is up before the session: at time 0.
     DeviceState read(double now_s) noexcept override;
@@ -63,7 +63,7 @@ class SimulatedDevice final : public HapticDevice {
     std::optional<PrescribedDevice> rails_{};
     double read_at_s_ = 0.0;
     double trajectory_time_s_ = 0.0;
-    std::atomic<bool> is_finished_{false};
+    CopiableAtomic<bool> is_finished_{false};
 };
 
 }  // namespace osteomill

@@ -16,7 +16,7 @@ const std::vector<DeviceEntry>& devices();
 const DeviceEntry& find_device(const std::string& name);
 
 /// Without a command line: an arm in a hand that follows the scene's trajectory; without a grip on rails.
-DeviceParts simulated_hand(const Scene& scene, std::optional<Grip> grip);
+DeviceParts simulated_hand(const Scene& scene, std::optional<Grip> grip, const ArmModel& arm = {});
 
 DeviceEntry simulated_entry();
 DeviceEntry client_entry();

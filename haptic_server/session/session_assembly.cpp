@@ -76,6 +76,15 @@ SessionAssembly::SessionAssembly(SessionScene scene, DeviceParts device, Session
     shown_.emplace(*std::move(options.shown), scene_, *std::move(mirror), *session_, device_);
 }
 
+SessionAssembly::SessionAssembly(const SessionAssembly& other, DeviceParts device)
+    : scene_{.scene = other.scene_.scene, .bone = other.scene_.bone, .source = other.scene_.source},
+      device_(std::move(device)),
+      options_(other.options_),
+      logs_({}, has_shank(scene_.scene.burrs)),
+      session_(std::make_unique<MillingSession>(*other.session_, *device_.device)) {
+    options_.changes_are_consumed = options_.can_be_controlled = false;
+}
+
 void SessionAssembly::run(const std::atomic<bool>& stop, const OnProgress& on_progress) {
     std::atomic<bool> is_over{false};
     session_->run(is_over, [&](const ToolState& tool) {

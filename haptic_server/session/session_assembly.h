@@ -42,7 +42,10 @@ class SessionAssembly {
     /// session on the virtual clock that would never end, and if a file to write is one that the scene is
     /// made of.
     SessionAssembly(SessionScene scene, DeviceParts device, SessionOptions options);
-    SessionAssembly(const SessionAssembly&) = delete;
+    /// Another that goes on where `other` is, between two calls of its advance(), without logs, clients and
+    /// recording. `device` holds a copy of its device. Throws std::invalid_argument for a session of the real
+    /// clock.
+    SessionAssembly(const SessionAssembly& other, DeviceParts device);
     SessionAssembly& operator=(const SessionAssembly&) = delete;
 
     /// The scene of the session: with its device placed.

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace osteomill {
 
@@ -130,12 +131,12 @@ class HeadCarver {
             for (int y = 0; y < brick_edge_voxels; y += block_edge)
                 for (int x = 0; x < brick_edge_voxels; x += block_edge)
                     has_changed |= carve_block(slot, corner, {x, y, z}, change);
-        if (has_changed && changes_ != nullptr) changes_->push(change, bone_.fractions(slot));
+        if (has_changed && changes_ != nullptr) changes_->push(change, std::as_const(bone_).fractions(slot));
     }
 
     bool carve_block(std::int32_t slot, const glm::ivec3& corner, const glm::ivec3& block,
                      BrickChange& change) noexcept {
-        const auto fractions = bone_.fractions(slot);
+        const auto fractions = std::as_const(bone_).fractions(slot);
         std::uint32_t any = 0;
         for (int z = 0; z < block_edge; ++z)
             for (int y = 0; y < block_edge; ++y) {
@@ -160,15 +161,14 @@ class HeadCarver {
     bool carve_voxel(std::int32_t slot, const glm::ivec3& corner, const glm::ivec3& voxel,
                      BrickChange& change) noexcept {
         const std::size_t offset = offset_in_brick(voxel);
-        std::uint8_t& fraction = bone_.fractions(slot)[offset];
-        const std::int32_t old = fraction;
+        const std::int32_t old = std::as_const(bone_).fractions(slot)[offset];
         if (old == 0) return false;
         if (uncut_ != nullptr && uncut_->of_label[bone_.content().tissue_in(slot, offset)]) return false;
         const glm::ivec3 position = corner + voxel;
         const std::int32_t left =
             std::min(old, level_left_at(coverage_, head_.swept(glm::dvec3(position), touched_within_)));
         if (left == old) return false;
-        if (changes_ != nullptr) fraction = static_cast<std::uint8_t>(left);
+        if (changes_ != nullptr) bone_.fractions(slot)[offset] = static_cast<std::uint8_t>(left);
         change.voxels.set(offset);
         enter(slot, offset, position, old - left);
         return true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "simulation/carving/crescent_rows_simd.h"
 #include "simulation/carving/voxel_coverage_simd.h"
@@ -192,7 +193,7 @@ struct CarveKernel::Loops {
             const std::int32_t slot = layer.slot(brick_x, brick_y);
             if (slot == BoneContent::no_slot) continue;
             list_rows(parts, part_count, brick_x);
-            const std::size_t count = list_voxels(to.bone_.fractions(slot).data());
+            const std::size_t count = list_voxels(std::as_const(to.bone_).fractions(slot).data());
             if (count == 0) continue;
             const glm::ivec3 brick(brick_x, brick_y, slices.first / brick_edge_voxels);
             carve_list<coverage>(sweep, fast, slot, brick * brick_edge_voxels, count);

@@ -72,11 +72,11 @@ void FullScan::lower(Bone& bone, const SweepSeenFrom& sweep, const CarveSettings
     const std::size_t met_count = std::exchange(met_.count, 0);
     for (std::size_t i = 0; i < met_count; ++i) {
         const auto offset = static_cast<std::size_t>(met_.offset[i]);
-        std::uint8_t& fraction = bone.fractions(met_.slot[i])[offset];
+        const std::uint8_t fraction = std::as_const(bone).fractions(met_.slot[i])[offset];
         if (left[i] >= fraction) continue;
         const std::size_t n = met_.count++;  // never past i: removed voxels move to the front
         met_.levels[n] = static_cast<float>(fraction - left[i]);
-        fraction = static_cast<std::uint8_t>(left[i]);
+        bone.fractions(met_.slot[i])[offset] = static_cast<std::uint8_t>(left[i]);
         met_.x[n] = met_.x[i];
         met_.y[n] = met_.y[i];
         met_.z[n] = met_.z[i];
@@ -111,7 +111,7 @@ void FullScan::carve_short(Bone& bone, const Sweep& ball, const glm::dmat3& burr
         const std::int32_t slot = bone.slot(voxel >> 4);
         if (slot == BoneContent::no_slot) continue;
         const std::size_t offset = offset_in_brick(voxel);
-        if (bone.fractions(slot)[offset] == 0) continue;
+        if (std::as_const(bone).fractions(slot)[offset] == 0) continue;
         if (settings.uncut != nullptr && settings.uncut->of_label[content.tissue_in(slot, offset)]) continue;
         if (met_.count == RemovedVoxels::capacity) lower(bone, sweep, settings, removed);
         const std::size_t n = met_.count++;
@@ -123,7 +123,8 @@ void FullScan::carve_short(Bone& bone, const Sweep& ball, const glm::dmat3& burr
         met_.offset[n] = static_cast<std::int32_t>(offset);
     }
     lower(bone, sweep, settings, removed);
-    for (const BrickChange& change : changes_) changes.push(change, bone.fractions(bone.slot(change.brick)));
+    for (const BrickChange& change : changes_)
+        changes.push(change, std::as_const(bone).fractions(bone.slot(change.brick)));
     std::ranges::fill(change_of_brick_, unchanged);
     changes_.clear();
 }

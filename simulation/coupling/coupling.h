@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <memory>
 
 #include "common/scene/scene.h"
 #include "common/scene/solve_counts.h"
@@ -41,6 +42,9 @@ class Coupling {
 
     /// Clears all state, as after a fault or a jump of the device: the next tick starts from the hand's pose.
     virtual void reset() noexcept = 0;
+
+    /// Another that goes on from here alike. Between ticks.
+    virtual std::unique_ptr<Coupling> copy() const = 0;
 };
 
 struct CouplingOptions {

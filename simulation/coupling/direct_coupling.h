@@ -28,6 +28,7 @@ class DirectCoupling final : public Coupling {
 
     CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept override;
     void reset() noexcept override;
+    std::unique_ptr<Coupling> copy() const override { return std::make_unique<DirectCoupling>(*this); }
 
   private:
     /// Where the wall lets the burr be.

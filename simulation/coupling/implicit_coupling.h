@@ -25,6 +25,7 @@ class ImplicitCoupling final : public Coupling {
 
     CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept override;
     void reset() noexcept override { placed_ = false; }
+    std::unique_ptr<Coupling> copy() const override { return std::make_unique<ImplicitCoupling>(*this); }
     SolveCounts solve_counts() const noexcept override { return proxy_.counts(); }
 
     /// On the burr's side of the damping, ten times the hand's: the proxy moves unevenly, as its map is

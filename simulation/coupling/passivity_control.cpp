@@ -10,6 +10,15 @@ PassivityControl::PassivityControl(std::unique_ptr<Coupling> base, const Couplin
       position_(options.device.position_resolution_mm),
       apparent_mass_kg_(options.device.apparent_mass_kg) {}
 
+PassivityControl::PassivityControl(const PassivityControl& other)
+    : base_(other.base_->copy()),
+      position_(other.position_),
+      apparent_mass_kg_(other.apparent_mass_kg_),
+      has_last_(other.has_last_),
+      last_position_mm_(other.last_position_mm_),
+      last_force_n_(other.last_force_n_),
+      taken_mj_(other.taken_mj_) {}
+
 void PassivityControl::reset() noexcept {
     base_->reset();
     position_.reset();

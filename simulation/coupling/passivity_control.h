@@ -31,6 +31,8 @@ class PassivityControl final : public Coupling {
 
     CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept override;
     void reset() noexcept override;
+    PassivityControl(const PassivityControl& other);
+    std::unique_ptr<Coupling> copy() const override { return std::make_unique<PassivityControl>(*this); }
 
     /// Energy taken from the hand in this contact, mJ; negative: given.
     double taken_mj() const noexcept { return taken_mj_; }

@@ -26,6 +26,7 @@ class VirtualCoupling final : public Coupling {
 
     CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept override;
     void reset() noexcept override { placed_ = false; }
+    std::unique_ptr<Coupling> copy() const override { return std::make_unique<VirtualCoupling>(*this); }
     SolveCounts solve_counts() const noexcept override { return tool_.counts(); }
 
   private:

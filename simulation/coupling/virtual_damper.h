@@ -26,6 +26,9 @@ class VirtualDamper final : public Coupling {
 
     CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept override;
     void reset() noexcept override { base_->reset(); }
+    VirtualDamper(const VirtualDamper& other)
+        : base_(other.base_->copy()), damping_n_s_per_mm_(other.damping_n_s_per_mm_) {}
+    std::unique_ptr<Coupling> copy() const override { return std::make_unique<VirtualDamper>(*this); }
 
   private:
     std::unique_ptr<Coupling> base_;

@@ -9,9 +9,10 @@ namespace osteomill {
 static_assert(VoxelMask::word_count == 64, "a bit for each word in the head of a change");
 
 ChangeQueue::ChangeQueue(std::size_t capacity_bytes, std::shared_ptr<const BoneContent> content)
-    : queue_(std::max(capacity_bytes, largest_change_bytes)),
+    : has_reader_(capacity_bytes > 0),
+      queue_(has_reader_ ? std::max(capacity_bytes, largest_change_bytes) : 0),
       content_(std::move(content)),
-      is_overflowed_(content_->brick_of_slot.size(), false) {
+      is_overflowed_(has_reader_ ? content_->brick_of_slot.size() : 0, false) {
     overflowed_.reserve(is_overflowed_.size());
 }
 
@@ -41,6 +42,7 @@ void ChangeQueue::resend_overflowed(const Bone& bone) noexcept {
 }
 
 bool ChangeQueue::send(const BrickChange& change, BrickFractions fractions) noexcept {
+    if (!has_reader_) return true;
     Head head{.brick = change.brick, .kind = change.kind};
     std::uint8_t* to = packed_.data() + sizeof head;
     for (std::size_t number = 0; number < VoxelMask::word_count; ++number) {

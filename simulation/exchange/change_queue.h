@@ -33,7 +33,8 @@ class ChangeQueue final : public ChangeSink {
     static constexpr std::size_t largest_change_bytes =
         sizeof(Head) + brick_voxel_count / 8 + brick_voxel_count;
 
-    /// Room for `capacity_bytes` of changes to the bone of this content, and for a whole brick at least.
+    /// Room for `capacity_bytes` of changes to the bone of this content, and for a whole brick at least; 0:
+    /// nobody reads them, and it keeps none.
     ChangeQueue(std::size_t capacity_bytes, std::shared_ptr<const BoneContent> content);
 
     /// Producer only. The change's brick must be stored. Real-time safe.
@@ -74,6 +75,7 @@ class ChangeQueue final : public ChangeSink {
     /// Takes the next change, which is there. Returns its bytes.
     std::size_t receive() noexcept;
 
+    bool has_reader_;
     boost::lockfree::spsc_queue<std::uint8_t> queue_;
 
     // Producer only.

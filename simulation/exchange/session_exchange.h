@@ -22,14 +22,28 @@ struct SessionExchange {
     /// The changes that a tenth of a second restores.
     static constexpr std::size_t restored_queue_bytes = std::size_t{1} << 21;
 
-    /// `at_start`: the tool before the first tick. `is_controlled`: the session can be paused, and strokes
-    /// undone.
-    SessionExchange(const Bone& bone, const ToolState& at_start, bool is_controlled)
-        : changes(change_queue_bytes, bone.shared_content()),
+    /// Who follows a session, but for its status.
+    struct Followers {
+        bool consume_changes = false;
+        bool control = false;  ///< the session can be paused, and strokes undone
+    };
+
+    /// `at_start`: the tool before the first tick.
+    SessionExchange(const Bone& bone, const ToolState& at_start, const Followers& followers)
+        : changes(followers.consume_changes ? change_queue_bytes : 0, bone.shared_content()),
           tool(at_start),
-          restored(is_controlled ? std::make_unique<ChangeQueue>(restored_queue_bytes, bone.shared_content())
-                                 : nullptr),
+          restored(followers.control
+                       ? std::make_unique<ChangeQueue>(restored_queue_bytes, bone.shared_content())
+                       : nullptr),
           status(at_start) {}
+    /// Between the loops of another session that is where `other` is, and that nobody follows. While no
+    /// thread is at it.
+    SessionExchange(const SessionExchange& other, const Bone& bone)
+        : results(other.results),
+          commands(other.commands),
+          changes(0, bone.shared_content()),
+          tool(other.tool),
+          status(other.status) {}
 
     // Between the loops.
     TripleBuffer<MillingResult> results;  ///< milling to haptic

@@ -6,9 +6,12 @@
 #include <atomic>
 #include <cstdint>
 
+#include "simulation/exchange/copiable_atomic.h"
+
 namespace osteomill {
 
-/// One writer thread, one reader thread. Values are written in place, so large ones cost no copy.
+/// One writer thread, one reader thread. Values are written in place, so large ones cost no copy. To be
+/// copied while neither is at it.
 template <typename T>
 class TripleBuffer {
   public:
@@ -39,9 +42,9 @@ class TripleBuffer {
     static constexpr std::uint8_t index_mask = 3;
 
     std::array<T, 3> values_{};
-    alignas(64) std::uint8_t back_ = 0;                // writer only
-    alignas(64) std::atomic<std::uint8_t> middle_{1};  // shared
-    alignas(64) std::uint8_t front_ = 2;               // reader only
+    alignas(64) std::uint8_t back_ = 0;                   // writer only
+    alignas(64) CopiableAtomic<std::uint8_t> middle_{1};  // shared
+    alignas(64) std::uint8_t front_ = 2;                  // reader only
 };
 
 }  // namespace osteomill

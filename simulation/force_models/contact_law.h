@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/vec3.hpp>
+#include <memory>
 
 #include "common/bone/bone.h"
 #include "common/scene/burr.h"
@@ -50,6 +51,9 @@ class ContactLaw {
 
     /// Real-time safe; one thread at a time.
     virtual ContactReaction react(const BurrContact& contact) noexcept = 0;
+
+    /// Another that goes on from here alike.
+    virtual std::unique_ptr<ContactLaw> copy() const = 0;
 };
 
 }  // namespace osteomill

@@ -42,6 +42,18 @@ class ErosionEntry final : public ErosionSink {
 
 }  // namespace
 
+ErodingModel::ErodingModel(const ErodingModel& other)
+    : bone_(other.bone_),
+      burrs_(other.burrs_),
+      law_(other.law_->copy()),
+      bricks_(other.bricks_),
+      erosion_(other.erosion_),
+      account_(other.account_),
+      uncut_(other.uncut_),
+      has_position_(other.has_position_),
+      position_mm_(other.position_mm_),
+      burr_(other.burr_) {}
+
 ErodingModel::ErodingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
                            std::unique_ptr<ContactLaw> law)
     : bone_(std::move(bone)),

@@ -34,6 +34,9 @@ class ErodingModel final : public ForceModel {
 
     void restore(const BrickChange& change, BrickFractions fractions, ChangeSink& changes) noexcept override;
 
+    ErodingModel(const ErodingModel& other);
+    std::unique_ptr<ForceModel> copy() const override { return std::make_unique<ErodingModel>(*this); }
+
     const Bone& bone() const override { return bone_; }
     RemovedByTissue removed_mm3() const override { return account_.removed_mm3(); }
     double removed_mm3(std::size_t label) const override { return account_.removed_mm3(label); }

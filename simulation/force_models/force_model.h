@@ -3,6 +3,8 @@
 // models are others. force_models.h makes them by name.
 #pragma once
 
+#include <memory>
+
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
 #include "simulation/exchange/milling_step.h"
@@ -24,6 +26,9 @@ class ForceModel {
     /// Between steps: undoes what milling did to these voxels, or redoes it (restore_bone.h). Real-time safe.
     virtual void restore(const BrickChange& change, BrickFractions fractions,
                          ChangeSink& changes) noexcept = 0;
+
+    /// Another that goes on from here alike, with a copy of the bone. Between steps.
+    virtual std::unique_ptr<ForceModel> copy() const = 0;
 
     virtual const Bone& bone() const = 0;
     /// Since the start, less what was restored.

@@ -48,6 +48,7 @@ class HertzContact final : public ContactLaw {
     explicit HertzContact(const HertzSettings& settings = {});
 
     ContactReaction react(const BurrContact& contact) noexcept override;
+    std::unique_ptr<ContactLaw> copy() const override { return std::make_unique<HertzContact>(*this); }
 
   private:
     static constexpr std::size_t rings = 8;

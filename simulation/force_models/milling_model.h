@@ -43,6 +43,8 @@ class MillingModel final : public ForceModel {
 
     void restore(const BrickChange& change, BrickFractions fractions, ChangeSink& changes) noexcept override;
 
+    std::unique_ptr<ForceModel> copy() const override { return std::make_unique<MillingModel>(*this); }
+
     const Bone& bone() const override { return bone_; }
     RemovedByTissue removed_mm3() const override { return account_.removed_mm3(); }
     double removed_mm3(std::size_t label) const override { return account_.removed_mm3(label); }

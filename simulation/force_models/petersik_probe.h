@@ -32,6 +32,7 @@ class PetersikProbe final : public ContactLaw {
     explicit PetersikProbe(const PetersikSettings& settings = {});
 
     ContactReaction react(const BurrContact& contact) noexcept override;
+    std::unique_ptr<ContactLaw> copy() const override { return std::make_unique<PetersikProbe>(*this); }
 
   private:
     PetersikSettings settings_;

@@ -28,6 +28,7 @@ class PointSpring final : public ContactLaw {
     explicit PointSpring(const PointSpringSettings& settings = {}) : settings_(settings) {}
 
     ContactReaction react(const BurrContact& contact) noexcept override;
+    std::unique_ptr<ContactLaw> copy() const override { return std::make_unique<PointSpring>(*this); }
 
   private:
     PointSpringSettings settings_;

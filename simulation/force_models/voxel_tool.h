@@ -27,6 +27,7 @@ class VoxelTool final : public ContactLaw {
     explicit VoxelTool(const VoxelToolSettings& settings = {}) : settings_(settings) {}
 
     ContactReaction react(const BurrContact& contact) noexcept override;
+    std::unique_ptr<ContactLaw> copy() const override { return std::make_unique<VoxelTool>(*this); }
 
   private:
     VoxelToolSettings settings_;

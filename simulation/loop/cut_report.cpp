@@ -8,6 +8,7 @@
 
 #include "common/bone/finite.h"
 #include "common/scene/burr_frame.h"
+#include "simulation/loop/spindle_torque.h"
 
 namespace osteomill {
 
@@ -15,8 +16,6 @@ namespace {
 
 /// For the rounding of sums of periods, s.
 constexpr double report_tolerance_s = 1e-7;
-/// Gaps of freshly carved bone scatter by a tenth of a voxel.
-constexpr double touching_voxels = 0.2;
 /// At the tip a patch is as far from the axis as it is wide.
 constexpr double least_lever_share = 0.05;
 
@@ -69,8 +68,8 @@ CutReport::Sums CutReport::sum(const MillingResult& latest, const Burr& burr,
     Sums sums;
     for (std::size_t i = 0; i < engagement.count; ++i) {
         const EngagedPatch& patch = engagement.patches[i];
+        if (!cuts(patch, feed_mm_per_s, engagement.spacing_mm)) continue;
         const double advance_mm_per_s = glm::dot(patch.normal, feed_mm_per_s);
-        if (advance_mm_per_s <= 0.0 || patch.gap_mm > touching_voxels * engagement.spacing_mm) continue;
         const glm::dvec3 chip_n = advance_mm_per_s * patch.cutting_n_s_per_mm;
         const glm::dvec3 force_n = chip_n + patch.edge_n;
         const double x = glm::dot(patch.normal, frame[0]);

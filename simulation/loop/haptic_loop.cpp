@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -23,6 +24,12 @@ HapticLoop::HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& op
       burr_pose_(options.start_pose),
       burr_(options.start_burr, options.burr_count),
       speed_(options.spindle_rev_per_s) {}
+
+HapticLoop::HapticLoop(const HapticLoop& other, const HapticLoopParts& parts) : HapticLoop(other) {
+    // References are not assigned, but made.
+    std::destroy_at(&parts_);
+    std::construct_at(&parts_, parts);
+}
 
 HandState HapticLoop::hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept {
     const DeviceMapping& mapping = options_.mapping;

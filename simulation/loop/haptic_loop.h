@@ -13,7 +13,6 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 
 #include "common/scene/scene.h"
@@ -23,6 +22,7 @@
 #include "simulation/coupling/handpiece_vibration.h"
 #include "simulation/device/fading_force.h"
 #include "simulation/device/haptic_device.h"
+#include "simulation/exchange/copiable_atomic.h"
 #include "simulation/exchange/milling_step.h"
 #include "simulation/exchange/sample_log.h"
 #include "simulation/exchange/session_gate.h"
@@ -67,6 +67,9 @@ class HapticLoop {
     static constexpr double protected_shown_s = 0.2;
 
     HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& options);
+    /// Goes on where `other` is, with other parts. Between ticks.
+    HapticLoop(const HapticLoop& other, const HapticLoopParts& parts);
+    HapticLoop& operator=(const HapticLoop&) = delete;
 
     /// The tick of session time `now_s`, after `missed_periods` missed deadlines. Real-time safe, as
     /// settle().
@@ -89,6 +92,7 @@ class HapticLoop {
     const std::array<std::uint64_t, fault_kinds>& fault_counts() const { return safety_.fault_counts(); }
 
   private:
+    HapticLoop(const HapticLoop&) = default;
     HandState hand_state(double now_s, double elapsed_s, const DeviceState& device) noexcept;
     /// Whether the tool has just been placed elsewhere.
     bool place(const DeviceState& device) noexcept;
@@ -110,8 +114,8 @@ class HapticLoop {
     EnergyMeter energy_;
     glm::dvec3 felt_n_{0.0};  // patient axes; last written and felt
     FadingForce at_the_end_;
-    std::atomic<bool> lets_go_{false};
-    std::atomic<bool> has_let_go_{false};
+    CopiableAtomic<bool> lets_go_{false};
+    CopiableAtomic<bool> has_let_go_{false};
 
     ToolPose hand_pose_;  // patient LPS; the last that was read
     ToolPose burr_pose_;

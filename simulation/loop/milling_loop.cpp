@@ -2,6 +2,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <utility>
 
 #include "simulation/force_models/bone_in_ball.h"
@@ -20,6 +21,12 @@ MillingLoop::MillingLoop(const MillingLoopParts& parts, double command_period_s)
       command_period_s_(command_period_s),
       cut_(std::vector<Burr>(parts.burrs.begin(), parts.burrs.end()), parts.motor) {
     for (const Burr& burr : parts.burrs) hulls_.push_back(burr_hull(burr));
+}
+
+MillingLoop::MillingLoop(const MillingLoop& other, const MillingLoopParts& parts) : MillingLoop(other) {
+    // References are not assigned, but made.
+    std::destroy_at(&parts_);
+    std::construct_at(&parts_, parts);
 }
 
 ToolPose MillingLoop::pose_on_the_way(double elapsed_s) noexcept {

@@ -41,6 +41,9 @@ class MillingLoop {
   public:
     /// All parts outlive the loop. Commands come every `command_period_s`. Allocates.
     MillingLoop(const MillingLoopParts& parts, double command_period_s);
+    /// Goes on where `other` is, with other parts. Between steps.
+    MillingLoop(const MillingLoop& other, const MillingLoopParts& parts);
+    MillingLoop& operator=(const MillingLoop&) = delete;
 
     /// The step that ends at session time `time_s` and lasted `elapsed_s` since the last. Before the first
     /// command there is nothing to do. `missed`: so many periods were skipped before it. Real-time safe.
@@ -55,6 +58,7 @@ class MillingLoop {
     static constexpr double restored_bricks_per_ms = 4.0;
 
   private:
+    MillingLoop(const MillingLoop&) = default;
     /// The pose that the burr shall have at the end of this step.
     ToolPose pose_on_the_way(double elapsed_s) noexcept;
     /// With the spindle off, applies as much of the queue of restored bone as a step has time for.

@@ -48,6 +48,13 @@ const MillingSessionOptions& validated(const MillingSessionOptions& options) {
     return options;
 }
 
+MillingSessionOptions followed_by_nobody(MillingSessionOptions options) {
+    if (options.clock == ClockKind::real || options.repeats_real_clock)
+        throw std::invalid_argument("a session of the real clock cannot be copied");
+    options.can_be_controlled = options.changes_are_consumed = false;
+    return options;
+}
+
 /// The tool as shown before the first tick.
 ToolState tool_at_start(const Scene& scene) {
     return {.burr_position_mm = scene.start_pose.position_mm,
@@ -117,18 +124,10 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
            .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
            .model_holds_wall = !find_force_model(options.force_model).has_cutting_law,
            .wall_friction = find_force_model(options.force_model).has_friction ? scene.wall_friction : 0.0})),
-      exchange_(model_->bone(), tool_at_start(scene), options.can_be_controlled),
+      exchange_(model_->bone(), tool_at_start(scene),
+                {.consume_changes = options.changes_are_consumed, .control = options.can_be_controlled}),
       vibration_(make_vibration(scene, device, options)),
-      haptic_loop_({.device = device,
-                    .coupling = *coupling_,
-                    .results = exchange_.results,
-                    .commands = exchange_.commands,
-                    .tool = exchange_.tool,
-                    .status = exchange_.status,
-                    .log = log,
-                    .vibration = vibration_ ? &*vibration_ : nullptr,
-                    .gate = exchange_.restored ? &exchange_.gate : nullptr,
-                    .placements = exchange_.restored ? &exchange_.placements : nullptr},
+      haptic_loop_(haptic_parts(),
                    {.tick_s = tick_s,
                     .mapping = scene.device,
                     .burr_count = scene.burrs.size(),
@@ -139,28 +138,68 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                                                           options.removed_before_mm3.end(), 0.0),
                     .start_pose = scene.start_pose}),
       burrs_(felt_burrs(scene)),
-      milling_loop_({.model = *model_,
-                     .commands = options.repeats_real_clock ? repeated_commands_ : exchange_.commands,
-                     .results = exchange_.results,
-                     .changes = exchange_.changes,
-                     .log = milling_log,
-                     .burrs = burrs_,
-                     .restored = exchange_.restored.get(),
-                     .gate = exchange_.restored ? &exchange_.gate : nullptr,
-                     .cuts = options.changes_are_consumed ? &exchange_.cuts : nullptr,
-                     .motor = scene.motor},
-                    tick_s),
-      haptic_ticks_(tick_s, 0.0,
-                    [this](double time_s, std::uint64_t missed) {
-                        haptic_loop_.tick(time_s, missed);
-                        now_s_ = time_s;
-                    }),
+      milling_loop_(milling_parts(scene.motor), tick_s),
+      haptic_ticks_(tick_s, 0.0, haptic_work()),
       milling_steps_(1.0 / options.milling_rate_hz,
                      // On the real clock it finds a fresh command, and is done before the next tick.
                      options.clock == ClockKind::real || options.repeats_real_clock ? 0.5 * tick_s : 0.0,
-                     [this, period_s = 1.0 / options.milling_rate_hz](double time_s, std::uint64_t missed) {
-                         milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed), missed);
-                     }) {}
+                     milling_work()) {}
+
+MillingSession::MillingSession(const MillingSession& other, HapticDevice& device, SampleLog<TickSample>* log)
+    : options_(followed_by_nobody(other.options_)),
+      device_(device),
+      log_(log),
+      milling_log_(nullptr),
+      model_(other.model_->copy()),
+      coupling_(other.coupling_->copy()),
+      exchange_(other.exchange_, model_->bone()),
+      vibration_(other.vibration_),
+      haptic_loop_(other.haptic_loop_, haptic_parts()),
+      burrs_(other.burrs_),
+      milling_loop_(other.milling_loop_, milling_parts({})),
+      haptic_ticks_(other.haptic_ticks_, haptic_work()),
+      milling_steps_(other.milling_steps_, milling_work()),
+      now_s_(other.now_s_),
+      ticks_(other.ticks_) {}
+
+HapticLoopParts MillingSession::haptic_parts() noexcept {
+    return {.device = device_,
+            .coupling = *coupling_,
+            .results = exchange_.results,
+            .commands = exchange_.commands,
+            .tool = exchange_.tool,
+            .status = exchange_.status,
+            .log = log_,
+            .vibration = vibration_ ? &*vibration_ : nullptr,
+            .gate = exchange_.restored ? &exchange_.gate : nullptr,
+            .placements = exchange_.restored ? &exchange_.placements : nullptr};
+}
+
+MillingLoopParts MillingSession::milling_parts(const std::optional<Motor>& motor) noexcept {
+    return {.model = *model_,
+            .commands = options_.repeats_real_clock ? repeated_commands_ : exchange_.commands,
+            .results = exchange_.results,
+            .changes = exchange_.changes,
+            .log = milling_log_,
+            .burrs = burrs_,
+            .restored = exchange_.restored.get(),
+            .gate = exchange_.restored ? &exchange_.gate : nullptr,
+            .cuts = options_.changes_are_consumed ? &exchange_.cuts : nullptr,
+            .motor = motor};
+}
+
+PeriodicLoop::Work MillingSession::haptic_work() {
+    return [this](double time_s, std::uint64_t missed) {
+        haptic_loop_.tick(time_s, missed);
+        now_s_ = time_s;
+    };
+}
+
+PeriodicLoop::Work MillingSession::milling_work() {
+    return [this, period_s = 1.0 / options_.milling_rate_hz](double time_s, std::uint64_t missed) {
+        milling_loop_.step(time_s, period_s * static_cast<double>(1 + missed), missed);
+    };
+}
 
 void MillingSession::run(const std::atomic<bool>& stop, const OnProgress& on_progress) {
     start();
@@ -280,14 +319,8 @@ void MillingSession::do_chores(const OnProgress& on_progress) {
     };
     drain(log_);
     drain(milling_log_);
-    drop_changes_nobody_wants();
     exchange_.status.refresh();
     if (on_progress) on_progress(exchange_.status.front());
-}
-
-void MillingSession::drop_changes_nobody_wants() {
-    if (!options_.changes_are_consumed)
-        exchange_.changes.consume_all([](const BrickChange&, BrickFractions) {});
 }
 
 void MillingSession::wait_for_room_in_queue(const std::atomic<bool>* stop, const OnProgress& on_progress) {
@@ -300,7 +333,6 @@ void MillingSession::wait_for_room_in_queue(const std::atomic<bool>* stop, const
 
 void MillingSession::send_what_overflowed() {
     wait_for_consumer(nullptr, [this] {
-        drop_changes_nobody_wants();
         exchange_.changes.resend_overflowed(model_->bone());
         return !exchange_.changes.has_overflowed();
     });

@@ -51,7 +51,7 @@ struct MillingSessionOptions {
     RemovedByTissue removed_before_mm3{};
     /// Somebody may pause it, and undo what was milled: see SessionExchange.
     bool can_be_controlled = false;
-    /// Somebody consumes the changes while the session runs. If not, the session empties the queue itself.
+    /// Somebody consumes the changes while the session runs. If not, none are queued.
     bool changes_are_consumed = false;
     /// Its loops take turns as those of a session of the real clock did: only with repeat_tick().
     bool repeats_real_clock = false;
@@ -90,6 +90,12 @@ class MillingSession {
     /// coupling that the force model has no law for, or a scene that the parts refuse.
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
                    SampleLog<TickSample>* log = nullptr, SampleLog<MillingSample>* milling_log = nullptr);
+    /// Another on the virtual clock that goes on where `other` is, between two calls of its advance(): with
+    /// the same device the same to the bit. It is followed and controlled by nobody. `device`, already
+    /// started and where that of `other` is, and the log outlive it. Throws std::invalid_argument for a
+    /// session of the real clock.
+    MillingSession(const MillingSession& other, HapticDevice& device, SampleLog<TickSample>* log = nullptr);
+    MillingSession& operator=(const MillingSession&) = delete;
 
     /// For the streaming server and others that follow or control the session.
     SessionExchange& exchange() { return exchange_; }
@@ -148,10 +154,13 @@ class MillingSession {
         bool has_real_time_priority = false;
         std::uint64_t page_faults = 0;
     };
+    HapticLoopParts haptic_parts() noexcept;
+    MillingLoopParts milling_parts(const std::optional<Motor>& motor) noexcept;
+    PeriodicLoop::Work haptic_work();
+    PeriodicLoop::Work milling_work();
     void run_in_threads(const std::atomic<bool>& stop, const OnProgress& on_progress);
     void repeat_step(const StepTrace& step);
     void do_chores(const OnProgress& on_progress);
-    void drop_changes_nobody_wants();
     void wait_for_room_in_queue(const std::atomic<bool>* stop, const OnProgress& on_progress);
     void send_what_overflowed();
 

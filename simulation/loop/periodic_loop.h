@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 
 #include "simulation/loop/clock.h"
 #include "simulation/loop/histogram.h"
@@ -26,6 +27,8 @@ class PeriodicLoop {
 
     /// Ticks are due at first_s, first_s + period_s, ...
     PeriodicLoop(double period_s, double first_s, Work work);
+    /// At the place of another's schedule, with other work.
+    PeriodicLoop(const PeriodicLoop& other, Work work) : PeriodicLoop(other) { work_ = std::move(work); }
 
     /// When the next tick is due.
     double due_s() const noexcept { return first_s_ + static_cast<double>(next_) * period_s_; }

@@ -5,13 +5,12 @@
 
 namespace osteomill {
 
-DeviceParts simulated_hand(const Scene& scene, std::optional<Grip> grip) {
+DeviceParts simulated_hand(const Scene& scene, std::optional<Grip> grip, const ArmModel& arm) {
     Trajectory trajectory =
         make_trajectory(scene.trajectory, scene.start_pose, scene.burrs, scene.start_burr);
-    auto simulated = grip
-                         ? std::make_unique<SimulatedDevice>(std::move(trajectory), scene.device, ArmModel{},
-                                                             hand_model(*grip))
-                         : std::make_unique<SimulatedDevice>(std::move(trajectory), scene.device, ArmModel{});
+    auto simulated =
+        grip ? std::make_unique<SimulatedDevice>(std::move(trajectory), scene.device, arm, hand_model(*grip))
+             : std::make_unique<SimulatedDevice>(std::move(trajectory), scene.device, arm);
     DeviceParts parts;
     parts.simulated = simulated.get();
     parts.device = std::move(simulated);

@@ -16,6 +16,7 @@ class ScriptedCoupling final : public Coupling {
 
     CouplingOutput tick(const HandState&, const MillingResult&) noexcept override { return script_.says; }
     void reset() noexcept override { ++script_.resets; }
+    std::unique_ptr<Coupling> copy() const override { return std::make_unique<ScriptedCoupling>(*this); }
 
   private:
     Script& script_;

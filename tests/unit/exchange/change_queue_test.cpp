@@ -61,7 +61,7 @@ TEST(ChangeQueue, HandsOverChangesInOrderAsTheyWereWhenPushed) {
 TEST(ChangeQueue, HandsOverWhatGoesRoundTheEndOfTheRing) {
     Bone bone = small_block();
     Bone copy = bone;
-    ChangeQueue queue(0, bone.shared_content());
+    ChangeQueue queue(1, bone.shared_content());
     std::mt19937 random(11);
     for (int round = 0; round < 1000; ++round) {
         for (int i = 0; i < 10; ++i) testing::carve_somewhere(bone, random, queue);
@@ -80,6 +80,16 @@ TEST(ChangeQueue, HasRoomForAWholeBrickHoweverSmallItIsAskedToBe) {
     EXPECT_FALSE(queue.has_overflowed());
     EXPECT_EQ(follow(queue, copy), 1U);
     EXPECT_EQ(checksum(copy), checksum(bone));
+}
+
+TEST(ChangeQueue, KeepsNothingThatNobodyReads) {
+    Bone bone = small_block();
+    ChangeQueue queue(0, bone.shared_content());
+    for (int i = 0; i < 100; ++i) queue.push({3, VoxelMask().set_all()}, bone.fractions(3));
+    EXPECT_FALSE(queue.has_overflowed());
+    EXPECT_EQ(queue.overflow_count(), 0U);
+    queue.resend_overflowed(bone);
+    EXPECT_EQ(follow(queue, bone), 0U);
 }
 
 TEST(ChangeQueue, LosesNoBoneWhenItOverflows) {

@@ -70,6 +70,47 @@ TEST(MillingSession, MillsOnTheVirtualClock) {
     for (const std::uint64_t count : report.fault_counts) EXPECT_EQ(count, 0u);
 }
 
+TEST(MillingSession, ACopyGoesOnToTheBit) {
+    for (const char* coupling : {"implicit", "sample-estimate-interpolate+passivity", "virtual-coupling"}) {
+        for (const bool shares_bone : {false, true}) {
+            const Scene scene = block_scene();
+            SimulatedDevice device = simulated(scene);
+            MillingSessionOptions options = virtual_options(4.0);
+            options.coupling = coupling;
+            options.vibration = true;
+            Bone bone = block();
+            if (shares_bone) bone.share();
+            MillingSession session(scene, std::move(bone), device, options);
+            session.start();
+            session.advance(1200);
+            const std::uint64_t at_copy = checksum(session.bone());
+            EXPECT_NE(at_copy, checksum(block())) << coupling;
+
+            SimulatedDevice other_device = device;
+            MillingSession copy(session, other_device);
+            copy.advance(800);
+            EXPECT_EQ(checksum(session.bone()), at_copy) << "the copy's bone is its own";
+            session.advance(800);
+            EXPECT_NE(checksum(session.bone()), at_copy);
+            EXPECT_EQ(checksum(copy.bone()), checksum(session.bone())) << coupling;
+            EXPECT_EQ(copy.newest_state().hand_position_mm, session.newest_state().hand_position_mm)
+                << coupling;
+            EXPECT_EQ(copy.newest_state().burr_position_mm, session.newest_state().burr_position_mm)
+                << coupling;
+            EXPECT_EQ(copy.newest_state().force_n, session.newest_state().force_n) << coupling;
+            EXPECT_EQ(copy.known_result().force_n, session.known_result().force_n) << coupling;
+            EXPECT_EQ(copy.removed_mm3(0), session.removed_mm3(0));
+        }
+    }
+}
+
+TEST(MillingSession, OneOfTheRealClockIsNotCopied) {
+    const Scene scene = block_scene();
+    SimulatedDevice device = simulated(scene);
+    const MillingSession session(scene, block(), device, {});
+    EXPECT_THROW(MillingSession(session, device), std::invalid_argument);
+}
+
 TEST(MillingSession, MillsWithEveryForceModel) {
     for (const ForceModelEntry& model : force_models()) {
         MillingSessionOptions options = virtual_options(3.0);

@@ -53,6 +53,7 @@ class ForcefulCoupling final : public Coupling {
         return {.force_n = force(hand), .burr_pose = hand.pose};
     }
     void reset() noexcept override { ++resets; }
+    std::unique_ptr<Coupling> copy() const override { return std::make_unique<ScriptedCoupling>(*this); }
 };
 
 }  // namespace osteomill::testing
