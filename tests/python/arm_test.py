@@ -13,7 +13,7 @@ import osteomill as om
 ROBOT = {"mass_kg": 3.0, "stiffness_n_per_mm": 20.0, "max_force_n": 60.0, "friction_n": 0.0, "resolution_mm": 0.0}
 
 
-def press(arm, depth_mm=3.0, hand="prescribed"):
+def press(arm, depth_mm=8.0):
     """The hand pushes a burr that stands still against the tooth."""
     session = om.Session(tooth(), arm=arm)
     return session.rollout(plunge(tooth(), 1500, depth_mm), pedals=False)
@@ -31,7 +31,7 @@ class ArmTest(unittest.TestCase):
 
     def test_a_stiffer_arm_yields_less(self):
         def yields_mm(arm):
-            out = press(arm, 2.0)
+            out = press(arm, 4.0)
             pressed = np.linalg.norm(out["force_n"], axis=1) > 0.5
             return (np.linalg.norm(out["hand_mm"] - out["burr_mm"], axis=1)[pressed] / np.linalg.norm(out["force_n"], axis=1)[pressed])[-1]
 
