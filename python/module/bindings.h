@@ -5,9 +5,11 @@
 
 namespace osteomill::python {
 
+void bind_arm(pybind11::module_& module);
 void bind_bone(pybind11::module_& module);
 void bind_case(pybind11::module_& module);
 void bind_session(pybind11::module_& module);
+void bind_state(pybind11::module_& module);
 void bind_recording(pybind11::module_& module);
 void bind_reference_force(pybind11::module_& module);
 

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +17,7 @@
 
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
+#include "python/module/bone_making.h"
 #include "python/module/bone_view.h"
 #include "python/module/released_lock.h"
 
@@ -170,6 +173,18 @@ Voxel (i, j, k) is a cube of edge `spacing_mm`; its centre lies at `origin_mm + 
 (x to the patient's left, y to the back, z up). Arrays are copies of shape (i, j, k) with i fastest in memory; `.T` is
 (k, j, i), the order of 3D Slicer, without a copy and without a mirror. `box` is ((i0, j0, k0), (i1, j1, k1)): the first
 voxel and the one past the last; it may reach beyond the grid, where there is nothing. None: the whole grid.)")
+        .def_static("from_array", &bone_from_array, py::arg("fraction"), py::kw_only(), py::arg("spacing_mm"),
+                    py::arg("origin_mm") = py::make_tuple(0.0, 0.0, 0.0), py::arg("stiffness") = py::none(),
+                    py::arg("tissue") = py::none(),
+                    R"(A bone of one's own voxels, (i, j, k).
+
+fraction: uint8, what is left of each, 0 to 255; or bool: all or nothing. spacing_mm: edge of a voxel. origin_mm (3,): centre of the
+first, patient LPS. stiffness: relative, 0.02 to 5.1 in steps of 0.02, an array or one number; None: 1. tissue: uint8 labels.
+To mill it, save it and name the file: bone.save("own.nrrd"), Case("cube", bone="own.nrrd"). BadInput: names the argument.)")
+        .def("save", &save_bone_of, py::arg("file"),
+             "Writes it into a file (.nrrd), as it is, voxel by voxel, for Case(..., bone=file) and "
+             "haptic_server --bone; "
+             "3D Slicer reads it, too. Fault: it cannot be written.")
         .def_property_readonly(
             "spacing_mm", [](const BoneView& view) { return view.bone().grid().spacing_mm; },
             "Edge of a voxel, mm.")

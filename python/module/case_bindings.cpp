@@ -216,6 +216,19 @@ tissue's stiffness or another bone loads it anew. Errors as Case.)")
         .def_property_readonly(
             "structures", [](const LoadedCase& loaded) { return loaded.structures(); },
             "Names of the protected tissues, whose distance is measured.")
+        .def(
+            "plan_distance_mm",
+            [](const LoadedCase& loaded, const py::object& place_mm) -> std::optional<double> {
+                if (!loaded.has_plan()) return std::nullopt;
+                const glm::dvec3 place = vector_of(place_mm, "place_mm");
+                const ReleasedLock released;
+                return loaded.plan_distance_mm(place);
+            },
+            py::arg("place_mm"),
+            "From a place (3,), patient LPS, to what shall be removed as the case's plan says, mm; below 0: "
+            "within, so "
+            "deep; None: the case has no plan. Of a tissue the distance is to the centre of its nearest "
+            "voxel.")
         .def_property_readonly(
             "burrs", [](const LoadedCase& loaded) { return loaded.settings().burrs; },
             "The set that a session may take from.")

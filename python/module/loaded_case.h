@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "analysis/report/planned_region.h"
 #include "common/bone/distance_field.h"
 #include "common/scene/burr_clearance.h"
 #include "common/scene/tool_state.h"
@@ -32,7 +34,7 @@ class LoadedCase {
 
     const std::string& name() const { return name_; }
     const SceneChoice& choice() const { return choice_; }
-    /// A session takes a copy, whose bone shares all but what is left of its voxels.
+    /// A session takes a copy, whose bone shares all but the bricks that it mills.
     const SessionScene& scene() const { return scene_; }
     const Scene& settings() const { return scene_.scene; }
     std::uint64_t bone_checksum() const { return bone_checksum_; }
@@ -51,6 +53,14 @@ class LoadedCase {
 
     /// Names of the protected structures.
     const std::vector<std::string>& structures() const { return structure_names_; }
+    /// The scene's burrs as they are felt.
+    const std::vector<Burr>& felt_burrs() const { return felt_burrs_; }
+
+    bool has_plan() const { return scene_.scene.plan.has_value(); }
+    /// From a place, patient LPS, to the planned region; 0 and below: within, so deep. Infinite where the
+    /// bone has none of it. The first call looks for the region. There is a plan.
+    double plan_distance_mm(const glm::dvec3& place_mm) const;
+
     /// From the burr's head to structure number `i`, mm; 0 and below: they overlap, so deep; infinite:
     /// further than reach.
     double distance_mm(std::size_t i, const ToolState& tool) const noexcept;
@@ -67,6 +77,14 @@ class LoadedCase {
     std::vector<DistanceField> fields_;
     std::vector<double> reach_mm_;
     std::vector<BurrClearance> heads_;
+    std::vector<Burr> felt_burrs_;
+    struct Planned {
+        SessionInfo session;
+        PlannedRegion region;
+        Planned(const Bone& bone, SessionInfo info) : session(std::move(info)), region(bone, session) {}
+    };
+    mutable std::once_flag planned_once_;
+    mutable std::unique_ptr<const Planned> planned_;
 };
 
 }  // namespace osteomill::python

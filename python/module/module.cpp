@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, module) {
     module.attr("__version__") = OSTEOMILL_VERSION;
     osteomill::python::bind_bone(module);
     osteomill::python::bind_case(module);
+    osteomill::python::bind_arm(module);
     osteomill::python::bind_session(module);
     osteomill::python::bind_recording(module);
     osteomill::python::bind_reference_force(module);

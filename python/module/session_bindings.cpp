@@ -1,47 +1,28 @@
-// Sessions in Python: step, rollout, run, and going back to a state.
+// Sessions in Python: made of a case, moved, copied, and taken back to a state.
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
-#include <bit>
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <optional>
-#include <span>
 #include <string>
+#include <thread>
 #include <utility>
-#include <vector>
 
-#include "common/bone/patient_space.h"
-#include "common/scene/session_control.h"
 #include "common/text/plain_text.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
 #include "python/module/bone_view.h"
 #include "python/module/released_lock.h"
-#include "python/module/tick_bindings.h"
-#include "python/module/tick_columns.h"
+#include "python/module/session_motion.h"
+#include "python/module/sessions_together.h"
 
 namespace osteomill::python {
 
 namespace {
-
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
-using SharedSession = std::shared_ptr<SteppedSession>;
-
-glm::dvec3 place_of(const py::handle& value, const char* argument) {
-    const glm::dvec3 place_mm = vector_of(value, argument);
-    if (!is_place(place_mm))
-        throw std::invalid_argument(
-            fmt::format("{}: lies more than {} mm from the origin", argument, farthest_place_mm));
-    return place_mm;
-}
 
 std::optional<Grip> grip_of(const std::string& hand) {
     if (hand == "prescribed") return std::nullopt;
@@ -66,11 +47,23 @@ void end_at_exit(const SharedSession& session) {
     py::module_::import("atexit").attr("register")(py::cpp_function(end));
 }
 
+/// A forked process has the session's memory and none of its threads: there it is let go as it is.
+void let_go(SteppedSession* session) {
+    if (session->is_of_this_process()) delete session;
+}
+
+SharedSession copy_of(const SharedSession& session) {
+    const ReleasedLock released;
+    const std::unique_lock<std::mutex> held = taken(session->busy());
+    return SharedSession(new SteppedSession(*session), let_go);
+}
+
 SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std::string& hand,
                            const std::optional<std::string>& coupling,
                            const std::optional<std::string>& force_model,
                            const std::optional<double>& milling_rate_hz, bool vibration,
                            const py::object& start_mm, const py::object& start_axis,
+                           const std::optional<ArmModel>& arm,
                            const std::optional<std::filesystem::path>& record) {
     if (record && record->empty()) throw std::invalid_argument("record: is empty; give a file, or None");
     if (record && record->extension() != ".pcap")
@@ -82,6 +75,7 @@ SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std:
                            .coupling = coupling.value_or(""),
                            .milling_rate_hz = milling_rate_hz,
                            .vibration = vibration,
+                           .arm = arm,
                            .record = record};
     if (force_model) options.force_model = *force_model;
     if (!start_mm.is_none() || !start_axis.is_none()) {
@@ -90,189 +84,12 @@ SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std:
         if (!start_axis.is_none())
             options.start->spindle_axis = unit(vector_of(start_axis, "start_axis"), "start_axis");
     }
-    // A forked process has the session's memory and none of its threads: there it is let go as it is.
-    const auto let_go = [](SteppedSession* session) {
-        if (session->is_of_this_process()) delete session;
-    };
     const SharedSession session = [&] {
         const ReleasedLock released;
         return SharedSession(new SteppedSession(loaded, std::move(options)), let_go);
     }();
     if (record) end_at_exit(session);
     return session;
-}
-
-constexpr std::uint64_t ticks_between_signals = 1000;
-constexpr auto most_ms = static_cast<std::int64_t>(1000.0 * longest_session_s);
-
-/// Python's signals, Ctrl-C among them, wait for the interpreter's lock.
-void raise_of_signal() {
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
-
-std::int32_t burr_number(const SteppedSession& session, const py::object& burr) {
-    if (burr.is_none()) return -1;
-    const std::vector<Burr>& burrs = session.loaded().settings().burrs;
-    if (py::isinstance<py::str>(burr)) {
-        const auto name = burr.cast<std::string>();
-        for (std::size_t i = 0; i < burrs.size(); ++i)
-            if (burrs[i].name == name) return static_cast<std::int32_t>(i);
-        throw std::invalid_argument(fmt::format("burr: \"{}\" is none of Case.burrs", name));
-    }
-    const auto number = burr.cast<std::int64_t>();
-    if (number < 0 || number >= static_cast<std::int64_t>(burrs.size()))
-        throw std::invalid_argument(fmt::format("burr: {} is none of the case's {}", number, burrs.size()));
-    return static_cast<std::int32_t>(number);
-}
-
-void require_prescribed(const SteppedSession& session, const char* what) {
-    if (session.has_simulated_hand())
-        throw std::invalid_argument(fmt::format(
-            "{}: the simulated hand goes its own way; make the session with hand=\"prescribed\"", what));
-}
-
-Tick step(const SharedSession& session, const py::object& hand_mm, const py::object& axis, bool pedal,
-          const py::object& burr, std::int64_t ms) {
-    if (ms < 1 || ms > most_ms)
-        throw std::invalid_argument(
-            fmt::format("ms: takes whole milliseconds from 1 to {}, not {}", most_ms, ms));
-    const std::unique_lock<std::mutex> held = taken(session->busy());
-    HandInput input{.pose = session->hand(),
-                    .pedal = pedal,
-                    .burr = burr_number(*session, burr),
-                    .ticks = static_cast<std::uint64_t>(ms)};
-    if (!hand_mm.is_none() || !axis.is_none() || pedal || input.burr >= 0)
-        require_prescribed(*session, "hand_mm, axis, pedal, burr");
-    if (!hand_mm.is_none()) input.pose.position_mm = place_of(hand_mm, "hand_mm");
-    if (!axis.is_none()) input.pose.spindle_axis = unit(vector_of(axis, "axis"), "axis");
-    for (std::uint64_t left = input.ticks; left > 0; left -= input.ticks) {
-        input.ticks = std::min(left, ticks_between_signals);
-        {
-            const ReleasedLock released;
-            session->step(input);
-        }
-        raise_of_signal();
-    }
-    return {session->state(), session->loaded()};
-}
-
-/// Rows of three, N of them. Throws std::invalid_argument for another shape and for what is not finite.
-void require_rows(const Doubles& rows, py::ssize_t n, const char* argument) {
-    if (rows.ndim() != 2 || rows.shape(0) != n || rows.shape(1) != 3)
-        throw std::invalid_argument(fmt::format("{}: takes an array ({}, 3), not {}", argument, n,
-                                                std::string(py::str(rows.attr("shape")))));
-    for (py::ssize_t i = 0; i < rows.size(); ++i)
-        if (!std::isfinite(rows.data()[i]))
-            throw std::invalid_argument(fmt::format("{}: row {} is not finite", argument, i / 3));
-}
-
-glm::dvec3 row(const Doubles& rows, py::ssize_t i) {
-    const double* at = rows.data() + 3 * i;
-    return {at[0], at[1], at[2]};
-}
-
-std::vector<HandInput> inputs_of(const SteppedSession& session, const Doubles& hands,
-                                 const std::optional<Doubles>& axes, const std::optional<Flags>& pedals,
-                                 std::int32_t burr) {
-    const py::ssize_t n = hands.ndim() > 0 ? hands.shape(0) : 0;
-    require_rows(hands, n, "hands");
-    const bool one_axis = axes && axes->ndim() == 1;
-    if (axes && !one_axis) require_rows(*axes, n, "axes");
-    if (pedals && pedals->ndim() != 0 && (pedals->ndim() != 1 || pedals->shape(0) != n))
-        throw std::invalid_argument(fmt::format("pedals: takes one flag, or an array ({},)", n));
-    HandInput input{.pose = session.hand(), .burr = burr};
-    if (one_axis) input.pose.spindle_axis = unit(vector_of(*axes, "axes"), "axes");
-    std::vector<HandInput> inputs(static_cast<std::size_t>(n), input);
-    for (py::ssize_t i = 0; i < n; ++i) {
-        HandInput& at = inputs[static_cast<std::size_t>(i)];
-        at.pose.position_mm = row(hands, i);
-        if (!is_place(at.pose.position_mm))
-            throw std::invalid_argument(
-                fmt::format("hands: row {} lies more than {} mm from the origin", i, farthest_place_mm));
-        if (axes && !one_axis) at.pose.spindle_axis = unit(row(*axes, i), "axes");
-        if (pedals) at.pedal = pedals->data()[pedals->ndim() == 0 ? 0 : i];
-    }
-    return inputs;
-}
-
-py::dict rollout(const SharedSession& session, const Doubles& hands, const std::optional<Doubles>& axes,
-                 const std::optional<Flags>& pedals, const py::object& burr) {
-    const std::unique_lock<std::mutex> held = taken(session->busy());
-    require_prescribed(*session, "rollout");
-    const std::vector<HandInput> inputs =
-        inputs_of(*session, hands, axes, pedals, burr_number(*session, burr));
-    TickColumns columns(session->loaded(), inputs.size());
-    for (std::span<const HandInput> left = inputs; !left.empty();) {
-        const auto now = left.first(std::min<std::size_t>(left.size(), ticks_between_signals));
-        {
-            const ReleasedLock released;
-            for (const HandInput& input : now) {
-                session->step(input);
-                columns.add(*session);
-            }
-        }
-        raise_of_signal();
-        left = left.subspan(now.size());
-    }
-    return dict_of(std::move(columns), session->loaded());
-}
-
-py::dict run(const SharedSession& session, std::int64_t ms) {
-    if (ms < 0 || ms > most_ms)
-        throw std::invalid_argument(
-            fmt::format("ms: takes whole milliseconds up to {}, not {}", most_ms, ms));
-    const std::unique_lock<std::mutex> held = taken(session->busy());
-    HandInput input{.pose = session->hand()};
-    TickColumns columns(session->loaded(), static_cast<std::size_t>(ms));
-    for (std::int64_t tick = 0; tick < ms && !session->is_finished();) {
-        {
-            const ReleasedLock released;
-            const std::int64_t until = std::min(ms, tick + static_cast<std::int64_t>(ticks_between_signals));
-            for (; tick < until && !session->is_finished(); ++tick) {
-                session->step(input);
-                columns.add(*session);
-            }
-        }
-        raise_of_signal();
-    }
-    return dict_of(std::move(columns), session->loaded());
-}
-
-py::bytes bytes_of(const FedMotion& motion) {
-    std::string bytes(motion.inputs.size() * sizeof(HandInput), '\0');
-    std::memcpy(bytes.data(), motion.inputs.data(), bytes.size());
-    return bytes;
-}
-
-FedMotion motion_of(const std::string& session, const std::string& bytes) {
-    if (bytes.size() % sizeof(HandInput) != 0)
-        throw std::invalid_argument("the bytes are no state of a session");
-    FedMotion motion{.session = session, .inputs = std::vector<HandInput>(bytes.size() / sizeof(HandInput))};
-    std::memcpy(static_cast<void*>(motion.inputs.data()), bytes.data(), bytes.size());
-    return motion;
-}
-
-std::uint64_t milliseconds_of(const FedMotion& motion) {
-    return std::accumulate(motion.inputs.begin(), motion.inputs.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const HandInput& one) { return sum + one.ticks; });
-}
-
-void bind_state(py::module_& module) {
-    py::class_<FedMotion>(module, "State", R"(A state of a session, to go back to: the motion that led there.
-
-A session is a pure function of its case, its settings and its hand, so its motion is its state. 80 bytes a millisecond that
-differs from the one before; no bone. It can be pickled and sent to other processes.)")
-        .def_property_readonly("ticks", &milliseconds_of,
-                               "Milliseconds since the session began: load_state computes so many again.")
-        .def("__repr__",
-             [](const FedMotion& motion) {
-                 return fmt::format("<State after {} ms>", milliseconds_of(motion));
-             })
-        .def(py::pickle(
-            [](const FedMotion& motion) { return py::make_tuple(motion.session, bytes_of(motion)); },
-            [](const py::tuple& kept) {
-                return motion_of(kept[0].cast<std::string>(), kept[1].cast<std::string>());
-            }));
 }
 
 std::string text_of(const SharedSession& session) {
@@ -304,6 +121,8 @@ std::string html_of(const SharedSession& session) {
 }  // namespace
 
 void bind_session(py::module_& module) {
+    module.def("_step_together", &step_together, py::arg("sessions"), py::arg("hands"), py::arg("axes"),
+               py::arg("pedals"), py::arg("threads"), "What osteomill.VectorEnv moves its sessions by.");
     bind_tick(module);
     bind_state(module);
     py::class_<SteppedSession, SharedSession>(module, "Session",
@@ -319,12 +138,13 @@ hold again once it is clear of bone.)")
              py::arg("hand") = "prescribed", py::arg("coupling") = py::none(),
              py::arg("force_model") = py::none(), py::arg("milling_rate_hz") = py::none(),
              py::arg("vibration") = false, py::arg("start_mm") = py::none(),
-             py::arg("start_axis") = py::none(), py::arg("record") = py::none(),
+             py::arg("start_axis") = py::none(), py::arg("arm") = py::none(), py::arg("record") = py::none(),
              R"(Makes a session of a case.
 
 hand: "prescribed" (its pose is what step and rollout say), or "light" or "firm": a simulated hand of that grip holds a simulated
 arm and follows the case's trajectory. coupling, force_model, milling_rate_hz, vibration: as the options of haptic_server; None:
-what is usual. start_mm (3,), start_axis (3,): where the tool starts, patient LPS, instead of the case's. record: a file (.pcap)
+what is usual. start_mm (3,), start_axis (3,): where the tool starts, patient LPS, instead of the case's. arm: an Arm of
+one's own; None: the usual one, of up to 3.3 N. record: a file (.pcap)
 to record the session into; it is whole once the session is closed.
 ValueError, RuntimeError: in one line, what is wrong and what would be right.)")
         .def("step", &step, py::kw_only(), py::arg("hand_mm") = py::none(), py::arg("axis") = py::none(),
@@ -380,6 +200,15 @@ A prescribed hand stays where it is, with the pedal up.)")
             "long as they took. Ctrl-C leaves the session as it was. BadInput: the state is of another case "
             "or of "
             "other settings, or the session is recorded.")
+        .def("copy", &copy_of,
+             R"(Another session that goes on from here: with the same motion the same to the bit.
+
+It costs what was touched of the bone, and the motion so far, not the time that led here; neither disturbs the other, and each may
+go to a thread of its own. A copy of a session that is recorded is not. Fault: the session is closed.)")
+        .def("__copy__", &copy_of)
+        .def(
+            "__deepcopy__", [](const SharedSession& session, const py::dict&) { return copy_of(session); },
+            py::arg("memo"))
         .def_property_readonly(
             "bone", [](const SharedSession& session) { return BoneView(session); },
             "The bone as it is whenever it is asked.")
@@ -405,14 +234,6 @@ A prescribed hand stays where it is, with the pedal up.)")
                 session->end();
             },
             "Ends the session; its recording is whole then. RuntimeError: that could not be written.")
-        .def(
-            "_show_into",
-            [](const SharedSession& session, const std::filesystem::path& file) {
-                const std::unique_lock<std::mutex> held = taken(session->busy());
-                const ReleasedLock released;
-                session->show_into(file);
-            },
-            py::arg("file"), "Writes what there is to see now as a recording of one state.")
         .def("__repr__", &text_of)
         .def("_repr_html_", &html_of)
         .def("__enter__", [](const SharedSession& session) { return session; })

@@ -4,20 +4,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "common/text/plain_text.h"
-#include "common/wire/bone_replica.h"
-#include "common/wire/scene_messages.h"
-#include "common/wire/structure_messages.h"
 #include "haptic_server/session/device_table.h"
 #include "haptic_server/session/session_defaults.h"
 #include "haptic_server/session/session_settings.h"
-#include "haptic_server/streaming/live_session.h"
-#include "haptic_server/streaming/session_recorder.h"
-#include "imaging/case/structures.h"
+#include "simulation/loop/spindle_torque.h"
 
 namespace osteomill::python {
 
@@ -25,6 +21,10 @@ namespace {
 
 /// Computed without a look at whether somebody wants it to stop.
 constexpr std::uint64_t ticks_at_once = 1000;
+
+double power_w(double torque_n_mm, const Burr& burr) {
+    return 1e-3 * torque_n_mm * 2.0 * std::numbers::pi * burr.spindle_rev_per_s;
+}
 
 MillingSessionOptions milling_options(const SteppedOptions& options) {
     MillingSessionOptions milling{.clock = ClockKind::virtual_time,
@@ -51,6 +51,19 @@ std::string origin_of(const std::map<std::string, std::string>& settings, const 
     return text + scene_toml;
 }
 
+/// A prescribed hand is read as it is.
+DeviceLimits limits_without_encoder(ArmModel arm) {
+    arm.resolution_mm = 0.0;
+    return limits_of(arm);
+}
+
+/// What an arm's limits do not tell.
+std::string line_of(const std::optional<ArmModel>& arm) {
+    if (!arm) return "";
+    return fmt::format("arm = {} kg, {} N of friction, {} N s/mm, {} mm, {} ms late\n", arm->mass_kg,
+                       arm->coulomb_friction_n, arm->damping_n_s_per_mm, arm->resolution_mm, arm->delay_ms);
+}
+
 /// The first line in which two origins differ.
 std::string first_difference(const std::string& of_state, const std::string& of_session) {
     std::istringstream theirs(of_state);
@@ -74,6 +87,28 @@ SteppedSession::SteppedSession(std::shared_ptr<const LoadedCase> loaded, Stepped
     begin();
 }
 
+SteppedSession::SteppedSession(const SteppedSession& other)
+    : loaded_(other.loaded_), options_(other.options_), origin_(other.origin_) {
+    if (other.has_ended_) throw std::logic_error("the session has ended; make another");
+    options_.record.reset();
+    const Run& from = other.run_;
+    DeviceParts parts;
+    if (from.prescribed != nullptr) {
+        auto prescribed = std::make_unique<PrescribedDevice>(*from.prescribed);
+        run_.prescribed = prescribed.get();
+        parts.device = std::move(prescribed);
+    } else {
+        auto simulated = std::make_unique<SimulatedDevice>(*from.simulated);
+        run_.simulated = parts.simulated = simulated.get();
+        parts.device = std::move(simulated);
+    }
+    run_.assembly = std::make_unique<SessionAssembly>(*from.assembly, std::move(parts));
+    run_.tool = from.tool;
+    run_.burr_before_mm = from.burr_before_mm;
+    run_.hand = from.hand;
+    run_.fed = from.fed;
+}
+
 SteppedSession::~SteppedSession() {
     try {
         end();
@@ -88,10 +123,12 @@ void SteppedSession::begin() {
     run_.hand = scene.scene.start_pose;
     DeviceParts parts;
     if (options_.grip) {
-        parts = simulated_hand(scene.scene, *options_.grip);
+        parts = simulated_hand(scene.scene, *options_.grip, options_.arm.value_or(ArmModel{}));
         run_.simulated = parts.simulated;
     } else {
-        auto prescribed = std::make_unique<PrescribedDevice>(run_.hand, scene.scene.device);
+        auto prescribed = std::make_unique<PrescribedDevice>(
+            run_.hand, scene.scene.device,
+            options_.arm ? limits_without_encoder(*options_.arm) : DeviceLimits{});
         run_.prescribed = prescribed.get();
         parts.device = std::move(prescribed);
     }
@@ -103,7 +140,7 @@ void SteppedSession::begin() {
                                                      .arm = parts.device->limits()},
                                                     OSTEOMILL_VERSION));
     const std::string scene_toml = effective_scene_text(scene.scene);
-    origin_ = origin_of(settings, scene_toml, loaded_->name());
+    origin_ = origin_of(settings, scene_toml, loaded_->name()) + line_of(options_.arm);
     if (options_.record) {
         session.shown.emplace();
         session.shown->streaming.listens = false;
@@ -120,6 +157,7 @@ void SteppedSession::begin() {
     run_.assembly->start();
     run_.assembly->advance(1);
     run_.tool = run_.assembly->session().newest_state();
+    run_.burr_before_mm = run_.tool.burr_position_mm;
     run_.fed.clear();
 }
 
@@ -130,7 +168,9 @@ void SteppedSession::make_ticks(const HandInput& input) {
         run_.prescribed->press(input.pedal);
         if (input.burr >= 0) run_.prescribed->take_burr(static_cast<std::size_t>(input.burr));
     }
-    run_.assembly->advance(input.ticks);
+    if (input.ticks > 1) run_.assembly->advance(input.ticks - 1);
+    run_.burr_before_mm = run_.assembly->session().newest_state().burr_position_mm;
+    run_.assembly->advance(1);
     run_.tool = run_.assembly->session().newest_state();
 }
 
@@ -146,10 +186,20 @@ void SteppedSession::step(const HandInput& input) {
 TickState SteppedSession::state() const {
     TickState state{
         .tool = run_.tool, .milling_force_n = milling_force_n(), .removed_in_all_mm3 = removed_in_all_mm3()};
+    state.spindle_torque_n_mm = spindle_torque_n_mm();
+    state.spindle_power_w = power_w(state.spindle_torque_n_mm, loaded_->settings().burrs[run_.tool.burr]);
     state.removed_mm3.reserve(loaded_->labels().size());
     for (const LoadedCase::NamedLabel& one : loaded_->labels())
         state.removed_mm3.push_back(removed_mm3(one.label));
     return state;
+}
+
+double SteppedSession::spindle_torque_n_mm() const {
+    if (!run_.tool.spindle_on) return 0.0;
+    const glm::dvec3 feed_mm_per_s =
+        (run_.tool.burr_position_mm - run_.burr_before_mm) / MillingSession::tick_s;
+    return osteomill::spindle_torque_n_mm(run_.assembly->session().known_result(),
+                                          loaded_->felt_burrs()[run_.tool.burr], feed_mm_per_s);
 }
 
 double SteppedSession::removed_in_all_mm3() const {
@@ -192,20 +242,8 @@ void SteppedSession::replay(const FedMotion& motion, const Pace& pace) {
     }
 }
 
-void SteppedSession::show_into(const std::filesystem::path& file) const {
-    const SessionScene& scene = loaded_->scene();
-    SessionInfo info =
-        session_info(scene.scene, false, run_.assembly->device().limits().max_force_n, OSTEOMILL_VERSION);
-    info.case_name = loaded_->name();
-    const BoneReplica mirror(bone());
-    const std::vector<v2::StructureBricks> pieces =
-        structure_pieces(structures_outside_bone_labels(scene.structures, scene.scene, bone()));
-    SessionRecorder recorder({.file = file, .began = std::chrono::system_clock::now()}, to_message(info),
-                             mirror, pieces);
-    recorder.record({.tool = run_.tool}, true);
-    recorder.finish({.tool = run_.tool}, "the moment is over");
-    if (const RecordingReport report = recorder.report(); !report.error.empty())
-        throw std::runtime_error(report.error);
+double SteppedSession::max_force_n() const {
+    return run_.assembly->device().limits().max_force_n;
 }
 
 void SteppedSession::end() {

@@ -34,6 +34,7 @@ struct SteppedOptions {
     std::optional<double> milling_rate_hz{};  ///< nothing: the usual one
     bool vibration = false;
     std::optional<ToolPose> start{};  ///< in place of the scene's
+    std::optional<ArmModel> arm{};    ///< nothing: the simulated hand's usual one, or an ideal one
     std::optional<std::filesystem::path> record{};
 };
 
@@ -56,6 +57,8 @@ struct TickState {
         0.0};  ///< of the bone on the burr, mean over the newest milling step, as the tick knew it
     std::vector<double> removed_mm3{};  ///< so far, by LoadedCase::labels()
     double removed_in_all_mm3 = 0.0;
+    double spindle_torque_n_mm = 0.0;  ///< that the cut takes (spindle_torque.h), in the tick's ms
+    double spindle_power_w = 0.0;
 };
 
 /// What was fed to a session since it began.
@@ -69,7 +72,9 @@ class SteppedSession {
     /// Throws std::invalid_argument or std::runtime_error in one line for what a part refuses.
     SteppedSession(std::shared_ptr<const LoadedCase> loaded, SteppedOptions options);
     ~SteppedSession();
-    SteppedSession(const SteppedSession&) = delete;
+    /// Goes on where `other` is, to the bit; it is not recorded. The caller holds other's `busy`. Throws
+    /// std::logic_error where that has ended.
+    SteppedSession(const SteppedSession& other);
     SteppedSession& operator=(const SteppedSession&) = delete;
 
     // One thread at a time: the caller of these holds `busy`.
@@ -89,6 +94,8 @@ class SteppedSession {
     TickState state() const;
     const ToolState& tool() const { return run_.tool; }
     const glm::dvec3& milling_force_n() const { return run_.assembly->session().known_result().force_n; }
+    /// That the cut takes, in the last tick's ms; 0 while the spindle stands.
+    double spindle_torque_n_mm() const;
     /// So far, of one tissue, and of all that the bone had.
     double removed_mm3(std::size_t label) const { return run_.assembly->session().removed_mm3(label); }
     double removed_in_all_mm3() const;
@@ -104,6 +111,8 @@ class SteppedSession {
     const LoadedCase& loaded() const { return *loaded_; }
     std::shared_ptr<const LoadedCase> shared_case() const { return loaded_; }
     const Bone& bone() const { return run_.assembly->session().bone(); }
+    /// Of the arm.
+    double max_force_n() const;
     const MillingSessionOptions& settings() const { return run_.assembly->options(); }
 
     FedMotion fed() const { return {.session = origin_, .inputs = run_.fed}; }
@@ -112,8 +121,6 @@ class SteppedSession {
     /// of another case or other settings, and for a session that is recorded.
     using Pace = std::function<void(const std::function<void()>& compute)>;
     void replay(const FedMotion& motion, const Pace& pace);
-    /// Writes a recording of what there is to see now: the bone as it is, and one state.
-    void show_into(const std::filesystem::path& file) const;
 
     /// Ends it; a recording is whole then. Throws std::runtime_error where that could not be written.
     void end();
@@ -132,6 +139,7 @@ class SteppedSession {
         const SimulatedDevice* simulated = nullptr;  // likewise
         std::unique_ptr<SessionAssembly> assembly{};
         ToolState tool{};
+        glm::dvec3 burr_before_mm{0.0};  // a tick before `tool`
         ToolPose hand{};
         std::vector<HandInput> fed{};
     };

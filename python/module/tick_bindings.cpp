@@ -49,11 +49,12 @@ py::tuple said(const Tick& tick) {
         row(tick.state.milling_force_n), tool.depth_mm.value_or(0.0), tool.spindle_on, tool.burr,
         tool.peak_force_n.value_or(0.0), tool.touches_protected, std::string(tool.fault.text()),
         std::string(tool.notice.text()), tick.state.removed_in_all_mm3, tick.state.removed_mm3,
-        tick.distance_mm, tick.names->tissues, tick.names->structures);
+        tick.distance_mm, tick.names->tissues, tick.names->structures, tick.state.spindle_torque_n_mm,
+        tick.state.spindle_power_w);
 }
 
 Tick tick_that_said(const py::tuple& said) {
-    if (said.size() != 19) throw std::invalid_argument("this is no Step of this version");
+    if (said.size() != 21) throw std::invalid_argument("this is no Step of this version");
     Tick tick;
     tick.state.tool = {.time_s = said[0].cast<double>(),
                        .burr_position_mm = vector_in(said[2]),
@@ -70,6 +71,8 @@ Tick tick_that_said(const py::tuple& said) {
                        .peak_force_n = said[10].cast<double>()};
     tick.state.milling_force_n = vector_in(said[6]);
     tick.state.removed_in_all_mm3 = said[14].cast<double>();
+    tick.state.spindle_torque_n_mm = said[19].cast<double>();
+    tick.state.spindle_power_w = said[20].cast<double>();
     tick.state.removed_mm3 = said[15].cast<std::vector<double>>();
     tick.distance_mm = said[16].cast<std::vector<double>>();
     tick.names = std::make_shared<const StepNames>(
@@ -130,6 +133,14 @@ void bind_tick(py::module_& module) {
             "than 3 mm, or twice the distance of its warning.")
         .def_property_readonly("spindle_on", [](const Tick& tick) { return tick.state.tool.spindle_on; })
         .def_property_readonly(
+            "spindle_torque_nmm", [](const Tick& tick) { return tick.state.spindle_torque_n_mm; },
+            "Torque that the cut of the tick's millisecond takes from the spindle, from the bone about the "
+            "burr: N mm; "
+            "0 while it stands, and of force models that do not cut.")
+        .def_property_readonly(
+            "spindle_power_w", [](const Tick& tick) { return tick.state.spindle_power_w; },
+            "Of that torque at the burr's speed, W.")
+        .def_property_readonly(
             "burr", [](const Tick& tick) { return tick.state.tool.burr; }, "Number in Case.burrs.")
         .def_property_readonly(
             "peak_force_n", [](const Tick& tick) { return tick.state.tool.peak_force_n.value_or(0.0); },
@@ -169,6 +180,7 @@ py::dict dict_of(TickColumns&& columns, const LoadedCase& loaded) {
     vectors("torque_nmm", columns.torque_nmm);
     vectors("milling_force_n", columns.milling_force_n);
     all["depth_mm"] = array_of(std::move(columns.depth_mm), {n});
+    all["spindle_torque_nmm"] = array_of(std::move(columns.spindle_torque_nmm), {n});
     all["spindle_on"] = array_of(std::move(columns.spindle_on), {n}).attr("view")("bool");
     all["fault"] = array_of(std::move(columns.fault), {n});
     py::dict removed;

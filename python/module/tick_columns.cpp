@@ -11,7 +11,8 @@ TickColumns::TickColumns(const LoadedCase& loaded, std::size_t ticks)
     : removed_mm3(loaded.labels().size()), distance_mm(loaded.structures().size()), loaded_(loaded) {
     for (std::vector<double>* column : {&hand_mm, &burr_mm, &axis, &force_n, &torque_nmm, &milling_force_n})
         column->reserve(3 * ticks);
-    for (std::vector<double>* column : {&time_s, &depth_mm, &removed_in_all_mm3}) column->reserve(ticks);
+    for (std::vector<double>* column : {&time_s, &depth_mm, &spindle_torque_nmm, &removed_in_all_mm3})
+        column->reserve(ticks);
     for (std::vector<std::uint8_t>* column : {&spindle_on, &fault}) column->reserve(ticks);
     for (std::vector<double>& column : removed_mm3) column.reserve(ticks);
     for (std::vector<double>& column : distance_mm) column.reserve(ticks);
@@ -27,6 +28,7 @@ void TickColumns::add(const SteppedSession& session) {
     push(torque_nmm, tool.shank_torque_n_mm.value_or(glm::dvec3(0.0)));
     push(milling_force_n, session.milling_force_n());
     depth_mm.push_back(tool.depth_mm.value_or(0.0));
+    spindle_torque_nmm.push_back(session.spindle_torque_n_mm());
     spindle_on.push_back(tool.spindle_on ? 1 : 0);
     fault.push_back(fault_number(tool));
     removed_in_all_mm3.push_back(session.removed_in_all_mm3());

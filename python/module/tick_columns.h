@@ -20,7 +20,7 @@ class TickColumns {
     std::vector<double> time_s;
     // Three values a tick.
     std::vector<double> hand_mm, burr_mm, axis, force_n, torque_nmm, milling_force_n;
-    std::vector<double> depth_mm;
+    std::vector<double> depth_mm, spindle_torque_nmm;
     std::vector<std::uint8_t> spindle_on, fault;
     std::vector<double> removed_in_all_mm3;
     std::vector<std::vector<double>> removed_mm3;  ///< by LoadedCase::labels()

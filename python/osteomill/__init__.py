@@ -6,6 +6,7 @@ Units are mm, s, N, N mm; positions are in patient LPS (x to the patient's left,
 try:
     from osteomill._core import (
         FAULTS,
+        Arm,
         BadInput,
         Bone,
         Burr,
@@ -27,13 +28,15 @@ except ModuleNotFoundError as error:
         "cmake --preset release && cmake --build --preset release --target osteomill_python builds it for /usr/bin/python3",
         name=error.name) from None
 from osteomill.env import Env
-from osteomill.render import Rendering, render
+from osteomill.render import Rendering, View, render
 from osteomill.repeat_recording import Repeated, repeat
 from osteomill.spaces import Box
 from osteomill.sweep import sweep
+from osteomill.vector_env import VectorEnv
 
 __all__ = [
     "FAULTS",
+    "Arm",
     "BadInput",
     "Bone",
     "Box",
@@ -48,6 +51,8 @@ __all__ = [
     "Session",
     "State",
     "Step",
+    "VectorEnv",
+    "View",
     "__version__",
     "reference_force",
     "render",

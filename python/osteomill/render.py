@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-import pathlib
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +16,8 @@ if TYPE_CHECKING:
     from osteomill import _render
 
 _Path = str | os.PathLike[str]
+KINDS = ("colour", "depth", "labels", "normals")
+"""Of images, that are drawn unless others are named."""
 
 
 class Rendering(Iterator[dict[str, Any]]):
@@ -28,9 +29,8 @@ class Rendering(Iterator[dict[str, Any]]):
     instant. Any thread may ask for the next frame.
     """
 
-    def __init__(self, rendering: _render.Rendering, most: int | None = None) -> None:
+    def __init__(self, rendering: _render.Rendering | _OneFrame) -> None:
         self._rendering = rendering
-        self._left = most
 
     @property
     def cameras(self) -> dict[str, np.ndarray[Any, Any] | None]:
@@ -44,19 +44,67 @@ class Rendering(Iterator[dict[str, Any]]):
 
     def __next__(self) -> dict[str, Any]:
         _require_own_drawing()
-        frame = self._rendering.next() if self._left != 0 else None
+        frame = self._rendering.next()
         if frame is None:
             raise StopIteration
-        if self._left is not None:
-            self._left -= 1
-        for name in ("hand_mm", "force_n"):
-            frame[name] = _array(frame[name])
-        frame["tool"]["pose"] = _array(frame["tool"]["pose"])
-        for view in frame["images"]:
-            for name in {"pose", "intrinsics"} & view.keys():
-                view[name] = _array(view[name])
-        frame["images"] = {view.pop("camera"): view for view in frame["images"]}
-        return frame
+        return _with_arrays(frame)
+
+
+class View:
+    """Cameras that look at sessions while these go on, in this process: what osteomill.render draws once, again and again, quickly.
+
+    session: the first to be looked at; cameras, images, randomise as osteomill.render. A camera without a place has the first
+    view of that session. `draw` takes that session, its copies, and others of the same case, in any order; what has changed of
+    the bone since the last picture is all that is taken over. Any thread may draw. Errors as osteomill.render.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        cameras: _Path | Sequence[Mapping[str, Any]] | None = None,
+        *,
+        images: Sequence[str] = KINDS,
+        randomise: int | None = None,
+    ) -> None:
+        named, text = ("", "") if cameras is None else _cameras(cameras)
+        self._view: _render.View = _drawing().View(session, named, text, list(images), randomise)
+
+    @property
+    def cameras(self) -> dict[str, np.ndarray[Any, Any] | None]:
+        """As Rendering.cameras."""
+        return {camera["name"]: _array(camera["intrinsics"]) for camera in self._view.cameras}
+
+    @property
+    def session(self) -> dict[str, Any]:
+        """The scene and the table of labels, as one of Rendering.sessions."""
+        return self._view.session
+
+    def draw(self, session: Session) -> dict[str, Any]:
+        """The frame of a session as it is now: to the bit that of its recording. BadInput: it is of another bone."""
+        _require_own_drawing()
+        return _with_arrays(self._view.draw(session))
+
+
+class _OneFrame:
+    """A frame in the form of a rendering."""
+
+    def __init__(self, view: _render.View, frame: dict[str, Any]) -> None:
+        self.cameras, self.sessions = view.cameras, [view.session]
+        self._frames = iter([frame])
+
+    def next(self) -> dict[str, Any] | None:
+        return next(self._frames, None)
+
+
+def _with_arrays(frame: dict[str, Any]) -> dict[str, Any]:
+    for name in ("hand_mm", "force_n"):
+        frame[name] = _array(frame[name])
+    frame["tool"]["pose"] = _array(frame["tool"]["pose"])
+    for view in frame["images"]:
+        for name in {"pose", "intrinsics"} & view.keys():
+            view[name] = _array(view[name])
+    frame["images"] = {view.pop("camera"): view for view in frame["images"]}
+    return frame
 
 
 _drawing_process: int | None = None
@@ -72,13 +120,22 @@ def _require_own_drawing() -> None:
                     "\"forkserver\", or draw here first")
 
 
+def _drawing() -> ModuleType:
+    _require_own_drawing()
+    try:
+        from osteomill import _render
+    except ImportError as error:
+        raise Fault(f"osteomill.render: {error}; install libepoxy0, libegl1 and libgl1-mesa-dri") from None
+    return _render
+
+
 def render(
     case_or_recording: Case | Recording | Session | _Path,
     cameras: _Path | Sequence[Mapping[str, Any]] | None = None,
     *,
     fps: float | None = None,
     from_s: float = 0.0,
-    images: Sequence[str] = ("colour", "depth", "labels", "normals"),
+    images: Sequence[str] = KINDS,
     randomise: int | None = None,
 ) -> Rendering:
     """Draw frames of a recording, or the one of a session as it is now or of a case before anything is milled, without a display.
@@ -96,29 +153,14 @@ def render(
     Raises BadInput for cameras and images that cannot be, Fault for a recording that cannot be read, where there is no
     OpenGL 3.3, and in a process that was forked from one that has drawn.
     """
-    _require_own_drawing()
-    try:
-        from osteomill import _render
-    except ImportError as error:
-        raise Fault(f"osteomill.render: {error}; install libepoxy0, libegl1 and libgl1-mesa-dri") from None
-
+    drawing = _drawing()
     named, text = ("", "") if cameras is None else _cameras(cameras)
-
-    def begin(recording: _Path) -> _render.Rendering:
-        return _render.Rendering(recording, named, text, fps, from_s, list(images), randomise)
-
-    if isinstance(case_or_recording, Recording):
-        return Rendering(begin(case_or_recording.file))
-    if not isinstance(case_or_recording, Case | Session):
-        return Rendering(begin(case_or_recording))
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "start.pcap"
-        if isinstance(case_or_recording, Session):
-            case_or_recording._show_into(file)
-        else:
-            with Session(case_or_recording, record=file) as session:
-                session.step()
-        return Rendering(begin(file), most=1)
+    if isinstance(case_or_recording, Case | Session):
+        session = case_or_recording if isinstance(case_or_recording, Session) else Session(case_or_recording)
+        view = drawing.View(session, named, text, list(images), randomise)
+        return Rendering(_OneFrame(view, view.draw(session)))
+    file = case_or_recording.file if isinstance(case_or_recording, Recording) else case_or_recording
+    return Rendering(drawing.Rendering(file, named, text, fps, from_s, list(images), randomise))
 
 
 def _cameras(cameras: _Path | Sequence[Mapping[str, Any]]) -> tuple[str, str]:

@@ -15,6 +15,7 @@
 #include "python/module/arrays.h"
 #include "python/module/exceptions.h"
 #include "python/module/released_lock.h"
+#include "python/render/live_view.h"
 #include "python/render/rendering.h"
 #include "render_client/dataset/dataset_index.h"
 #include "render_client/dataset/image_files.h"
@@ -46,6 +47,14 @@ py::object from_json(const Json& json) {
         json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
+DatasetContents contents_of(const std::string& cameras, const std::string& cameras_text,
+                            const std::vector<std::string>& images, std::optional<std::uint64_t> randomise) {
+    return {.cameras = cameras_text.empty() ? cameras_named(cameras)
+                                            : parse_cameras(cameras_text, "cameras", std::filesystem::path()),
+            .images = images_named(images),
+            .randomise = randomise};
+}
+
 std::unique_ptr<Rendering> begin(std::filesystem::path recording, const std::string& cameras,
                                  const std::string& cameras_text, std::optional<double> fps, double from_s,
                                  const std::vector<std::string>& images,
@@ -56,20 +65,29 @@ std::unique_ptr<Rendering> begin(std::filesystem::path recording, const std::str
         throw std::invalid_argument(fmt::format("from_s: takes seconds from 0 on, not {}", from_s));
     const ReleasedLock released;
     try {
-        DatasetContents contents{
-            .cameras = cameras_text.empty() ? cameras_named(cameras)
-                                            : parse_cameras(cameras_text, "cameras", std::filesystem::path()),
-            .from_s = from_s,
-            .frames_per_s = fps,
-            .images = images_named(images),
-            .randomise = randomise};
+        DatasetContents contents = contents_of(cameras, cameras_text, images, randomise);
+        contents.from_s = from_s;
+        contents.frames_per_s = fps;
         return std::make_unique<Rendering>(std::move(recording), std::move(contents));
     } catch (const SceneError& wrong) {
         throw std::invalid_argument(wrong.what());
     }
 }
 
-/// Instant, views and arrays; None at the end.
+/// Instant, views and arrays.
+py::dict dict_of(Rendering::Frame&& frame, const DatasetImages& images) {
+    py::list views;
+    for (std::size_t i = 0; i < frame.views.size(); ++i) {
+        const py::dict view = from_json(frame.views[i]);
+        view.attr("update")(arrays_of(std::move(frame.drawn.images[i]), images));
+        views.append(view);
+    }
+    py::dict instant = from_json(frame.instant);
+    instant["images"] = views;
+    return instant;
+}
+
+/// The next frame; None at the end.
 py::object next(Rendering& rendering) {
     std::optional<Rendering::Frame> frame;
     {
@@ -81,28 +99,45 @@ py::object next(Rendering& rendering) {
     }
     if (PyErr_Occurred() != nullptr) throw py::error_already_set();
     if (!frame) return py::none();
-    py::list views;
-    for (std::size_t i = 0; i < frame->views.size(); ++i) {
-        const py::dict view = from_json(frame->views[i]);
-        view.attr("update")(arrays_of(std::move(frame->drawn.images[i]), rendering.images()));
-        views.append(view);
-    }
-    const py::dict instant = from_json(frame->instant);
-    instant["images"] = views;
-    return instant;
+    return dict_of(*std::move(frame), rendering.images());
 }
 
-py::object cameras(const Rendering& rendering) {
+std::unique_ptr<LiveView> make_view(const std::shared_ptr<SteppedSession>& session,
+                                    const std::string& cameras, const std::string& cameras_text,
+                                    const std::vector<std::string>& images,
+                                    std::optional<std::uint64_t> randomise) {
+    const ReleasedLock released;
+    const std::unique_lock<std::mutex> held = taken(session->busy());
+    try {
+        return std::make_unique<LiveView>(*session, contents_of(cameras, cameras_text, images, randomise));
+    } catch (const SceneError& wrong) {
+        throw std::invalid_argument(wrong.what());
+    }
+}
+
+py::object draw(LiveView& view, const std::shared_ptr<SteppedSession>& session) {
+    std::optional<Rendering::Frame> frame;
+    {
+        const ReleasedLock released;
+        const std::unique_lock<std::mutex> held = taken(session->busy());
+        frame = view.draw(*session);
+    }
+    return dict_of(*std::move(frame), view.images());
+}
+
+template <typename Drawing>
+py::object cameras(const Drawing& drawing) {
     Json all = Json::array();
-    for (const DatasetCamera& camera : rendering.cameras()) all.push_back(json_of(camera));
+    for (const DatasetCamera& camera : drawing.cameras()) all.push_back(json_of(camera));
     return from_json(all);
 }
 
 /// Waits for whoever draws; the interpreter does not.
 struct Unhurried {
-    void operator()(Rendering* rendering) const {
+    template <typename Drawing>
+    void operator()(Drawing* drawing) const {
         const ReleasedLock released;
-        delete rendering;
+        delete drawing;
     }
 };
 
@@ -126,7 +161,18 @@ PYBIND11_MODULE(_render, module) {
              py::arg("recording"), py::arg("cameras"), py::arg("cameras_text"), py::arg("fps"),
              py::arg("from_s"), py::arg("images"), py::arg("randomise"))
         .def("next", &next)
-        .def_property_readonly("cameras", &cameras)
+        .def_property_readonly("cameras", &cameras<Rendering>)
         .def_property_readonly("sessions",
                                [](Rendering& rendering) { return from_json(rendering.sessions()); });
+    py::class_<LiveView, std::unique_ptr<LiveView, Unhurried>>(module, "View")
+        .def(py::init([](const std::shared_ptr<SteppedSession>& session, const std::string& named,
+                         const std::string& text, const std::vector<std::string>& images,
+                         std::optional<std::uint64_t> randomise) {
+                 return make_view(session, named, text, images, randomise).release();
+             }),
+             py::arg("session"), py::arg("cameras"), py::arg("cameras_text"), py::arg("images"),
+             py::arg("randomise"))
+        .def("draw", &draw, py::arg("session"))
+        .def_property_readonly("cameras", &cameras<LiveView>)
+        .def_property_readonly("session", [](const LiveView& view) { return from_json(view.session()); });
 }

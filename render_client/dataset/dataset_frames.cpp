@@ -9,7 +9,7 @@
 namespace osteomill {
 
 DatasetFrames::DatasetFrames(std::filesystem::path recording, DatasetContents contents,
-                             std::function<void(const Playhead&)> on_session)
+                             std::function<void(const DrawnSession&)> on_session)
     : contents_(std::move(contents)), on_session_(std::move(on_session)), playhead_(recording) {
     require_view(
         contents_.cameras, [&] { return outline_of(recording).has_view; }, recording);
@@ -24,15 +24,19 @@ std::optional<DatasetFrame> DatasetFrames::next(const std::function<bool()>& sto
         if (step != Playhead::Step::state || has_more_of_this_instant() || !is_due()) continue;
         const std::size_t number = count_++;
         images_->follow();
-        if (contents_.part.has(number)) return draw(number);
+        if (contents_.part.has(number)) {
+            DatasetFrame frame = draw_frame(*images_, contents_, number, drawn_);
+            frame.session = sessions_ - 1;
+            return frame;
+        }
     }
     return std::nullopt;
 }
 
 void DatasetFrames::begin_session() {
-    images_.emplace(playhead_, contents_.cameras, contents_.look, contents_.limits);
+    images_.emplace(drawn_, contents_.cameras, contents_.look, contents_.limits);
     ++sessions_;
-    on_session_(playhead_);
+    on_session_(drawn_);
 }
 
 /// The changes of one instant may come in several states.
@@ -51,18 +55,19 @@ bool DatasetFrames::is_due() {
     return period > std::exchange(period_, std::max(period_, period));
 }
 
-DatasetFrame DatasetFrames::draw(std::size_t number) {
-    const DatasetImages& wanted = contents_.images;
-    const bool is_randomised = contents_.randomise.has_value();
-    DatasetFrame frame{.number = number, .session = sessions_ - 1};
-    for (std::size_t i = 0; i < contents_.cameras.size(); ++i) {
-        CameraImages images = images_->draw(i, wanted.colour, is_randomised || wanted.has_surface());
+DatasetFrame draw_frame(SessionImages& images, const DatasetContents& contents, std::size_t number,
+                        const DrawnSession& session) {
+    const DatasetImages& wanted = contents.images;
+    const bool is_randomised = contents.randomise.has_value();
+    DatasetFrame frame{.number = number};
+    for (std::size_t i = 0; i < contents.cameras.size(); ++i) {
+        CameraImages drawn = images.draw(i, wanted.colour, is_randomised || wanted.has_surface());
         if (is_randomised && wanted.colour) {
-            frame.looks.push_back(random_look(*contents_.randomise, number, i,
-                                              label_table(playhead_.session().tissues).size()));
-            images.colour = looked_at(images, images.pinhole, frame.looks.back());
+            frame.looks.push_back(
+                random_look(*contents.randomise, number, i, label_table(session.session().tissues).size()));
+            drawn.colour = looked_at(drawn, drawn.pinhole, frame.looks.back());
         }
-        frame.images.push_back(std::move(images));
+        frame.images.push_back(std::move(drawn));
     }
     return frame;
 }

@@ -13,6 +13,7 @@
 
 #include "common/recording/playhead.h"
 #include "render_client/dataset/dataset_contents.h"
+#include "render_client/dataset/drawn_session.h"
 #include "render_client/dataset/random_look.h"
 #include "render_client/dataset/session_images.h"
 
@@ -25,6 +26,10 @@ struct DatasetFrame {
     std::vector<RandomLook> looks{};     ///< a camera each; none without domain randomisation
 };
 
+/// Frame `number`, of the instant that `images` followed last.
+DatasetFrame draw_frame(SessionImages& images, const DatasetContents& contents, std::size_t number,
+                        const DrawnSession& session);
+
 class DatasetFrames {
   public:
     /// `on_session` is called whenever one begins, the first from here. Throws RecordingError, and
@@ -32,14 +37,15 @@ class DatasetFrames {
     /// trainee whose viewpoint the recording does not state. All calls, and the end of this, need an OpenGL
     /// context current, the same.
     DatasetFrames(std::filesystem::path recording, DatasetContents contents,
-                  std::function<void(const Playhead&)> on_session);
+                  std::function<void(const DrawnSession&)> on_session);
 
-    /// The next of this part; nothing at the recording's end, and where `stop_requested` says so, which is asked
-    /// at every state. Throws RecordingError for what cannot be read.
+    /// The next of this part; nothing at the recording's end, and where `stop_requested` says so, which is
+    /// asked at every state. Throws RecordingError for what cannot be read.
     std::optional<DatasetFrame> next(const std::function<bool()>& stop_requested);
 
     /// The instant of the last frame.
     const Playhead& playhead() const { return playhead_; }
+    const DrawnSession& session() const { return drawn_; }
     const DatasetContents& contents() const { return contents_; }
     const BoneTextures& textures() const { return images_->textures(); }
     /// Among all parts' frames so far.
@@ -49,11 +55,11 @@ class DatasetFrames {
     void begin_session();
     bool has_more_of_this_instant() const;
     bool is_due();
-    DatasetFrame draw(std::size_t number);
 
     DatasetContents contents_;
-    std::function<void(const Playhead&)> on_session_;
+    std::function<void(const DrawnSession&)> on_session_;
     Playhead playhead_;
+    DrawnRecording drawn_{playhead_};
     std::optional<SessionImages> images_;
     std::size_t sessions_ = 0;
     std::size_t count_ = 0;

@@ -59,21 +59,21 @@ Json json_of(const DatasetCamera& camera) {
             {"intrinsics", camera.has_trainees_angle ? Json() : intrinsics_of(camera.pinhole)}};
 }
 
-Json session_json(const Playhead& playhead) {
-    const SessionInfo& session = playhead.session();
+Json session_json(const DrawnSession& drawn) {
+    const SessionInfo& session = drawn.session();
     Json labels = Json::array();
     for (const SurfaceLabel& label : label_table(session.tissues))
         labels.push_back({{"name", label.name}, {"rgb", label.colour_rgb}});
     return {{"scene", session.scene_name},
             {"case", session.case_name},
             {"server_version", session.server_version},
-            {"voxel_mm", playhead.bone().grid().spacing_mm},
+            {"voxel_mm", drawn.bone().grid().spacing_mm},
             {"labels", labels}};
 }
 
-Json instant_json(const DatasetFrame& frame, const Playhead& playhead) {
-    const ToolState& state = *playhead.tool();
-    const SessionInfo& session = playhead.session();
+Json instant_json(const DatasetFrame& frame, const DrawnSession& drawn) {
+    const ToolState& state = *drawn.tool();
+    const SessionInfo& session = drawn.session();
     const glm::dmat4 pose = pose_of(tool_as_thing(state, session));
     Json tool{{"pose", json_of(pose_of(glm::dvec3(pose[3]), glm::dmat3(pose)))}};
     if (const Burr* burr = session.burr_of(state.burr)) {
@@ -83,7 +83,7 @@ Json instant_json(const DatasetFrame& frame, const Playhead& playhead) {
     }
     return {{"frame", frame.number},
             {"session", frame.session},
-            {"recorded_s", playhead.time_s()},
+            {"recorded_s", drawn.time_s()},
             {"session_s", state.time_s},
             {"tool", tool},
             {"hand_mm", json_of(state.hand_position_mm)},
@@ -114,8 +114,8 @@ DatasetIndex::DatasetIndex(const std::filesystem::path& folder, const std::strin
     for (const DatasetCamera& camera : contents.cameras) all_["cameras"].push_back(json_of(camera));
 }
 
-void DatasetIndex::add_frame(const DatasetFrame& frame, const Playhead& playhead, Json images) {
-    Json all = instant_json(frame, playhead);
+void DatasetIndex::add_frame(const DatasetFrame& frame, const DrawnSession& drawn, Json images) {
+    Json all = instant_json(frame, drawn);
     all["images"] = std::move(images);
     all_["frames"].push_back(std::move(all));
 }

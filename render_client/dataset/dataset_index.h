@@ -7,19 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "common/recording/playhead.h"
 #include "render_client/dataset/dataset_frames.h"
+#include "render_client/dataset/drawn_session.h"
 
 namespace osteomill {
 
-// The index's entries for a camera, for the session that a playhead is in, for a frame and for one of its
+// The index's entries for a camera, for a session, for a frame and for one of its
 // cameras; units and conventions are the index's.
 
 /// Name, size and intrinsics; null for these if they change from frame to frame.
 nlohmann::ordered_json json_of(const DatasetCamera& camera);
-nlohmann::ordered_json session_json(const Playhead& playhead);
-/// All but its images: time, tool, hand, force, removed volume. The playhead has a tool.
-nlohmann::ordered_json instant_json(const DatasetFrame& frame, const Playhead& playhead);
+nlohmann::ordered_json session_json(const DrawnSession& drawn);
+/// All but its images: time, tool, hand, force, removed volume. The session has a tool.
+nlohmann::ordered_json instant_json(const DatasetFrame& frame, const DrawnSession& drawn);
 /// The entry of camera number `camera`: name, pose, intrinsics if those are the frame's, and the random
 /// appearance.
 nlohmann::ordered_json view_json(const DatasetFrame& frame, std::size_t camera, const DatasetCamera& its);
@@ -31,9 +31,9 @@ class DatasetIndex {
                  const std::string& version, const DatasetContents& contents);
 
     /// Another session of the recording has begun.
-    void begin_session(const Playhead& playhead) { all_["sessions"].push_back(session_json(playhead)); }
+    void begin_session(const DrawnSession& drawn) { all_["sessions"].push_back(session_json(drawn)); }
     /// `images`: for each camera view_json and files.
-    void add_frame(const DatasetFrame& frame, const Playhead& playhead, nlohmann::ordered_json images);
+    void add_frame(const DatasetFrame& frame, const DrawnSession& drawn, nlohmann::ordered_json images);
 
     /// dataset.json or, of a part, dataset-2-of-8.json. Throws std::runtime_error naming the file if it
     /// cannot be written.

@@ -54,7 +54,7 @@ RenderReport run_dataset(const RenderOptions& options, const std::string& versio
     gl::require_opengl_3_3();
     DatasetIndex index(folder, recording.filename().string(), version, contents);
     DatasetFrames frames(recording, contents,
-                         [&](const Playhead& playhead) { index.begin_session(playhead); });
+                         [&](const DrawnSession& session) { index.begin_session(session); });
     for (const DatasetCamera& camera : contents.cameras)
         std::filesystem::create_directories(folder / camera.name);
     RenderReport report;
@@ -63,7 +63,7 @@ RenderReport run_dataset(const RenderOptions& options, const std::string& versio
             const Clock::time_point start = Clock::now();
             const auto frame = frames.next(stop_requested);
             if (!frame) break;
-            index.add_frame(*frame, frames.playhead(), written(folder, *frame, frames));
+            index.add_frame(*frame, frames.session(), written(folder, *frame, frames));
             report.frame_times.add(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
         }
     } catch (const RecordingError&) {

@@ -32,33 +32,33 @@ DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session) {
     return tool;
 }
 
-SessionImages::SessionImages(Playhead& playhead, std::span<const DatasetCamera> cameras,
+SessionImages::SessionImages(DrawnSession& session, std::span<const DatasetCamera> cameras,
                              const SceneAppearance& look, const TextureLimits& limits)
-    : playhead_(playhead),
-      tissues_(playhead.session().tissues),
-      textures_(playhead.bone(), solid_colours(tissues_), {}, limits) {
+    : session_(session),
+      tissues_(session.session().tissues),
+      textures_(session.bone(), solid_colours(tissues_), {}, limits) {
     renderer_.set_appearance(look);
     for (const DatasetCamera& camera : cameras) views_.push_back(std::make_unique<View>(camera, renderer_));
     follow();
 }
 
 void SessionImages::follow() {
-    const std::vector<BrickChange> changes = playhead_.take_changes();
-    const std::span<const VoxelBox> changed = textures_.update(playhead_.bone(), changes);
+    const std::vector<BrickChange> changes = session_.take_changes();
+    const std::span<const VoxelBox> changed = textures_.update(session_.bone(), changes);
     for (const auto& view : views_) {
         view->picture.mark_dirty(textures_, changed);
         view->surface.mark_dirty(changed);
     }
     take_structures();
-    if (playhead_.tool() == nullptr || std::exchange(has_first_view_, true)) return;
-    first_view_ = pose_of(first_view(playhead_.bone(), textures_, &playhead_.session(), playhead_.tool()));
+    if (session_.tool() == nullptr || std::exchange(has_first_view_, true)) return;
+    first_view_ = pose_of(first_view(session_.bone(), textures_, &session_.session(), session_.tool()));
 }
 
 void SessionImages::take_structures() {
-    for (; structures_ < playhead_.structures().size(); ++structures_) {
-        const Structure& structure = playhead_.structures()[structures_];
+    for (; structures_ < session_.structures().size(); ++structures_) {
+        const Structure& structure = session_.structures()[structures_];
         if (structure.tissue >= tissues_.size() || tissues_[structure.tissue].opacity <= 0.0) continue;
-        const StructureSurface surface = surface_of(soft_part(structure.mask, playhead_.bone()),
+        const StructureSurface surface = surface_of(soft_part(structure.mask, session_.bone()),
                                                     linear_from_srgb(tissues_[structure.tissue].colour_rgb));
         for (const auto& view : views_) {
             view->picture.add_structure(surface, 1.0);
@@ -70,18 +70,18 @@ void SessionImages::take_structures() {
 CameraImages SessionImages::draw(std::size_t camera, bool wants_colour, bool wants_surface) {
     View& view = *views_.at(camera);
     const BallInView ball = ball_round(textures_);
-    const std::optional<Viewpoint>& trainee = playhead_.state().view;
-    CameraImages images{.camera = view.camera.pose_at(playhead_.time_s(), first_view_, trainee),
+    const std::optional<Viewpoint>& trainee = session_.view();
+    CameraImages images{.camera = view.camera.pose_at(session_.time_s(), first_view_, trainee),
                         .pinhole = view.camera.pinhole_at(trainee),
                         .colour = Picture(glm::ivec2(0))};
     const Camera drawn = camera_of(images.pinhole, images.camera, ball.centre_mm, ball.radius_mm);
     std::optional<DrawnTool> tool;
-    if (playhead_.tool()) tool = tool_as_thing(*playhead_.tool(), playhead_.session());
+    if (session_.tool()) tool = tool_as_thing(*session_.tool(), session_.session());
     const DrawnTool* shown = tool ? &*tool : nullptr;
     if (wants_colour) images.colour = view.picture.draw(&textures_, shown, drawn).read_back();
     if (!wants_surface) return images;
     images.surface = view.surface.draw(textures_, shown, drawn);
-    images.labels = surface_labels(images.surface, drawn, playhead_.bone(), tissues_);
+    images.labels = surface_labels(images.surface, drawn, session_.bone(), tissues_);
     return images;
 }
 

@@ -1,4 +1,4 @@
-// Images of one session of a recording: its bone's textures, and for each camera the picture and the surfaces
+// Images of one session: its bone's textures, and for each camera the picture and the surfaces
 // that it sees.
 #pragma once
 
@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "common/recording/playhead.h"
 #include "render_client/dataset/camera_file.h"
+#include "render_client/dataset/drawn_session.h"
 #include "render_client/dataset/surface_labels.h"
 #include "render_client/volume/passes/scene_picture.h"
 
@@ -28,13 +28,13 @@ DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session);
 
 class SessionImages {
   public:
-    /// Draws the session that `playhead`, which outlives it, has begun. Tissues are solid, but for those of
-    /// opacity 0, which are left out. Throws std::runtime_error if the bone cannot be drawn. Calls need a
+    /// Draws `session`, which outlives it and has a bone. Tissues are solid, but for those of opacity 0, which
+    /// are left out. Throws std::runtime_error if the bone cannot be drawn. Calls need a
     /// context current.
-    SessionImages(Playhead& playhead, std::span<const DatasetCamera> cameras, const SceneAppearance& look,
+    SessionImages(DrawnSession& session, std::span<const DatasetCamera> cameras, const SceneAppearance& look,
                   const TextureLimits& limits);
 
-    /// Takes up what changed since the last call, up to the playhead's instant. The first with a tool fixes
+    /// Takes up what changed since the last call, up to the session's instant. The first with a tool fixes
     /// the first view.
     void follow();
     const BoneTextures& textures() const { return textures_; }
@@ -52,12 +52,12 @@ class SessionImages {
     };
     void take_structures();
 
-    Playhead& playhead_;
+    DrawnSession& session_;
     RaycastRenderer renderer_;
     std::vector<Tissue> tissues_;
     BoneTextures textures_;
     std::vector<std::unique_ptr<View>> views_;
-    std::size_t structures_ = 0;  // how many of the playhead's have been taken over
+    std::size_t structures_ = 0;  // how many of the session's have been taken over
     bool has_first_view_ = false;
     Pose first_view_;
 };

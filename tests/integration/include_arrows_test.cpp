@@ -31,10 +31,12 @@ const std::vector<Room>& rooms() {
         {"haptic_server/", {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/"}},
         {"render_client/", {"common/"}},
         {"slicer/", {"common/", "render_client/link/"}},
-        // The pictures of the module of Python are a library of their own: its core knows no OpenGL.
+        // The pictures of the module of Python are a library of their own: its core knows no OpenGL. They see
+        // its sessions, and tell of them what a server would tell a client.
         {"python/render/",
-         {"common/", "python/module/arrays.h", "python/module/exceptions.h", "python/module/released_lock.h",
-          "render_client/dataset/", "render_client/volume/"}},
+         {"common/", "haptic_server/streaming/live_session.h", "imaging/case/structures.h",
+          "python/module/arrays.h", "python/module/exceptions.h", "python/module/released_lock.h",
+          "python/module/stepped_session.h", "render_client/dataset/", "render_client/volume/"}},
         // Kernels of the package's studies.
         {"python/studies/",
          {"common/", "python/module/arrays.h", "python/module/loaded_case.h", "bridge/", "simulation/",

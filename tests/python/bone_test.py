@@ -50,6 +50,54 @@ class BoneTest(unittest.TestCase):
         self.assertGreater(enamel, dentine)
         self.assertTrue((tissue[(fraction == 255)] > 0).any())
 
+    def test_is_made_of_arrays_and_kept_in_a_file(self):
+        rng = np.random.default_rng(5)
+        fraction = rng.integers(0, 256, (21, 40, 33), np.uint8)
+        stiffness = np.round(rng.uniform(0.02, 5.1, fraction.shape) / 0.02) * 0.02
+        tissue = rng.integers(0, 4, fraction.shape, np.uint8)
+        bone = om.Bone.from_array(fraction, spacing_mm=0.25, origin_mm=[1.0, -2.0, 3.0], stiffness=stiffness, tissue=tissue)
+        self.assertEqual((bone.shape, bone.spacing_mm, bone.origin_mm.tolist()), (fraction.shape, 0.25, [1.0, -2.0, 3.0]))
+        np.testing.assert_array_equal(bone.fraction(), fraction)
+        is_bone = fraction > 0
+        np.testing.assert_array_equal(bone.tissue()[is_bone], tissue[is_bone])
+        np.testing.assert_allclose(bone.stiffness()[is_bone], stiffness[is_bone], rtol=1e-6)
+        self.assertAlmostEqual(bone.volume_mm3, fraction.sum(dtype=float) / 255 * 0.25**3, delta=1e-6)
+
+    def test_a_bone_of_ones_own_is_milled(self):
+        block = np.zeros((64, 64, 64), bool)
+        block[8:56, 8:56, 8:40] = True
+        bone = om.Bone.from_array(block, spacing_mm=0.1, origin_mm=[-3.15, -3.15, -3.95], stiffness=2.0)  # its top is z = 0
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "own.nrrd"
+            bone.save(file)
+            case = om.Case("cube", bone=file)
+            self.assertEqual(case.bone.checksum(), bone.checksum())
+            self.assertEqual(set(np.unique(case.bone.stiffness())), {np.float32(0.0), np.float32(2.0)})
+            radius_mm = 0.5 * case.burrs[case.start_burr].diameter_mm
+            above = np.array([0.0, 0.0, radius_mm + 0.5])
+            session = om.Session(case, start_mm=above)
+            session.rollout(above - np.linspace(0.0, 1.5, 1500)[:, None] * [0.0, 0.0, 1.0], pedals=True)
+            left = session.bone
+            missing_mm3 = (block.sum() * 255.0 - left.fraction().sum(dtype=float)) / 255 * 0.1**3
+            self.assertGreater(missing_mm3, 0.5)
+            self.assertAlmostEqual(session.now.removed_mm3["total"], missing_mm3, delta=1e-6)
+            left.save(file)  # as it is now
+            self.assertEqual(om.Case("cube", bone=file).bone.checksum(), left.checksum())
+
+    def test_says_what_is_wrong_with_arrays(self):
+        voxels = np.full((4, 4, 4), 255, np.uint8)
+        for wrong, line in ((lambda: om.Bone.from_array(voxels[0], spacing_mm=1.0), "fraction: takes an array"),
+                            (lambda: om.Bone.from_array(voxels.astype(float), spacing_mm=1.0), "fraction: takes uint8"),
+                            (lambda: om.Bone.from_array(voxels * 0, spacing_mm=1.0), "there is no bone"),
+                            (lambda: om.Bone.from_array(voxels, spacing_mm=0.0), "spacing"),
+                            (lambda: om.Bone.from_array(voxels, spacing_mm=1.0, origin_mm=[0, 1]), "origin_mm"),
+                            (lambda: om.Bone.from_array(voxels, spacing_mm=1.0, stiffness=9.0), "stiffness: lies within 0.02 to 5.1"),
+                            (lambda: om.Bone.from_array(voxels, spacing_mm=1.0, stiffness=np.full((4, 4, 4), np.nan)), "stiffness"),
+                            (lambda: om.Bone.from_array(voxels, spacing_mm=1.0, tissue=np.zeros((4, 4), np.uint8)), "tissue: takes an array"),
+                            (lambda: om.Bone.from_array(voxels, spacing_mm=1.0, tissue=voxels.astype(int)), "tissue: takes uint8")):
+            with self.assertRaisesRegex(om.BadInput, line):
+                wrong()
+
     def test_arrays_are_copies(self):
         session = om.Session(tooth())
         before = session.bone.fraction(((230, 230, 100), (290, 290, 128)))

@@ -85,10 +85,106 @@ class EnvTest(unittest.TestCase):
         after, *_ = env.step([1e9, 0.0, 0.0, 0.0])
         np.testing.assert_allclose(after["hand"] - before["hand"], [0.2, 0.0, 0.0], atol=1e-9)
 
+    def test_draws_within_ranges_and_a_seed_repeats_it(self):
+        ranges = {"registration_mm": (0.5, 1.0), "delay_ms": (3, 40), "force_noise_n": (0.01, 0.1), "pose_noise_mm": (0.0, 0.01),
+                  "force_scale": (0.5, 2.0), "wall_friction": (0.1, 0.3)}
+        env = om.Env(tooth(), observation=("pose", "hand", "force"), ranges=ranges)
+        first, again, other = episode(env, 3), episode(om.Env(tooth(), observation=("pose", "hand", "force"), ranges=ranges), 3), episode(env, 4)
+        np.testing.assert_equal(again, first)
+        self.assertFalse(np.array_equal(first[0][0]["pose"], other[0][0]["pose"]))
+        drawn = []
+        for seed in range(40):
+            env.reset(seed=seed)
+            drawn.append(env.drawn)
+            self.assertEqual(env.drawn.keys(), ranges.keys())
+        for name, (low, high) in ranges.items():
+            values = np.array([one[name] for one in drawn])
+            self.assertTrue((low <= values).all() and (values <= high).all(), name)
+            self.assertGreater(np.ptp(values), 0.5 * (high - low), name)
+        self.assertTrue(all(one["delay_ms"] == int(one["delay_ms"]) for one in drawn))
+
+    def test_what_is_drawn_has_its_effect(self):
+        def episode_of(ranges, **arguments):
+            env = om.Env(tooth(), observation=("hand", "force"), ranges=ranges, **arguments)
+            seen, rewards = episode(env, 1, 10)
+            return env, np.array([one["hand"] for one in seen]), np.array([one["force"] for one in seen]), np.array(rewards)
+
+        _, hands, forces, removed = episode_of(None)
+        late, late_hands, _, _ = episode_of({"delay_ms": (40, 40)})
+        self.assertEqual(late.drawn, {"delay_ms": 40.0})
+        np.testing.assert_allclose(late_hands[2:], hands[:-2], atol=1e-9)  # two actions of 20 ms
+        np.testing.assert_array_equal(late_hands[0], late_hands[1])
+        off, off_hands, off_forces, _ = episode_of({"registration_mm": (0.7, 0.7)})
+        np.testing.assert_allclose(np.linalg.norm(off_hands - hands, axis=1), 0.7, atol=1e-9)
+        np.testing.assert_array_equal(off_forces, forces)
+        self.assertEqual(off.session.now.hand_mm.tolist(), hands[-1].tolist())
+        _, _, noisy, same = episode_of({"force_noise_n": (0.2, 0.2)})
+        np.testing.assert_array_equal(same, removed)
+        self.assertTrue(0.05 < (noisy - forces).std() < 0.5)
+        _, _, stronger, _ = episode_of({"force_scale": (2.0, 2.0)})
+        self.assertGreater(np.linalg.norm(stronger, axis=1).max(), 1.2 * np.linalg.norm(forces, axis=1).max())
+
+    def test_draws_one_of_several_cases(self):
+        cases = [tooth(), tooth().with_(rpm=9000.0)]
+        env = om.Env(cases)
+        speeds = set()
+        for seed in range(12):
+            env.reset(seed=seed)
+            speeds.add(env.session.case.burrs[0].rpm)
+        self.assertEqual(speeds, {case.burrs[0].rpm for case in cases})
+
+    def test_tilts_the_spindle(self):
+        for actions, action in (("raw", [0.0, 0.0, 5.0, 0.5, 0.0, 0.0, 0.0]), ("normalised", [0.0, 0.0, 0.25, 0.5, 0.0, 0.0, -1.0])):
+            env = om.Env(tooth(), actions=actions, fastest_rad_per_s=1.0)
+            self.assertEqual(env.action_space.shape, (7,))
+            env.reset(seed=0)
+            for _ in range(50):
+                observation, *_ = env.step(action)
+            axis = observation["pose"][3:]
+            # Half a radian about x, right-handed.
+            np.testing.assert_allclose(axis, [0.0, -np.sin(0.5), np.cos(0.5)], atol=1e-6)
+
+    def test_ends_at_a_fault_and_at_protected_tissue(self):
+        env = om.Env(tooth(), fastest_mm_per_s=2000.0, control_hz=500.0, ends=("fault",))
+        env.reset(seed=0)
+        self.assertFalse(env.step([0.0, 0.0, 0.0, 0.0])[2])
+        _, _, terminated, _, info = env.step([2000.0, 2000.0, 2000.0, 0.0])  # 3.5 mm a ms: no hand
+        self.assertTrue(terminated)
+        self.assertNotEqual(info["fault"], "")
+        deep = om.Env(tooth(), ends=("protected",), duration_s=60.0)
+        deep.reset(seed=0)
+        for _ in range(600):
+            _, _, terminated, truncated, info = deep.step([0.0, 0.0, -3.0, 1.0])
+            if terminated or truncated:
+                break
+        self.assertTrue(terminated and info["step"].touches_protected)
+
+    def test_sees_the_plan_and_the_spindle(self):
+        case = tooth().with_(set=["plan.tissue=carious lesion"])
+        env = om.Env(case, observation=("pose", "plan", "spindle", "torque"))
+        observation, _ = env.reset(seed=0)
+        bone = case.bone
+        where = np.argwhere((bone.tissue() == case.tissues["carious lesion"]) & (bone.fraction() > 0)) * bone.spacing_mm + bone.origin_mm
+        nearest = np.linalg.norm(where - observation["pose"][:3], axis=1).min()
+        self.assertAlmostEqual(observation["plan"][0], nearest, delta=1e-6)
+        self.assertLess(case.plan_distance_mm(where.mean(axis=0)), 0.0)
+        self.assertEqual(observation["spindle"].tolist(), [0.0, 0.0])
+        for _ in range(60):
+            observation, *_ = env.step([0.0, 0.0, -4.0, 1.0])
+        self.assertGreater(observation["spindle"][0], 0.0)
+        self.assertIsNone(om.Case("cube").plan_distance_mm([0, 0, 0]))
+
     def test_says_what_is_wrong(self):
         for wrong, line in ((lambda: om.Env(tooth(), control_hz=300), "control_hz"),
                             (lambda: om.Env(tooth(), observation=("smell",)), '"smell" is none of'),
-                            (lambda: om.Env(tooth(), fastest_mm_per_s=1e4), "fastest_mm_per_s")):
+                            (lambda: om.Env(tooth(), fastest_mm_per_s=1e4), "fastest_mm_per_s"),
+                            (lambda: om.Env(tooth(), fastest_rad_per_s=-1.0), "fastest_rad_per_s"),
+                            (lambda: om.Env(tooth(), ends=("blood",)), "ends: takes"), (lambda: om.Env([]), "case"),
+                            (lambda: om.Env(om.Case("cube"), observation=("plan",)), '"plan": the case has none'),
+                            (lambda: om.Env(tooth(), ranges={"smell": (0, 1)}), "ranges: takes registration_mm, .*smell"),
+                            (lambda: om.Env(tooth(), ranges={"delay_ms": (0.2, 0.8)}), "whole milliseconds"),
+                            (lambda: om.Env(tooth(), ranges={"force_scale": (2, 1)}), "the least first"),
+                            (lambda: om.Env(tooth(), ranges={"force_scale": 2}), "two numbers")):
             with self.assertRaisesRegex(ValueError, line):
                 wrong()
         with self.assertRaisesRegex(RuntimeError, "reset"):

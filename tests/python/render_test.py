@@ -96,6 +96,55 @@ class RenderTest(unittest.TestCase):
         self.assertTrue(same(later, last))
         self.assertEqual(later["removed_mm3"], last["removed_mm3"])
 
+    def test_a_view_follows_sessions_as_their_recordings_show_them(self):
+        """One view, that goes to and fro between sessions, their copies and new ones: each picture is that of its recording."""
+        view = om.View(om.Session(tooth()), [SIDE], images=KINDS)
+        self.assertEqual(view.cameras.keys(), {"side_left", "side_right"})
+        self.assertIn("burr", [label["name"] for label in view.session["labels"]])
+        hands = tooth().start_mm - np.linspace(0.0, 3.5, 1000)[:, None] * tooth().start_axis
+        sessions = [om.Session(tooth(), record=self.folder / f"v{number}.pcap") for number in range(2)]
+        frames = [None, None]
+        for part in range(4):
+            for number, session in enumerate(sessions):
+                session.rollout(hands[250 * part:250 * (part + 1)] + [0.4 * number, 0.0, 0.0] if part else np.tile(session.now.hand_mm, (250, 1)),
+                                pedals=True)
+                frames[number] = view.draw(session)
+        branch = sessions[0].copy()
+        branch.rollout(hands[-1] + np.linspace(0.0, 1.0, 300)[:, None] * [0.0, 1.0, 0.0], pedals=True)
+        self.assertFalse(same(view.draw(branch), frames[0]))
+        start = view.draw(om.Session(tooth()))
+        self.assertTrue(same(start, next(om.render(tooth(), [SIDE], images=KINDS))))
+        for number, session in enumerate(sessions):
+            self.assertTrue(same(view.draw(session), frames[number]))
+            session.close()
+            last = list(om.render(self.folder / f"v{number}.pcap", [SIDE], images=KINDS))[-1]
+            self.assertTrue(same(frames[number], last))
+            self.assertEqual(plain(frames[number]["tool"]), plain(last["tool"]))
+            self.assertEqual(frames[number]["removed_mm3"], last["removed_mm3"])
+        self.assertFalse(same(frames[0], frames[1]))
+        with self.assertRaisesRegex(om.BadInput, "of another bone"):
+            view.draw(om.Session(om.Case("cube")))
+        with self.assertRaisesRegex(om.BadInput, "nobody looks"):
+            om.View(om.Session(tooth()), "trainee")
+
+    def test_an_environment_sees_pictures(self):
+        camera = {"eye_mm": [20.0, -20.0, 25.0], "target_mm": [0.0, 0.0, 2.0]}
+        env = om.Env(tooth(), observation=("rgb", "depth", "labels"), camera=camera, picture_px=(84, 60), start_jitter_mm=0.1)
+        for seed in (1, 2):
+            observation, _ = env.reset(seed=seed)
+            for _ in range(12):
+                observation, *_ = env.step([0.0, 0.0, -20.0, 1.0])
+            self.assertIn(observation, env.observation_space)
+            self.assertEqual(observation["rgb"].shape, (60, 84, 3))
+            [drawn] = om.render(env.session, [camera | {"name": "view", "width_px": 84, "height_px": 60}])
+            for name, kind in (("rgb", "colour"), ("depth", "depth"), ("labels", "labels")):
+                np.testing.assert_array_equal(observation[name], drawn["images"]["view"][kind])
+        many = om.VectorEnv(tooth(), 3, observation=("labels",), camera=camera, start_jitter_mm=0.3)
+        seen, _ = many.reset(seed=1)
+        self.assertEqual(seen["labels"].shape, (3, 84, 84))
+        self.assertTrue((seen["labels"] == 1).any(axis=(1, 2)).all(), "the burr is in sight")
+        self.assertFalse(np.array_equal(seen["labels"][0], seen["labels"][1]))
+
     def test_is_to_the_bit_what_render_client_writes(self):
         self.expect_the_set(om.render(self.file, self.folder / "cameras.toml", fps=10, images=KINDS), "set")
 

@@ -1,0 +1,14 @@
+"""The spaces of gymnasium where that is installed, and spaces of the same form where it is not."""
+
+from __future__ import annotations
+
+import importlib.util
+from typing import TYPE_CHECKING
+
+HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
+if TYPE_CHECKING or not HAS_GYMNASIUM:
+    from osteomill import spaces
+else:
+    from gymnasium import spaces
+
+__all__ = ["HAS_GYMNASIUM", "spaces"]
