@@ -31,6 +31,10 @@ class BinnedForce {
     void add_edges(const CuttingStep& edges, const RemovedVoxels& rubbed,
                    std::span<const float> weights) noexcept;
 
+    /// As of MeanForce.
+    const glm::dvec3& edges_n() const noexcept { return edges_n_; }
+    void correct_edges(const glm::dvec3& by_n) noexcept { edges_n_ += by_n; }
+
     /// Stiffness-weighted chip thickness of one tooth in a bin, mm: t = sum(s V) / (M r_z dpsi dz), M = N_phi
     /// n_rev dt.
     double chip_thickness_mm(int psi, int z) const noexcept;

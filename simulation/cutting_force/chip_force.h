@@ -27,7 +27,7 @@
 //
 //     f = s V / (n . d) N_phi (-sigma K_te e_psi - K_re n - K_ae e_kappa) / (2 pi r)
 //
-// the law of chips with other coefficients and weights.
+// the law of chips with other coefficients and weights. edge_look.h leads from there back to the burr.
 #pragma once
 
 #include <array>

@@ -36,6 +36,10 @@ class InstantaneousForce {
     void add_edges(const CuttingStep& edges, const RemovedVoxels& rubbed,
                    std::span<const float> weights) noexcept;
 
+    /// As of MeanForce; a correction goes evenly to all phases.
+    const glm::dvec3& edges_n() const noexcept { return edges_n_; }
+    void correct_edges(const glm::dvec3& by_n) noexcept;
+
     /// Empties the bins: what was cut so far says nothing of the teeth to come.
     void forget() noexcept;
 

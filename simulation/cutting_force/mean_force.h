@@ -24,6 +24,10 @@ class MeanForce {
         edges_n_ += edges.newton_per_unit * sum_of_chip_forces(edges, rubbed, weights, instructions_);
     }
 
+    /// Of the edges so far, N, burr axes; and what is to be added to it.
+    const glm::dvec3& edges_n() const noexcept { return edges_n_; }
+    void correct_edges(const glm::dvec3& by_n) noexcept { edges_n_ += by_n; }
+
     /// Mean force of the bone on the burr during the step, N, patient axes.
     glm::dvec3 force_n() const noexcept { return step_.frame * (step_.newton_per_unit * sum_ + edges_n_); }
 

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "simulation/carving/carve.h"
 #include "simulation/carving/carve_head.h"
 #include "simulation/carving/crescent_rows.h"
 #include "simulation/cutting_force/mean_force.h"
@@ -107,14 +106,18 @@ class ForceOfRubbed final : public RemovalSink {
             for (std::size_t i = 0; i < rubbed.count; ++i)
                 weights_[i] *= shares_->of_label[content_.tissue_in(
                     rubbed.slot[i], static_cast<std::size_t>(rubbed.offset[i]))];
+        voxels_ += rubbed.lost_levels() / 255.0;
         force_.add_edges(edges_, rubbed, {weights_.data(), rubbed.padded_count()});
     }
+
+    EdgeLook look() const noexcept { return {force_.edges_n(), voxels_}; }
 
   private:
     const BoneContent& content_;
     const EdgeShares* shares_;
     const CuttingStep& edges_;
     Force& force_;
+    double voxels_ = 0.0;
     alignas(64) std::array<float, RemovedVoxels::capacity> weights_;
 };
 
@@ -148,6 +151,19 @@ MillingModel::MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector
 }
 
 template <typename Force>
+EdgeLook MillingModel::look_ahead(const Sweep& sweep, const CuttingStep& cutting, const glm::dvec3& ahead,
+                                  const CarveSettings& carving, Force& force) noexcept {
+    const CuttingStep edges = cutting.of_edges(burrs_[burr_], sweep.from, ahead);
+    ForceOfRubbed rubbed(bone_.content(), has_edge_shares_ ? &edge_shares_ : nullptr, edges, force);
+    if (cutting.head != nullptr)
+        preview_carve(bone_, HeadSweep{*cutting.head, cutting.frame, sweep.from, sweep.from + ahead}, carving,
+                      rubbed);
+    else
+        preview_carve(bone_, Sweep{sweep.from, sweep.from + ahead, sweep.radius}, carving, rubbed);
+    return rubbed.look();
+}
+
+template <typename Force>
 void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting, double share,
                                  ChangeSink& changes, Force& force, MillingResult& result) noexcept {
     ForceOfRemoved removed(bone_.content(), account_, force);
@@ -158,15 +174,13 @@ void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting,
     // Where the burr has not carved yet, its own place is full of bone.
     if (burrs_[burr_].has_edge_force() && carved_at_position_ && path != glm::dvec3(0.0)) {
         const double length = glm::length(path);
-        const glm::dvec3 ahead =
-            path * (std::clamp(length, least_look_voxels, CrescentRows::longest_step_voxels) / length);
-        const CuttingStep edges = cutting.of_edges(burrs_[burr_], sweep.from, ahead);
-        ForceOfRubbed rubbed(bone_.content(), has_edge_shares_ ? &edge_shares_ : nullptr, edges, force);
-        if (cutting.head != nullptr)
-            preview_carve(bone_, HeadSweep{*cutting.head, cutting.frame, sweep.from, sweep.from + ahead},
-                          carving, rubbed);
-        else
-            preview_carve(bone_, Sweep{sweep.from, sweep.from + ahead, sweep.radius}, carving, rubbed);
+        const double look = std::clamp(length, least_look_voxels, CrescentRows::longest_step_voxels);
+        const EdgeLook whole = look_ahead(sweep, cutting, path * (look / length), carving, force);
+        if (whole.voxels > 0.0 && length < look) {
+            MeanForce nearby(cutting, settings_.instructions);
+            const EdgeLook half = look_ahead(sweep, cutting, path * (0.5 * look / length), carving, nearby);
+            force.correct_edges(edge_look_correction(whole, half, length / look));
+        }
     }
     if (!scans_.empty())
         scans_[burr_].carve(bone_, sweep, cutting.frame, carving, changes, removed);

@@ -14,7 +14,9 @@
 #include "common/scene/scene.h"
 #include "common/scene/turning_burrs.h"
 #include "common/scene/uncut_tissues.h"
+#include "simulation/carving/carve.h"
 #include "simulation/carving/full_scan.h"
+#include "simulation/cutting_force/edge_look.h"
 #include "simulation/cutting_force/instantaneous_force.h"
 #include "simulation/engagement/engagement_probe.h"
 #include "simulation/exchange/milling_step.h"
@@ -58,6 +60,10 @@ class MillingModel final : public ForceModel {
     /// as `to` has it; adds to `result`, force weighed by `share` of the path.
     void cut(const BurrCommand& command, const ToolPose& to, double share, ChangeSink& changes,
              MillingResult& result) noexcept;
+    /// Adds what edges rub on from the step's start to `ahead` of it.
+    template <typename Force>
+    EdgeLook look_ahead(const Sweep& sweep, const CuttingStep& cutting, const glm::dvec3& ahead,
+                        const CarveSettings& carving, Force& force) noexcept;
     template <typename Force>
     void carve_and_sum(const Sweep& sweep, const CuttingStep& cutting, double share, ChangeSink& changes,
                        Force& force, MillingResult& result) noexcept;

@@ -6,7 +6,9 @@
 #include <memory>
 
 #include "simulation/cutting_force/edge_advance.h"
+#include "simulation/cutting_force/edge_look.h"
 #include "simulation/cutting_force/reference_force.h"
+#include "studies/force/random_motions.h"
 #include "studies/force/steady_case.h"
 #include "tests/support/steady_motion.h"
 
@@ -30,7 +32,6 @@ glm::dvec3 reference_n(const ReferenceCase& c) {
     return study::mean_reference_force_n(study::motion_of(c), study::bone_of(c));
 }
 
-// Shallow dives are off most: edges see the bone half a voxel early.
 TEST(EdgeForce, IsTheReferencesInEverySteadyMotion) {
     for (ReferenceCase c : testing::reference_cases()) {
         c.burr.edge_coefficients_n_per_mm = {0.5, 0.4, 0.1};
@@ -110,6 +111,64 @@ TEST(EdgeForce, RubsOnNothingInItsOwnGroove) {
     EXPECT_EQ(go(0.2), 0.0);
 }
 
+/// Down into bone whose surface leans a little against the lattice, at 0.5 mm/s.
+study::RandomMotion dive_of(double diameter_mm, double depth_mm, double dive_deg, double lean_deg,
+                            double voxel_mm) {
+    constexpr double degree = 3.14159265358979 / 180.0;
+    study::RandomMotion drawn{.run = {.voxel_mm = voxel_mm, .milling_rate_hz = 1000.0}, .dives = true};
+    ReferenceCase& c = drawn.motion;
+    c.burr = {.diameter_mm = diameter_mm, .edges = 8, .spindle_rev_per_s = 500.0};
+    c.burr.edge_coefficients_n_per_mm = {0.5, 0.4, 0.15};
+    c.up = glm::normalize(glm::dvec3(0.15, -0.1, 1.0));
+    c.depth_mm = depth_mm;
+    const glm::dvec3 along = glm::normalize(glm::cross(c.up, glm::dvec3(0.2, 1.0, 0.0)));
+    c.velocity_mm_per_s = 0.5 * (std::cos(dive_deg * degree) * along - std::sin(dive_deg * degree) * c.up);
+    c.spindle_axis = std::cos(lean_deg * degree) * c.up + std::sin(lean_deg * degree) * along;
+    return drawn;
+}
+
+// Where edges see the face that the burr will have half a voxel on, each is off by a tenth or more.
+TEST(EdgeForce, OfASteepShallowDiveIsThatOfTheFaceWhereTheBurrIs) {
+    for (const double voxel_mm : {0.1, 0.15})
+        for (const double dive_deg : {50.0, 70.0, 90.0})
+            for (const double depth_voxels : {0.6, 1.2, 2.5})
+                for (const double lean_deg : {-60.0, 45.0}) {
+                    const study::RandomMotion drawn =
+                        dive_of(2.6, depth_voxels * voxel_mm, dive_deg, lean_deg, voxel_mm);
+                    const study::ForceSeries series =
+                        study::run_steady(drawn.motion, drawn.run, study::voxel_model());
+                    EXPECT_LT(
+                        relative_error(study::mean_force_n(series), study::reference_over_path_n(drawn)),
+                        0.08)
+                        << voxel_mm << " mm, " << dive_deg << " deg, " << depth_voxels << " deep, "
+                        << lean_deg;
+                }
+}
+
+TEST(EdgeForce, BeginsWhereTheBurrMeetsTheBoneWhereverThatLiesInItsVoxels) {
+    glm::dvec3 mean_of_first_n(0.0);
+    for (const double surface_mm : {0.0, -0.025, -0.01, 0.012, 0.025}) {
+        ReferenceCase c = slot_1_mm_deep_with_edges();
+        MillingModel model(testing::make_block({-3.0, -3.0, -2.0}, {3.0, 3.0, 1.0}, 0.1,
+                                               [&](const glm::dvec3& p) { return surface_mm - p.z; }),
+                           {c.burr}, {});
+        ForgottenChanges changes;
+        auto result = std::make_unique<MillingResult>();
+        double before_n = 0.0;
+        glm::dvec3 mean_n(0.0);
+        for (double depth_mm = -0.3; depth_mm < 0.1; depth_mm += 0.0005) {
+            const glm::dvec3 position_mm(0.031, 0.017, c.burr.radius_mm() - depth_mm + surface_mm);
+            model.step({.pose = {position_mm, {0.6, 0.0, 0.8}}, .spindle_on = true, .elapsed_s = 0.001}, 0.0,
+                       changes, *result);
+            if (depth_mm < -0.025) before_n = std::max(before_n, glm::length(result->force_n));
+            if (depth_mm > 0.0) mean_n += 0.0005 / 0.1 * result->force_n;
+        }
+        EXPECT_LT(before_n, 0.02 * glm::length(mean_n)) << surface_mm;
+        if (mean_of_first_n == glm::dvec3(0.0)) mean_of_first_n = mean_n;
+        EXPECT_LT(relative_error(mean_n, mean_of_first_n), 0.02) << surface_mm;
+    }
+}
+
 TEST(EdgeForce, OfBinsAndOfInstantsAddsUpToTheSame) {
     const ReferenceCase c = slot_1_mm_deep_with_edges();
     const auto error_of = [&](double step_s, double travel_mm, ForceSummation summation) {
@@ -126,6 +185,44 @@ TEST(EdgeForce, CountsForNothingInThePublishedLaw) {
     without.burr.edge_coefficients_n_per_mm = glm::dvec3(0.0);
     EXPECT_EQ(run_steady(c, 0.1, 0.01, 1.0, {.has_edge_forces = false}).mean_force_n,
               run_steady(without, 0.1, 0.01, 1.0).mean_force_n);
+}
+
+/// Of a force that goes with the face.
+EdgeLook look_of(double voxels_per_look, double share) {
+    return {glm::dvec3(0.0, 3.0, -1.0) * voxels_per_look, voxels_per_look * share};
+}
+
+TEST(EdgeLook, FollowsAFaceThatGrowsBackToTheMiddleOfTheStep) {
+    // A face of 100 where the burr is that grows by 80 a look: means of 140 over the look, 120 over its half.
+    const EdgeLook whole = look_of(140.0, 1.0);
+    const EdgeLook half = look_of(120.0, 0.5);
+    const auto face = [&](double step_share) {
+        return (whole.force + edge_look_correction(whole, half, step_share)).y / 3.0;
+    };
+    EXPECT_NEAR(face(0.0), 100.0, 3.0);
+    EXPECT_NEAR(face(0.5), 120.0, 2.0);
+    EXPECT_EQ(face(1.0), 140.0);
+    EXPECT_EQ(face(1.5), 140.0);
+}
+
+TEST(EdgeLook, LeavesTheLatticesOwnUnevennessAlone) {
+    const EdgeLook whole = look_of(100.0, 1.0);
+    EXPECT_LT(glm::length(edge_look_correction(whole, look_of(99.0, 0.5), 0.0)),
+              0.005 * glm::length(whole.force));
+    const EdgeLook thin = look_of(2.0, 1.0);
+    EXPECT_LT(glm::length(edge_look_correction(thin, look_of(1.6, 0.5), 0.0)),
+              0.06 * glm::length(thin.force));
+}
+
+TEST(EdgeLook, RubsOnNothingShortOfTheBone) {
+    // Bone begins somewhere in the look's first or second half: the face is 0 until then.
+    for (const double begins : {0.2, 0.6}) {
+        const EdgeLook whole = look_of(400.0 * (1.0 - begins) * (1.0 - begins), 1.0);
+        const double in_half = std::max(0.0, 0.5 - begins);
+        const EdgeLook half = look_of(800.0 * in_half * in_half, 0.5);
+        EXPECT_EQ(whole.force + edge_look_correction(whole, half, 0.0), glm::dvec3(0.0)) << begins;
+    }
+    EXPECT_EQ(edge_look_correction({}, {}, 0.1), glm::dvec3(0.0));
 }
 
 TEST(EdgeAdvance, TimesTheAreaIsTheVolumeThatAPartlyPassedFaceLoses) {
