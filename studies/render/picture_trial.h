@@ -12,6 +12,7 @@
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/renderer_choice.h"
+#include "studies/render/cue_cost.h"
 #include "studies/render/timed_drawing.h"
 
 namespace osteomill::study {
@@ -48,8 +49,11 @@ class PictureTrial {
     PictureTrial(const PictureTrial&) = delete;
     PictureTrial& operator=(const PictureTrial&) = delete;
 
-    /// The median of so many frames; with 0 the first is what counts, for what takes seconds.
+    /// As the reference is: no thin bone, a ray a pixel. The median of so many frames; with 0 the first is what counts, for what takes seconds.
     DrawnWay draw(const DrawingWay& way, int times) const;
+    /// Of a cue of the usual look, by so many pairs of frames; cue_names.
+    CueCost cue(std::string_view name, int pairs) const;
+    SilhouettePsnr silhouettes() const;
     /// Whether normals are taken from smoothed fractions: not where they do not fit, nor of surface voxels.
     bool has_smoothed_normals() const { return textures_->smoothed() != nullptr; }
     const std::string& gl_renderer() const { return gl_renderer_; }
