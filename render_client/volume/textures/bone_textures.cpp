@@ -95,7 +95,8 @@ Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
     if (plan_.smoothed) {
         for (Steps wait = arrival(smoothed); wait.step();) co_yield 0.7;
         smoothed_.emplace(table_, smoothed.get());
-        for (Steps part = smoothed_->fill(drawn, places_); part.step();) co_yield part_of(part, 0.7, 0.9);
+        for (Steps part = smoothed_->fill(drawn, places_); part.step();)
+            co_yield part_of(part, 0.7, table_.seen ? 0.9 : 1.0);
     }
     if (table_.seen) {
         for (Steps wait = arrival(seen); wait.step();) co_yield 0.9;

@@ -49,7 +49,7 @@ TEST_F(ShaderFilesTest, AllCompileInAllTheirPrograms) {
                                  shader_text(structure_files.fragment, "const int cut_count = 4;\n")));
     used.insert(structure_files.vertex);
     used.insert(structure_files.fragment.begin(), structure_files.fragment.end());
-    for (const ProgramFiles& files : {raycast_files, slice_files, bone_surface_files})
+    for (const ProgramFiles& files : {raycast_files, slice_files, bone_surface_files, silhouette_files})
         for (const char* places : {"dense_places.glsl", "atlas_places.glsl"}) {
             const auto names = behind_bone_sampling(places, files);
             for (const int bits : {0, 1, 2 + 1, 4, 8, 16, 32, 64 + 32, 127})
