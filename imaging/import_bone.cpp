@@ -28,6 +28,7 @@
 #include "imaging/resampling/refine.h"
 #include "imaging/resampling/scratch_values.h"
 #include "imaging/resampling/slice_shapes.h"
+#include "imaging/resampling/specks.h"
 
 namespace osteomill {
 
@@ -226,12 +227,68 @@ class SliceRing {
     std::vector<std::int16_t> hu_;
 };
 
+/// What makes the slices of the result.
+struct SliceSource {
+    const Refiner& refiner;
+    const FieldOfView* field;
+    const Grid& grid;
+
+    void fill(int z, std::span<std::int16_t> hu) const {
+        refiner.slice(z, hu);
+        if (field != nullptr) field->clear_outside(grid, z, hu);
+    }
+};
+
+std::string specks_in_words(const Specks& specks, const Grid& grid) {
+    return fmt::format("{} {} of bone of less than {:g} mm3, {:.2g} mm3 in all, touch{} nothing else",
+                       specks.count, specks.count == 1 ? "part" : "parts", speck_mm3,
+                       static_cast<double>(specks.voxels) * voxel_volume_mm3(grid),
+                       specks.count == 1 ? "es" : "");
+}
+
+/// Looks through the whole result beforehand: a part may touch the rest in the last slice.
+Specks find_specks(const ImportOptions& options, const SliceSource& source,
+                   const std::function<void()>& pause, const ReportProgress& report) {
+    const int slices = source.grid.size_voxels.z;
+    const int at_once = slices_at_once(source.grid);
+    SliceRing ring(source.grid, at_once);
+    SpeckSearch search(source.grid, *options.threshold_hu);
+    for (int first = 0; first < slices; first += at_once) {
+        const int now = std::min(at_once, slices - first);
+        in_parallel(now, [&](int i) { source.fill(first + i, ring.slice(first + i)); });
+        pause();
+        for (int i = 0; i < now; ++i) search.add(ring.slice(first + i));
+        report(static_cast<double>(first + now) / slices);
+    }
+    if (search.has_given_up())
+        throw ImagingError(options.input,
+                           fmt::format("bone at --threshold-hu {} falls into over a million parts, which is "
+                                       "noise; take a higher one, or go without --leave-out-specks",
+                                       *options.threshold_hu));
+    return search.found();
+}
+
+void say_specks(const ImportOptions& options, const SpeckSearch& search, const Grid& grid,
+                std::ostream& messages) {
+    if (search.has_given_up()) {
+        messages << fmt::format(
+            "{}: warning: bone falls into over a million parts; the threshold may be too low\n",
+            options.input.string());
+        return;
+    }
+    const Specks specks = search.found();
+    if (specks.count > 0)
+        messages << fmt::format("{}: {}; --leave-out-specks leaves {} out\n", options.input.string(),
+                                specks_in_words(specks, grid), specks.count == 1 ? "it" : "them");
+}
+
 /// Refines, clears what is far from bone if there is a threshold and soft tissue is not kept, writes: a few
-/// slices at a time, on all cores.
+/// slices at a time, on all cores. `search`, where there is one, sees every slice.
 /// Returns how many voxels are bone; 0 without a threshold.
-std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner, const FieldOfView* field,
-                            const std::function<void()>& pause, const Grid& grid, BoneFileWriter& writer,
+std::uint64_t write_refined(const ImportOptions& options, const SliceSource& source, const Specks& left_out,
+                            SpeckSearch* search, const std::function<void()>& pause, BoneFileWriter& writer,
                             const ReportProgress& report) {
+    const Grid& grid = source.grid;
     const int slices = grid.size_voxels.z;
     const int at_once = slices_at_once(grid);
     const bool clears = options.threshold_hu && !options.keeps_soft_tissue;
@@ -251,9 +308,9 @@ std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner
         const int now = std::min(at_once, slices - refined);
         in_parallel(now, [&](int i) {
             const std::span<std::int16_t> hu = ring.slice(refined + i);
-            refiner.slice(refined + i, hu);
-            if (field) field->clear_outside(grid, refined + i, hu);
+            source.fill(refined + i, hu);
             note_highest(hu);
+            clear_specks(left_out, refined + i, grid.size_voxels.x, hu);
             if (near) near->look_at(refined + i, hu);
         });
         pause();
@@ -261,8 +318,10 @@ std::uint64_t write_refined(const ImportOptions& options, const Refiner& refiner
         // The last ones wait for what comes above them.
         const int ready = (refined == slices ? slices : refined - reach) - written;
         if (clears) in_parallel(ready, [&](int i) { near->clear_far(written + i, ring.slice(written + i)); });
-        for (const int end = written + std::max(ready, 0); written < end; ++written)
+        for (const int end = written + std::max(ready, 0); written < end; ++written) {
             writer.add(ring.slice(written));
+            if (search != nullptr) search->add(ring.slice(written));
+        }
         report(static_cast<double>(written) / slices);
     }
     if (near && near->bone_voxels() == 0) throw no_bone(options, highest);
@@ -315,11 +374,25 @@ void import_bone(const ImportOptions& options, const OpenedImage& opened,
         if (work.axis_of_shapes)
             shapes.emplace(part, values, *work.axis_of_shapes, *options.threshold_hu, work.grid.spacing_mm,
                            room.subspan(floats_of_field(work)), pause);
-        ProgressLine progress(surroundings.messages, surroundings.is_terminal, "refining");
         const Refiner refiner(part, values, work.grid, shapes ? &*shapes : nullptr, pause);
+        const SliceSource source{refiner, field ? &*field : nullptr, work.grid};
+        Specks left_out;
+        if (options.leaves_out_specks && options.threshold_hu) {
+            ProgressLine progress(surroundings.messages, surroundings.is_terminal, "looking for specks");
+            left_out = find_specks(options, source, pause, progress.reporter());
+            surroundings.messages << fmt::format("{}: {}\n", options.input.string(),
+                                                 left_out.count == 0
+                                                     ? "no specks to leave out"
+                                                     : specks_in_words(left_out, work.grid) + "; left out");
+        }
+        std::optional<SpeckSearch> search;
+        if (options.threshold_hu && !options.leaves_out_specks)
+            search.emplace(work.grid, *options.threshold_hu);
+        ProgressLine progress(surroundings.messages, surroundings.is_terminal, "refining");
         BoneFileWriter writer(options.output, work.grid, std::move(key_values));
-        const std::uint64_t bone_voxels = write_refined(options, refiner, field ? &*field : nullptr, pause,
-                                                        work.grid, writer, progress.reporter());
+        const std::uint64_t bone_voxels = write_refined(
+            options, source, left_out, search ? &*search : nullptr, pause, writer, progress.reporter());
+        if (search) say_specks(options, *search, work.grid, surroundings.messages);
         say_if_all_is_bone(options, work.grid, bone_voxels, surroundings.messages);
         writer.commit();
     } catch (const std::bad_alloc&) {

@@ -155,6 +155,9 @@ void AllOfRecording::write_tissues(const std::vector<Tissue>& tissues) {
     auto& protections = bytes_.add("tissues/is_protected", u1);
     auto& opacities = numbers_.add("tissues/opacity", f8, "1");
     auto& warnings = numbers_.add("tissues/warn_mm", f8, "mm");
+    auto& identifiers = bytes_.add("tissues/identifier_rgb", u1, "", 3);
+    auto& depths = numbers_.add("tissues/shows_through_mm", f8, "mm");
+    auto& strengths = numbers_.add("tissues/shows_through_strength", f8, "1");
     for (const Tissue& tissue : tissues) {
         names.push_back(tissue.name);
         labels.add(tissue.label);
@@ -162,6 +165,9 @@ void AllOfRecording::write_tissues(const std::vector<Tissue>& tissues) {
         protections.add(std::uint8_t{tissue.is_protected});
         opacities.add(tissue.opacity);
         warnings.add(tissue.warn_mm);
+        identifiers.add(identifier_of(tissue));
+        depths.add(tissue.shows_through_mm);
+        strengths.add(tissue.shows_through_strength);
     }
     file_.add_texts("tissues/name", names);
 }

@@ -183,7 +183,7 @@ void FivrsRecording::write_removed(const std::vector<Tissue>& tissues) {
     auto& colours = numbers_.add("voxels_removed/voxel_color", f8, "", 5);
     std::array<std::array<std::uint8_t, 3>, 256> rgb_of_label;
     rgb_of_label.fill(bone_rgb);
-    for (const Tissue& tissue : tissues) rgb_of_label[tissue.label] = tissue.colour_rgb;
+    for (const Tissue& tissue : tissues) rgb_of_label[tissue.label] = identifier_of(tissue);
     std::vector<std::pair<std::size_t, std::uint64_t>> removed;
     for (const auto& [number, row] : removed_) removed.emplace_back(row, number);
     std::ranges::sort(removed);

@@ -51,6 +51,14 @@ inline bool is_name_of_sum(std::string_view name) {
     return name == "total" || name == "unlabelled";
 }
 
+/// How thick bone may be at most that shows what is behind it.
+inline constexpr double most_shows_through_mm = 3.0;
+
+/// Where a scene does not say how thin bone must be to show a tissue: as surgeons see sinus and nerves.
+inline double usual_shows_through_mm(bool is_protected) {
+    return is_protected ? 1.5 : 0.0;
+}
+
 struct Tissue {
     std::uint8_t label = 0;  ///< 1 to 255; 0 is "unlabelled"
     std::string name{};
@@ -62,9 +70,17 @@ struct Tissue {
     std::string segment{};                     ///< of the segmentation that it is; empty: none
     double opacity = 1.0;                      ///< of its picture, 0 (not drawn) to 1
     double warn_mm = 0.0;                      ///< a burr nearer than this is warned of; 0: none is
+    double shows_through_mm = 0.0;             ///< bone thinner than this shows its colour; 0: none does
+    double shows_through_strength = 0.8;       ///< share of its colour under hardly any bone, 0 to 1
+    /// By which files of other programs know it (FIVRS); absent: its colour.
+    std::optional<std::array<std::uint8_t, 3>> identifier_rgb{};
 
     bool operator==(const Tissue&) const = default;
 };
+
+inline const std::array<std::uint8_t, 3>& identifier_of(const Tissue& tissue) {
+    return tissue.identifier_rgb ? *tissue.identifier_rgb : tissue.colour_rgb;
+}
 
 /// Device space to patient space: p_patient = rotation * (scale * p_device) + offset.
 /// Forces go back by the transposed rotation, unscaled.

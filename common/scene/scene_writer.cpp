@@ -119,16 +119,22 @@ std::string stiffness_text(const StiffnessRelation& relation, SceneText extent) 
     return text + "]\n";
 }
 
+std::string colour_text(const std::array<std::uint8_t, 3>& rgb) {
+    return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
+}
+
 std::string tissue_text(const Tissue& tissue, SceneText extent) {
     Keys keys(extent);
     keys.add_text(fmt::format("label = {}\n", tissue.label))
         .add("name", tissue.name)
-        .add("colour", fmt::format("#{:02x}{:02x}{:02x}", tissue.colour_rgb[0], tissue.colour_rgb[1],
-                                   tissue.colour_rgb[2]))
+        .add("colour", colour_text(tissue.colour_rgb))
+        .add("identifier", colour_text(identifier_of(tissue)), colour_text(tissue.colour_rgb))
         .add_if_any("segment", tissue.segment)
         .add("protected", tissue.is_protected, false)
         .add("warn_mm", tissue.warn_mm, usual_warn_mm(tissue.is_protected))
-        .add("opacity", tissue.opacity, 1.0);
+        .add("opacity", tissue.opacity, 1.0)
+        .add("shows_through_mm", tissue.shows_through_mm, usual_shows_through_mm(tissue.is_protected))
+        .add("shows_through_strength", tissue.shows_through_strength, Tissue().shows_through_strength);
     if (tissue.strength) {
         const TissueStrength& strength = *tissue.strength;
         const TissueStrength usual = usual_strength(strength);

@@ -14,14 +14,16 @@ namespace osteomill {
 
 namespace {
 
-std::array<std::uint8_t, 3> read_colour(TomlReader& reader) {
-    const std::string text = required(reader, "colour", reader.text("colour"));
+std::optional<std::array<std::uint8_t, 3>> read_colour(TomlReader& reader, const char* key) {
+    const std::optional<std::string> said = reader.text(key);
+    if (!said) return std::nullopt;
+    const std::string& text = *said;
     const bool good = text.size() == 7 && text[0] == '#' &&
                       text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-    if (!good) reader.fail("colour", "'colour' must look like \"#f6f4ec\"");
+    if (!good) reader.fail(key, fmt::format("'{}' must look like \"#f6f4ec\"", key));
     const unsigned long rgb = std::stoul(text.substr(1), nullptr, 16);
-    return {static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U & 0xffU),
-            static_cast<std::uint8_t>(rgb & 0xffU)};
+    return std::array{static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U & 0xffU),
+                      static_cast<std::uint8_t>(rgb & 0xffU)};
 }
 
 std::optional<TissueStrength> read_strength(TomlReader& reader) {
@@ -65,7 +67,9 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segme
         tissue.label =
             static_cast<std::uint8_t>(required(reader, "label", reader.whole_number("label", 1, 255)));
         tissue.name = required(reader, "name", reader.text("name"));
-        tissue.colour_rgb = read_colour(reader);
+        tissue.colour_rgb = required(reader, "colour", read_colour(reader, "colour"));
+        tissue.identifier_rgb = read_colour(reader, "identifier");
+        if (tissue.identifier_rgb == tissue.colour_rgb) tissue.identifier_rgb.reset();
         tissue.is_protected = reader.truth("protected").value_or(false);
         tissue.strength = read_strength(reader);
         tissue.stiffness_factor = read_stiffness_factor(reader, tissue.strength);
@@ -74,6 +78,10 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segme
         tissue.opacity = reader.number("opacity", {0.0, 1.0}).value_or(1.0);
         tissue.warn_mm =
             reader.number("warn_mm", {0.0, most_warn_mm}).value_or(usual_warn_mm(tissue.is_protected));
+        tissue.shows_through_mm = reader.number("shows_through_mm", {0.0, most_shows_through_mm})
+                                      .value_or(usual_shows_through_mm(tissue.is_protected));
+        tissue.shows_through_strength = reader.number("shows_through_strength", {0.0, 1.0})
+                                            .value_or(Tissue().shows_through_strength);
         if (!tissue.segment.empty() && !has_segmentation)
             reader.fail("segment", "'segment' needs [bone] segmentation = \"FILE.seg.nrrd\"");
         reader.refuse_other_keys();

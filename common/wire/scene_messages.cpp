@@ -50,6 +50,15 @@ std::optional<BurrHead> head_from(const v2::BurrDescription& message) {
     return read;
 }
 
+std::uint32_t rgb_number(const std::array<std::uint8_t, 3>& rgb) {
+    return static_cast<std::uint32_t>(rgb[0]) << 16U | static_cast<std::uint32_t>(rgb[1]) << 8U | rgb[2];
+}
+
+std::array<std::uint8_t, 3> rgb_bytes(std::uint32_t rgb) {
+    return {static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U & 0xFFU),
+            static_cast<std::uint8_t>(rgb & 0xFFU)};
+}
+
 v2::CutState to_message(const CutState& cut) {
     v2::CutState message;
     message.set_force_n(static_cast<float>(cut.force_n));
@@ -95,11 +104,13 @@ v2::TissueDescription to_message(const Tissue& tissue) {
     v2::TissueDescription message;
     message.set_label(tissue.label);
     message.set_name(tissue.name);
-    message.set_colour_rgb(static_cast<std::uint32_t>(tissue.colour_rgb[0]) << 16U |
-                           static_cast<std::uint32_t>(tissue.colour_rgb[1]) << 8U | tissue.colour_rgb[2]);
+    message.set_colour_rgb(rgb_number(tissue.colour_rgb));
+    if (tissue.identifier_rgb) message.set_identifier_rgb(rgb_number(*tissue.identifier_rgb));
     message.set_is_protected(tissue.is_protected);
     message.set_opacity(tissue.opacity);
     message.set_warn_mm(tissue.warn_mm);
+    message.set_shows_through_mm(tissue.shows_through_mm);
+    message.set_shows_through_strength(tissue.shows_through_strength);
     return message;
 }
 
@@ -195,21 +206,33 @@ std::variant<std::vector<Tissue>, WireError> tissues_from(
     std::vector<Tissue> tissues;
     for (const v2::TissueDescription& message : messages) {
         const std::uint32_t rgb = message.colour_rgb();
-        if (message.label() < 1 || message.label() > 255 || rgb > 0xFFFFFF)
+        if (message.label() < 1 || message.label() > 255 || rgb > 0xFFFFFF ||
+            message.identifier_rgb() > 0xFFFFFF)
             return WireError{"tissue \"" + one_line(message.name()) + "\" has an impossible label or colour"};
         const double opacity = message.has_opacity() ? message.opacity() : 1.0;
         const double warn_mm = message.has_warn_mm() ? message.warn_mm() : message.is_protected() ? 1.0 : 0.0;
         if (!(opacity >= 0.0 && opacity <= 1.0) || !(warn_mm >= 0.0) || !std::isfinite(warn_mm))
             return WireError{"tissue \"" + one_line(message.name()) +
                              "\" has an impossible opacity or distance to warn at"};
+        const double shows_through_mm = message.has_shows_through_mm()
+                                            ? message.shows_through_mm()
+                                            : usual_shows_through_mm(message.is_protected());
+        const double strength = message.has_shows_through_strength() ? message.shows_through_strength()
+                                                                     : Tissue().shows_through_strength;
+        if (!(shows_through_mm >= 0.0 && shows_through_mm <= most_shows_through_mm) ||
+            !(strength >= 0.0 && strength <= 1.0))
+            return WireError{"tissue \"" + one_line(message.name()) +
+                             "\" shows through bone of an impossible thickness or strength"};
         tissues.push_back({.label = static_cast<std::uint8_t>(message.label()),
                            .name = printable(message.name()),
-                           .colour_rgb = {static_cast<std::uint8_t>(rgb >> 16U),
-                                          static_cast<std::uint8_t>(rgb >> 8U & 0xFFU),
-                                          static_cast<std::uint8_t>(rgb & 0xFFU)},
+                           .colour_rgb = rgb_bytes(rgb),
                            .is_protected = message.is_protected(),
                            .opacity = opacity,
-                           .warn_mm = warn_mm});
+                           .warn_mm = warn_mm,
+                           .shows_through_mm = shows_through_mm,
+                           .shows_through_strength = strength,
+                           .identifier_rgb = {}});
+        if (message.has_identifier_rgb()) tissues.back().identifier_rgb = rgb_bytes(message.identifier_rgb());
     }
     return tissues;
 }

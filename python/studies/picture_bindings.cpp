@@ -51,10 +51,7 @@ glm::ivec2 size_of(const std::pair<int, int>& size_px) {
 }
 
 std::vector<TissueColour> tissues_of(const LoadedCase& loaded) {
-    std::vector<TissueColour> tissues;
-    for (const Tissue& tissue : loaded.settings().tissues)
-        tissues.push_back({tissue.label, tissue.colour_rgb});
-    return tissues;
+    return tissue_colours(loaded.settings().tissues);
 }
 
 std::unique_ptr<PictureTrial> trial(const LoadedCase& loaded, const std::string& view,
@@ -97,6 +94,35 @@ py::dict draw(const PictureTrial& trial, const std::string& renderer, float step
     return told;
 }
 
+py::dict cue(const PictureTrial& trial, const std::string& name, int pairs) {
+    if (pairs < 1) throw std::invalid_argument("pairs is 1 or more");
+    study::CueCost cost;
+    {
+        const py::gil_scoped_release released;
+        cost = trial.cue(name, pairs);
+    }
+    py::dict told;
+    told["without_ms"] = cost.without_ms;
+    told["with_ms"] = cost.with_ms;
+    told["part_of_frame"] = cost.part_of_frame;
+    told["part_of_cpu"] = cost.part_of_cpu;
+    told["changed_pixels"] = cost.changed_pixels;
+    return told;
+}
+
+py::dict silhouettes(const PictureTrial& trial) {
+    study::SilhouettePsnr psnr;
+    {
+        const py::gil_scoped_release released;
+        psnr = trial.silhouettes();
+    }
+    py::dict told;
+    told["without_db"] = psnr.without_db;
+    told["with_db"] = psnr.with_db;
+    told["pixels"] = psnr.pixels;
+    return told;
+}
+
 }  // namespace
 
 void bind_pictures(py::module_& module) {
@@ -109,6 +135,11 @@ void bind_pictures(py::module_& module) {
         .def("draw", &draw, py::kw_only(), py::arg("renderer") = "raycast", py::arg("step_voxels") = 0.5F,
              py::arg("skips") = true, py::arg("divisor") = 1, py::arg("times") = 5,
              "The median of so many frames; with 0 the first is what counts. renderer: raycast, slices.")
+        .def("cue", &cue, py::arg("name"), py::kw_only(), py::arg("pairs") = 5,
+             "Frames with a cue of the usual look and without it, in turns. name: ambient occlusion, thin "
+             "bone, smooth silhouettes, wet bone.")
+        .def("silhouettes", &silhouettes,
+             "PSNR on silhouettes, smoothed and not, against a picture of 4 x 4 rays a pixel.")
         .def_property_readonly("has_smoothed_normals", &PictureTrial::has_smoothed_normals)
         .def_property_readonly("gl_renderer", &PictureTrial::gl_renderer);
     constexpr const char* about =

@@ -25,6 +25,8 @@ DatasetContents contents_of(const RenderOptions& options) {
             .part = dataset.part,
             .randomise = dataset.randomise,
             .look = {.ambient_occlusion = options.ambient_occlusion,
+                     .thin_bone = options.thin_bone,
+                     .smooth_silhouettes = options.smooth_silhouettes,
                      .specular = static_cast<float>(options.specular)},
             .limits = {.budget_bytes = options.texture_budget_bytes}};
 }

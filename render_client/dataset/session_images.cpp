@@ -11,9 +11,8 @@ namespace osteomill {
 namespace {
 
 std::vector<TissueColour> solid_colours(std::span<const Tissue> tissues) {
-    std::vector<TissueColour> colours;
-    for (const Tissue& tissue : tissues)
-        colours.push_back({tissue.label, tissue.colour_rgb, tissue.opacity > 0.0 ? 1.0 : 0.0});
+    std::vector<TissueColour> colours = tissue_colours(tissues);
+    for (TissueColour& colour : colours) colour.opacity = colour.opacity > 0.0 ? 1.0 : 0.0;
     return colours;
 }
 
@@ -58,13 +57,18 @@ void SessionImages::take_structures() {
     for (; structures_ < session_.structures().size(); ++structures_) {
         const Structure& structure = session_.structures()[structures_];
         if (structure.tissue >= tissues_.size() || tissues_[structure.tissue].opacity <= 0.0) continue;
-        const StructureSurface surface = surface_of(soft_part(structure.mask, session_.bone()),
-                                                    linear_from_srgb(tissues_[structure.tissue].colour_rgb));
+        const Tissue& tissue = tissues_[structure.tissue];
+        const StructureMask soft = soft_part(structure.mask, session_.bone());
+        const StructureSurface surface = surface_of(soft, linear_from_srgb(tissue.colour_rgb));
+        textures_.add_structure(tissue.label, soft);
         for (const auto& view : views_) {
             view->picture.add_structure(surface, 1.0);
             view->surface.add_structure(surface, label_of_tissue(structure.tissue));
         }
     }
+    for (auto changed = textures_.work(playhead_.bone()); !changed.empty();
+         changed = textures_.work(playhead_.bone()))
+        for (const auto& view : views_) view->picture.mark_dirty(textures_, changed);
 }
 
 CameraImages SessionImages::draw(std::size_t camera, bool wants_colour, bool wants_surface) {

@@ -39,6 +39,8 @@ struct RenderOptions {
     StereoSettings stereo;
     double magnification = 1.0;
     bool ambient_occlusion = true;
+    bool thin_bone = true;
+    bool smooth_silhouettes = false;
     double specular = 0.0;  ///< highlights on bone
     bool light_field = false;
     InsetKind inset = InsetKind::off;

@@ -36,6 +36,14 @@ glm::vec3 plain_bone_colour() {
     return linear_from_srgb({236, 218, 184});
 }
 
+std::vector<TissueColour> tissue_colours(std::span<const Tissue> tissues) {
+    std::vector<TissueColour> colours;
+    for (const Tissue& tissue : tissues)
+        colours.push_back({tissue.label, tissue.colour_rgb, tissue.opacity, tissue.shows_through_mm,
+                           tissue.shows_through_strength});
+    return colours;
+}
+
 ColourTable colours_by_tissue(std::span<const TissueColour> tissues) {
     ColourTable table;
     table.fill(plain_bone_colour());

@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <vector>
+
+#include "common/scene/scene.h"
 
 namespace osteomill {
 
@@ -16,6 +19,8 @@ struct TissueColour {
     std::array<std::uint8_t, 3> srgb{};
     /// Light that a millimetre of it takes away: 1 is solid, 0 hides it.
     double opacity = 1.0;
+    double shows_through_mm = 0.0;  ///< thinner bone shows its colour (thin_bone.h); 0: none does
+    double shows_through_strength = 0.0;
 };
 
 /// Colour of bone of a stiffness.
@@ -29,6 +34,9 @@ glm::vec3 linear_from_srgb(const std::array<std::uint8_t, 3>& srgb);
 
 /// Colour of bone of which nothing else is known: a warm ivory.
 glm::vec3 plain_bone_colour();
+
+/// Tissues as they are drawn.
+std::vector<TissueColour> tissue_colours(std::span<const Tissue> tissues);
 
 /// Colours by label; labels without a colour look like plain bone.
 ColourTable colours_by_tissue(std::span<const TissueColour> tissues);

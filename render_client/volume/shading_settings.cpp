@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "render_client/volume/tissue_shades.h"
@@ -50,8 +51,10 @@ TransferTable by_tissue(const BoneContent& content, std::span<const TissueColour
 
 }  // namespace
 
-TransferTable transfer_table(const BoneContent& content, std::span<const TissueColour> tissues,
-                             const ShadingSettings& look) {
+namespace {
+
+TransferTable table_without_seen(const BoneContent& content, std::span<const TissueColour> tissues,
+                                 const ShadingSettings& look) {
     if (look.transfer) return by_stiffness(content, *look.transfer);
     if (!content.tissue.empty()) return by_tissue(content, tissues);
     if (!content.stiffness.empty())
@@ -59,6 +62,23 @@ TransferTable transfer_table(const BoneContent& content, std::span<const TissueC
     ColourTable plain;
     plain.fill(plain_bone_colour());
     return opaque(std::nullopt, plain);
+}
+
+bool shows_through(const TissueColour& tissue) {
+    return tissue.shows_through_mm > 0.0 && tissue.shows_through_strength > 0.0 && tissue.opacity > 0.0;
+}
+
+}  // namespace
+
+TransferTable transfer_table(const BoneContent& content, std::span<const TissueColour> tissues,
+                             const ShadingSettings& look) {
+    TransferTable table = table_without_seen(content, tissues, look);
+    std::vector<TissueColour> seen;
+    std::ranges::copy_if(tissues, std::back_inserter(seen), shows_through);
+    const bool is_usual_look = !look.transfer && look.shading == Shading::gradient;
+    if (is_usual_look && table.mode == TransferMode::surface && !seen.empty())
+        table.seen = seen_tissues(seen);
+    return table;
 }
 
 double colour_depth_voxels(const TransferTable& table) {

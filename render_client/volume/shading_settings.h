@@ -7,6 +7,7 @@
 
 #include "render_client/volume/bone_colours.h"
 #include "render_client/volume/textures/voxel_codes.h"
+#include "render_client/volume/thin_bone.h"
 #include "render_client/volume/transfer_function.h"
 
 namespace osteomill {
@@ -31,6 +32,7 @@ struct TransferTable {
     VoxelCodes codes{};                    ///< without any all bone looks like code 0
     std::array<glm::vec4, 256> by_code{};  ///< linear RGB and opacity
     TransferMode mode = TransferMode::surface;
+    std::optional<SeenTissues> seen{};  ///< what thin bone shows; none: it shows nothing
 };
 
 /// Throws std::invalid_argument like require_valid where the look's transfer function is none.

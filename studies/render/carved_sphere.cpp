@@ -62,7 +62,9 @@ double carved_sphere_psnr_db(double px_per_voxel) {
     const Camera camera = into_hole(px_per_voxel);
     const gl::Framebuffer framebuffer(picture_px);
     framebuffer.bind();
-    RaycastRenderer().draw(textures, camera, picture_px);
+    RaycastRenderer renderer;
+    renderer.set_appearance({.smooth_silhouettes = false});
+    renderer.draw(textures, camera, picture_px);
     Picture analytic(picture_px);
     const glm::dvec3 colour(plain_bone_colour());
     for (int y = 0; y < picture_px.y; ++y)

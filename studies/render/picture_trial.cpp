@@ -75,10 +75,21 @@ DrawnWay PictureTrial::draw(const DrawingWay& way, int times) const {
     context_.make_current();
     const glm::ivec2& size_px = reference_.size_px;
     const auto renderer = renderer_of(way);
+    renderer->set_appearance({.thin_bone = false, .smooth_silhouettes = false});
     const TimedPicture drawn =
         timed_drawing(*renderer, *textures_, camera_, glm::max(size_px / way.divisor, 1), times);
     const Picture shown = way.divisor == 1 ? drawn.picture : scaled(drawn.picture, size_px);
     return {.frame = drawn.cost, .psnr_db = psnr_db(shown, reference_), .ssim = ssim(shown, reference_)};
+}
+
+CueCost PictureTrial::cue(std::string_view name, int pairs) const {
+    context_.make_current();
+    return cue_cost(name, *textures_, camera_, reference_.size_px, pairs);
+}
+
+SilhouettePsnr PictureTrial::silhouettes() const {
+    context_.make_current();
+    return silhouette_psnr(*textures_, camera_, reference_.size_px);
 }
 
 Cost frame_cost(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look,

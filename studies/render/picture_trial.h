@@ -12,6 +12,7 @@
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/renderer_choice.h"
+#include "studies/render/cue_cost.h"
 #include "studies/render/timed_drawing.h"
 
 namespace osteomill::study {
@@ -49,8 +50,12 @@ class PictureTrial {
     PictureTrial(const PictureTrial&) = delete;
     PictureTrial& operator=(const PictureTrial&) = delete;
 
-    /// The median of so many frames; with 0 the first frame's time, for ways that take seconds.
+    /// Draws as the reference does: no thin bone, a ray a pixel. Its time is the median of so many frames; with
+    /// 0 the first one's, for ways that take seconds.
     DrawnWay draw(const DrawingWay& way, int times) const;
+    /// The cost of a cue of the usual appearance (cue_names), by so many pairs of frames.
+    CueCost cue(std::string_view name, int pairs) const;
+    SilhouettePsnr silhouettes() const;
     /// Whether normals are taken from smoothed fractions: not if they do not fit, nor of surface voxels.
     bool has_smoothed_normals() const { return textures_->smoothed() != nullptr; }
     const std::string& gl_renderer() const { return gl_renderer_; }

@@ -36,9 +36,7 @@ TrialBone skull(const std::filesystem::path& scans, const std::filesystem::path&
 
 TrialBone tooth() {
     const Scene scene = phantom_scene("tooth");
-    std::vector<TissueColour> tissues;
-    for (const Tissue& tissue : scene.tissues) tissues.push_back({tissue.label, tissue.colour_rgb});
-    return with_views(load_bone(scene).bone, tissues, 7.0);
+    return with_views(load_bone(scene).bone, tissue_colours(scene.tissues), 7.0);
 }
 
 }  // namespace

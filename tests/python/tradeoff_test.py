@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from osteomill import Burr, _studies
-from osteomill.studies import tradeoff, tradeoff_coupling, tradeoff_force, tradeoff_link, tradeoff_picture
+from osteomill.studies import tradeoff, tradeoff_coupling, tradeoff_cues, tradeoff_force, tradeoff_link, tradeoff_picture
 from osteomill.studies.fronts import on_front
 from osteomill.studies.study_run import StudyRun
 from support import tooth
@@ -65,6 +65,19 @@ class PictureTest(unittest.TestCase):
         self.assertGreater(psnr_db["default"], psnr_db["coarse steps"])
         self.assertGreater(psnr_db["coarse steps"], psnr_db["half"])
         self.assertEqual(trial.draw(times=0, skips=False)["psnr_db"], psnr_db["default"])  # skipping changes no pixel
+
+    def test_a_cue_costs_what_its_pairs_say_and_silhouettes_gain(self):
+        trial = _studies.PictureTrial(tooth(), size_px=(240, 180))
+        for cue in tradeoff_cues.CUES:
+            cost = trial.cue(cue, pairs=1)
+            self.assertGreater(min(cost["without_ms"], cost["with_ms"]), 0.0)
+            self.assertAlmostEqual(cost["part_of_frame"], cost["with_ms"] / cost["without_ms"] - 1.0)
+            self.assertGreater(cost["changed_pixels"], 0.0, cue)
+        gain = trial.silhouettes()
+        self.assertGreater(gain["pixels"], 100)
+        self.assertGreater(gain["with_db"], gain["without_db"] + tradeoff_cues.WORTH_DB)
+        with self.assertRaisesRegex(ValueError, "no cue is called 'glitter'"):
+            trial.cue("glitter")
 
     def test_normals_are_taken_from_what_is_asked_for(self):
         self.assertTrue(_studies.PictureTrial(tooth(), size_px=(32, 32)).has_smoothed_normals)
@@ -122,11 +135,12 @@ class TradeoffTest(unittest.TestCase):
         default = next(row for row in found["picture"] if row["is_default"])
         self.assertGreater(default["psnr_db"], tradeoff_picture.NEEDED_PSNR_DB)
         self.assertTrue(any(row["is_published"] for row in found["picture"]))
+        self.assertEqual({row["cue"] for row in found["picture_cues"]}, set(tradeoff_cues.CUES))
         for row in found["link"]:
             self.assertEqual(row["differing_voxels_left"] == 0, row["content"] != "poses", row)
         self.assertTrue(all(row["is_held"] for row in found["picture_needs"] + found["link_needs"]))
         for words in ("time of a step (median), us", "error of the mean force, %", "the default, voxels of 0.1 mm",
-                      "PSNR against the reference image, dB", "sent, kB/s"):
+                      "PSNR against the reference image, dB", "PSNR of silhouettes, dB", "sent, kB/s"):
             self.assertIn(words, page)
         self.assertTrue(all(row["frame_ms"] > 0.0 for row in found["scaling"]))
         for words in ("published", "front of the best", "what a built-in scene needs", "the tool alone"):

@@ -2,14 +2,14 @@
 front of the best, and what each built-in scene needs.
 
 Each part is in a file of its own, which says what it measures: tradeoff_force.py, tradeoff_coupling.py, tradeoff_picture.py,
-tradeoff_link.py; beside them what a frame costs as bone and window grow: tradeoff_scaling.py. Times hold for the machine
+tradeoff_cues.py, tradeoff_link.py; beside them what a frame costs as bone and window grow: tradeoff_scaling.py. Times hold for the machine
 that measured them; compare them within a chart.
 """
 
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from osteomill.studies import tradeoff_coupling, tradeoff_force, tradeoff_link, tradeoff_picture, tradeoff_scaling
+from osteomill.studies import tradeoff_coupling, tradeoff_cues, tradeoff_force, tradeoff_link, tradeoff_picture, tradeoff_scaling
 from osteomill.studies.study_run import StudyRun
 
 if TYPE_CHECKING:
@@ -28,14 +28,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 # Of the bones of picture and link; the others of --quick would take longer to make than to measure.
 QUICK_SCENES = ("tooth",)
 MEASURED_BY = {"force": tradeoff_force.measure, "coupling": tradeoff_coupling.measure, "picture": tradeoff_picture.measure,
-               "link": tradeoff_link.measure, "scaling": tradeoff_scaling.measure}
+               "cue": tradeoff_cues.measure, "link": tradeoff_link.measure, "scaling": tradeoff_scaling.measure}
 
 
 def cases(quick: bool) -> list[dict[str, Any]]:
     """Picture and link scene by scene, so that a bone is made once."""
     scenes = list(QUICK_SCENES if quick else tradeoff_force.SCENES)
     made = tradeoff_force.cases(quick) + tradeoff_coupling.cases(quick)
-    shown = tradeoff_picture.cases(scenes, quick) + tradeoff_link.cases(scenes, quick) + tradeoff_scaling.cases(quick)
+    shown = tradeoff_picture.cases(scenes, quick) + tradeoff_cues.cases(quick) + tradeoff_link.cases(scenes, quick) + tradeoff_scaling.cases(quick)
     order = [tradeoff_picture.TRIED_SCENE, *(scene for scene in scenes if scene != tradeoff_picture.TRIED_SCENE)]
     return made + sorted(shown, key=lambda case: order.index(case["scene"]))
 
@@ -45,7 +45,7 @@ def measure(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def _name_of(case: dict[str, Any]) -> str:
-    return ", ".join(str(case[key]) for key in ("part", "scene", "family", "method", "content", "label", "frame_rate_hz") if key in case)
+    return ", ".join(str(case[key]) for key in ("part", "scene", "family", "method", "content", "label", "view", "frame_rate_hz") if key in case)
 
 
 def tables_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> "dict[str, pd.DataFrame]":
@@ -59,7 +59,7 @@ def tables_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> 
     link = tradeoff_link.table_of(*found["link"])
     return {"force": force, "needs": tradeoff_force.needs_of(force), "coupling": tradeoff_coupling.table_of(*found["coupling"]),
             "picture": picture, "picture_needs": tradeoff_picture.needs_of(picture),
-            "link": link, "link_needs": tradeoff_link.needs_of(link), "scaling": tradeoff_scaling.table_of(*found["scaling"])}
+            "picture_cues": tradeoff_cues.table_of(*found["cue"]), "link": link, "link_needs": tradeoff_link.needs_of(link), "scaling": tradeoff_scaling.table_of(*found["scaling"])}
 
 
 def run(options: argparse.Namespace, study: StudyRun) -> None:

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from osteomill.studies import charts
+from osteomill.studies.tradeoff_cues import draw_cues
 from osteomill.studies.tradeoff_link_chart import draw_links
 from osteomill.studies.tradeoff_marks import DEFAULT_RING, SCENE_STAR, label_points, loglog
 from osteomill.studies.tradeoff_picture_chart import draw_pictures
@@ -26,9 +27,9 @@ LOOKS: dict[str, dict[str, Any]] = {
 def page_of(tables: dict[str, pd.DataFrame]) -> Figure:
     """Of the study's tables by their names."""
     force, needs, coupling = tables["force"], tables["needs"], tables["coupling"]
-    page = charts.figure(15.0, 36.0)
+    page = charts.figure(15.0, 41.0)
     page.suptitle("What a choice costs and what it is worth: the best is at the lower left, but for the shares")
-    grid = page.add_gridspec(6, 2, height_ratios=(10, 2.6, 9, 9, 9, 9))
+    grid = page.add_gridspec(7, 2, height_ratios=(10, 2.6, 9, 9, 9, 6, 9))
     voxels_error, voxels_ripple = page.add_subplot(grid[0, 0]), page.add_subplot(grid[0, 1])
     _draw_voxels(voxels_error, force, needs, "error_percent", "error of the mean force, %", NEEDED_ERROR_PERCENT)
     _draw_voxels(voxels_ripple, force, needs, "ripple_percent", "largest ripple of means over 10 ms, %", NEEDED_RIPPLE_PERCENT)
@@ -41,7 +42,8 @@ def page_of(tables: dict[str, pd.DataFrame]) -> Figure:
     _draw_couplings(coupling_error, coupling, "rms_error_percent", "error of the force in time, %")
     _draw_couplings(coupling_share, coupling, "stable_percent", "share of the range that is stable, %")
     draw_pictures(page.add_subplot(grid[4, 0]), page.add_subplot(grid[4, 1]), tables["picture"], tables["picture_needs"])
-    draw_links(page.add_subplot(grid[5, 0]), page.add_subplot(grid[5, 1]), tables["link"], tables["link_needs"])
+    draw_cues(page.add_subplot(grid[5, 0]), page.add_subplot(grid[5, 1]), tables["picture_cues"])
+    draw_links(page.add_subplot(grid[6, 0]), page.add_subplot(grid[6, 1]), tables["link"], tables["link_needs"])
     return page
 
 

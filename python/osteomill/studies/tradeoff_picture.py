@@ -2,7 +2,7 @@
 
 A choice draws one view of a bone, offscreen, by whatever draws on this machine (Mesa's software rasteriser where there is
 no GPU). Its error is the peak signal-to-noise ratio against the reference image of the same look, rays in steps of a tenth
-of a voxel in double precision. Its time is the median of several frames, of one that takes seconds the first.
+of a voxel in double precision; both without the cues that stand in tradeoff_cues.py. Its time is the median of several frames, of one that takes seconds the first.
 """
 
 import functools
@@ -80,12 +80,12 @@ def case_named(scene: str) -> Case:
 
 
 @functools.lru_cache(1)
-def _trial(scene: str, view: str, shading: str, size_px: tuple[int, int], smoothed_normals: bool) -> _studies.PictureTrial:
+def trial_of(scene: str, view: str, shading: str, size_px: tuple[int, int], smoothed_normals: bool) -> _studies.PictureTrial:
     return _studies.PictureTrial(case_named(scene), view=view, shading=shading, size_px=size_px, smoothed_normals=smoothed_normals)
 
 
 def measure(case: dict[str, Any]) -> dict[str, Any]:
-    trial = _trial(case["scene"], case["view"], case["shading"], QUICK_SIZE_PX if case["quick"] else SIZE_PX, case["smoothed_normals"])
+    trial = trial_of(case["scene"], case["view"], case["shading"], QUICK_SIZE_PX if case["quick"] else SIZE_PX, case["smoothed_normals"])
     is_slow = case["renderer"] == "slices" or not case["skips"]
     drawn = trial.draw(renderer=case["renderer"], step_voxels=case["step_voxels"], skips=case["skips"], divisor=case["divisor"],
                        times=0 if is_slow else 3 if case["quick"] else 9)

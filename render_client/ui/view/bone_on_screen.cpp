@@ -14,6 +14,7 @@ constexpr std::size_t bricks_a_step = 64;
 
 void BoneOnScreen::replace(const Bone& bone, std::vector<TissueColour> tissues) {
     tissues_ = std::move(tissues);
+    structures_.clear();
     unshown_.clear();
     if (shown_) shown_->is_of_former_bone = true;
     begin(bone);
@@ -23,6 +24,11 @@ BoneOnScreen::Outcome BoneOnScreen::drop_former_bone() {
     Outcome outcome;
     if (shows_former_bone()) drop_shown(outcome);
     return outcome;
+}
+
+void BoneOnScreen::add_structure(std::uint8_t label, const StructureMask& structure) {
+    structures_.emplace_back(label, structure);
+    if (shown_ && !shown_->is_of_former_bone) shown_->textures.add_structure(label, structure);
 }
 
 void BoneOnScreen::note(std::span<const BrickChange> changes) {
@@ -47,6 +53,11 @@ BoneOnScreen::Outcome BoneOnScreen::work(const Bone& bone, const std::function<b
         const auto changed = shown_->textures.update(bone, unshown_.take(bricks_a_step));
         outcome.changed.insert(outcome.changed.end(), changed.begin(), changed.end());
         if (!has_time()) break;
+    }
+    while (shown_ && !shown_->is_of_former_bone && has_time()) {
+        const auto changed = shown_->textures.work(bone);
+        if (changed.empty()) break;
+        outcome.changed.insert(outcome.changed.end(), changed.begin(), changed.end());
     }
     return outcome;
 }
@@ -84,6 +95,7 @@ void BoneOnScreen::show(Outcome& outcome) {
                                  shown_->textures.is_translucent() == made->textures.is_translucent();
     if (shown_) drop_shown(outcome);
     shown_ = made;
+    for (const auto& [label, structure] : structures_) shown_->textures.add_structure(label, structure);
     outcome.cost = costs_as_before ? DrawingCost::as_before : DrawingCost::unknown;
     unshown_ = std::exchange(unbuilt_, {});
     outcome.other_textures = true;

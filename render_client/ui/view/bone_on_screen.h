@@ -41,6 +41,8 @@ class BoneOnScreen {
     bool shows_former_bone() const { return shown_ && shown_->is_of_former_bone; }
     /// Nothing is drawn until that of now is ready.
     Outcome drop_former_bone();
+    /// A soft structure of that bone, with a tissue's label: thin bone shows it.
+    void add_structure(std::uint8_t label, const StructureMask& structure);
     /// It changed there.
     void note(std::span<const BrickChange> changes);
     /// A new appearance needs new textures. Those for an earlier one are finished first, so that a user who
@@ -78,6 +80,7 @@ class BoneOnScreen {
     TextureLimits limits_;
     gl::StorageThread* storage_ = nullptr;
     std::vector<TissueColour> tissues_;
+    std::vector<std::pair<std::uint8_t, StructureMask>> structures_;
     std::shared_ptr<Shown> shown_;
     GatheredChanges unshown_;
     std::shared_ptr<TextureBuild> build_;

@@ -12,6 +12,8 @@ inline void take_over(SessionPicture& session, const RenderOptions& options) {
     ViewSettings& view = session.view();
     view.theme = options.theme.value_or(ThemeName::dark);
     view.ambient_occlusion = options.ambient_occlusion;
+    view.thin_bone = options.thin_bone;
+    view.smooth_silhouettes = options.smooth_silhouettes;
     view.specular = static_cast<float>(options.specular);
     view.light_field = options.light_field;
     view.inset = options.inset;

@@ -18,12 +18,8 @@ namespace osteomill {
 
 namespace {
 
-std::vector<TissueColour> tissue_colours(const SessionInfo* session) {
-    std::vector<TissueColour> colours;
-    if (!session) return colours;
-    for (const Tissue& tissue : session->tissues)
-        colours.push_back({tissue.label, tissue.colour_rgb, tissue.opacity});
-    return colours;
+std::vector<TissueColour> colours_of(const SessionInfo* session) {
+    return session ? tissue_colours(session->tissues) : std::vector<TissueColour>{};
 }
 
 }  // namespace
@@ -105,7 +101,7 @@ void SessionPicture::ask_for_ct() {
 void SessionPicture::take_in_bone(bool first_of_tool) {
     const bool is_first = !std::exchange(has_taken_bone_, true);
     if (link_.bone_replaced || is_first) {
-        bone_.replace(*source_.bone(), tissue_colours(source_.session()));
+        bone_.replace(*source_.bone(), colours_of(source_.session()));
         grid_ = source_.bone()->grid();
         scene_name_ = source_.session() ? source_.session()->scene_name : "";
         has_undrawn_bone_ = true;
@@ -127,9 +123,9 @@ void SessionPicture::take_in_structure(const Structure& structure) {
     if (!session || structure.tissue >= session->tissues.size()) return;
     const Tissue& tissue = session->tissues[structure.tissue];
     slices_.set_mask(structure.tissue, structure.mask);
-    picture_.add_structure(
-        surface_of(soft_part(structure.mask, *source_.bone()), linear_from_srgb(tissue.colour_rgb)),
-        tissue.opacity);
+    const StructureMask soft = soft_part(structure.mask, *source_.bone());
+    bone_.add_structure(tissue.label, soft);
+    picture_.add_structure(surface_of(soft, linear_from_srgb(tissue.colour_rgb)), tissue.opacity);
     has_undrawn_bone_ = true;
 }
 
@@ -201,6 +197,8 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                                .background_low = theme.background_low,
                                .background_high = theme.background_high,
                                .ambient_occlusion = view_.ambient_occlusion,
+                               .thin_bone = view_.thin_bone,
+                               .smooth_silhouettes = view_.smooth_silhouettes,
                                .specular = view_.specular,
                                .light_field = view_.light_field};
     picture_.set_appearance(look);

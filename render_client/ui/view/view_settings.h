@@ -38,6 +38,8 @@ struct ViewSettings {
     bool transfer_save_wanted = false;  ///< and somebody pressed the button
     bool slices_shown = false;
     bool ambient_occlusion = true;
+    bool smooth_silhouettes = false;
+    bool thin_bone = true;     ///< which shows what is behind it
     float specular = 0.0f;     ///< highlights on bone, see SceneAppearance
     bool sound = false;        ///< the burr is to be heard,
     bool warns = true;         ///< and a tone where it is near a protected structure

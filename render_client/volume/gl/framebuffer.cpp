@@ -24,10 +24,10 @@ void Framebuffer::bind() const {
     glViewport(0, 0, size_px_.x, size_px_.y);
 }
 
-void Framebuffer::copy_to(const Framebuffer& target, const PixelBox& box) const {
+void Framebuffer::copy_to(GLuint target, const PixelBox& box) const {
     const glm::ivec2 end = box.first + box.size;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.id_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
     glBlitFramebuffer(box.first.x, box.first.y, end.x, end.y, box.first.x, box.first.y, end.x, end.y,
                       GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
@@ -65,6 +65,17 @@ Picture Framebuffer::read_back() const {
         std::copy_n(bottom_up.end() - static_cast<std::ptrdiff_t>((row + 1) * row_bytes), row_bytes,
                     picture.rgb.begin() + static_cast<std::ptrdiff_t>(row * row_bytes));
     return picture;
+}
+
+std::vector<float> Framebuffer::read_depth() const {
+    const auto row = static_cast<std::size_t>(size_px_.x);
+    std::vector<float> depth(row * static_cast<std::size_t>(size_px_.y));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+    glReadPixels(0, 0, size_px_.x, size_px_.y, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+    const auto at = [&](std::size_t y) { return depth.begin() + static_cast<std::ptrdiff_t>(y * row); };
+    for (std::size_t low = 0, high = static_cast<std::size_t>(size_px_.y) - 1; low < high; ++low, --high)
+        std::swap_ranges(at(low), at(low + 1), at(high));
+    return depth;
 }
 
 float Framebuffer::depth_at(const glm::ivec2& pixel) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "render_client/volume/gl/texture2d.h"
 #include "render_client/volume/passes/pixel_box.h"
@@ -17,7 +18,8 @@ class Framebuffer {
     /// Draw calls that follow land here; the viewport becomes the whole picture.
     void bind() const;
     /// glBlitFramebuffer of colour and depth within a box; sizes must be equal.
-    void copy_to(const Framebuffer& target, const PixelBox& box) const;
+    void copy_to(const Framebuffer& target, const PixelBox& box) const { copy_to(target.id_, box); }
+    void copy_to(GLuint target, const PixelBox& box) const;
     /// glBlitFramebuffer of colour to another picture, the lower left corner to pixel `first` of it.
     void copy_colour_to(const Framebuffer& target, const glm::ivec2& first) const;
     /// glBlitFramebuffer of colour to the window's framebuffer, lower left corners together. `buffer` is one
@@ -30,6 +32,8 @@ class Framebuffer {
     GLuint colour_texture() const { return colour_.id(); }
     /// glReadPixels of the colour; the first row is the top one.
     Picture read_back() const;
+    /// glReadPixels of the depth (0 near to 1 far); the first row is the top one.
+    std::vector<float> read_depth() const;
     /// Depth (0 near to 1 far) of a pixel counted from the lower left corner.
     float depth_at(const glm::ivec2& pixel) const;
 

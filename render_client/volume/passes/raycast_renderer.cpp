@@ -1,5 +1,8 @@
 #include "render_client/volume/passes/raycast_renderer.h"
 
+#include <array>
+#include <glm/common.hpp>
+
 #include "render_client/volume/shaders/appearance_uniforms.h"
 
 namespace osteomill {
@@ -10,6 +13,17 @@ namespace {
 glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2& size_px) {
     const glm::dmat4 projection = camera.projection(size_px);
     return {0.5 - 0.5 * projection[2][2], 0.5 * projection[3][2] / spacing_mm};
+}
+
+PixelBox scissor_box() {
+    std::array<GLint, 4> box{};
+    glGetIntegerv(GL_SCISSOR_BOX, box.data());
+    return {{box[0], box[1]}, {box[2], box[3]}};
+}
+
+PixelBox common_part(const PixelBox& a, const PixelBox& b) {
+    const glm::ivec2 first = glm::max(a.first, b.first);
+    return {first, glm::max(glm::min(a.first + a.size, b.first + b.size) - first, 0)};
 }
 
 }  // namespace
@@ -31,6 +45,25 @@ RaycastRenderer::RaycastRenderer(const RaycastSettings& settings)
     : bone_program_(raycast_files), settings_(settings) {}
 
 void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
+    if (!look().smooth_silhouettes || bone.is_translucent()) return draw_rays(bone, camera, size_px);
+    GLint target = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+    const bool is_part = glIsEnabled(GL_SCISSOR_TEST) == GL_TRUE;
+    const PixelBox whole{{0, 0}, size_px};
+    const PixelBox box = is_part ? common_part(scissor_box(), whole) : whole;
+    if (!silhouettes_) silhouettes_.emplace();
+    silhouettes_->begin(size_px);
+    // Silhouettes at the edge of a part depend on the pixel beyond it.
+    const PixelBox grown = common_part({box.first - 1, box.size + 2}, whole);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(grown.first.x, grown.first.y, grown.size.x, grown.size.y);
+    draw_rays(bone, camera, size_px);
+    glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
+    silhouettes_->draw(bone, camera, look(), settings_, size_px, static_cast<GLuint>(target), box);
+    if (!is_part) glDisable(GL_SCISSOR_TEST);
+}
+
+void RaycastRenderer::draw_rays(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
     background_.draw(look(), size_px);
     const gl::Program& program = bone_program_.use(bone, look());
     set_ray_uniforms(program, bone, camera, size_px, settings_);

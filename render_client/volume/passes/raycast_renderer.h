@@ -2,8 +2,11 @@
 // fraction reaches one half or, in translucent bone, where hardly any light comes through.
 #pragma once
 
+#include <optional>
+
 #include "render_client/volume/passes/background.h"
 #include "render_client/volume/passes/bone_renderer.h"
+#include "render_client/volume/passes/silhouettes.h"
 #include "render_client/volume/shaders/bone_program.h"
 
 namespace osteomill {
@@ -29,9 +32,12 @@ class RaycastRenderer final : public BoneRenderer {
     void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) override;
 
   private:
+    void draw_rays(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px);
+
     Background background_;
     BoneProgram bone_program_;
     RaycastSettings settings_;
+    std::optional<Silhouettes> silhouettes_;  ///< once they are to be smooth
 };
 
 }  // namespace osteomill

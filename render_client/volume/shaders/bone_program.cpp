@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -22,7 +24,9 @@ enum TextureUnit {
     colours_unit,
     surface_unit,
     ct_unit,
-    smoothed_unit
+    smoothed_unit,
+    seen_unit,
+    seen_looks_unit
 };
 
 bool shows_ct(const SceneAppearance& look) {
@@ -36,16 +40,17 @@ std::string constant(const char* name, bool value) {
 }  // namespace
 
 gl::Program BoneProgram::make(const Variant& variant) const {
-    std::vector<std::string_view> files{variant.layout == BoneLayout::dense ? "dense_places.glsl"
-                                                                            : "atlas_places.glsl"};
-    files.insert(files.end(), bone_sampling_files.begin(), bone_sampling_files.end());
-    files.insert(files.end(), own_.fragment.begin(), own_.fragment.end());
+    std::array<std::string_view, 1 + bone_sampling_files.size() + std::size(ProgramFiles{}.fragment)> files{
+        variant.layout == BoneLayout::dense ? "dense_places.glsl" : "atlas_places.glsl"};
+    auto* const own = std::ranges::copy(bone_sampling_files, files.begin() + 1).out;
+    std::ranges::copy(own_.fragment, own);
     const std::string constants = constant("bone_has_colour_code", variant.has_colour_code) +
                                   constant("bone_codes_are_mostly_alike", variant.codes_are_mostly_alike) +
                                   constant("bone_has_smoothed", variant.has_smoothed) +
                                   constant("bone_has_surface_colours", variant.has_surface_colours) +
                                   constant("bone_is_translucent", variant.is_translucent) +
                                   constant("bone_is_occluded", variant.is_occluded) +
+                                  constant("bone_shows_through", variant.shows_through) +
                                   constant("bone_shines", variant.shines) +
                                   constant("cuts_show_ct", variant.cuts_show_ct) +
                                   fmt::format("const int cut_count = {};\n", variant.cut_count);
@@ -59,6 +64,8 @@ gl::Program BoneProgram::make(const Variant& variant) const {
     program.set("bone_surface_colours", surface_unit);
     program.set("cut_ct", ct_unit);
     program.set("bone_smoothed", smoothed_unit);
+    program.set("bone_seen", seen_unit);
+    program.set("bone_seen_looks", seen_looks_unit);
     return program;
 }
 
@@ -69,6 +76,7 @@ const gl::Program& BoneProgram::program_for(const Variant& variant) {
 }
 
 const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneAppearance& look) {
+    const SeenThrough* seen = look.thin_bone ? bone.seen_through() : nullptr;
     const gl::Program& program = program_for({.layout = bone.plan().layout,
                                               .has_colour_code = bone.colour_code().has_value(),
                                               .codes_are_mostly_alike = bone.codes_are_mostly_alike(),
@@ -76,6 +84,7 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneAppeara
                                               .has_surface_colours = bone.surface_colours() != nullptr,
                                               .is_translucent = bone.is_translucent(),
                                               .is_occluded = look.ambient_occlusion,
+                                              .shows_through = seen != nullptr,
                                               .shines = look.specular > 0.0f,
                                               .cut_count = cut_count(look),
                                               .cuts_show_ct = shows_ct(look)});
@@ -97,11 +106,23 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneAppeara
         bone.colour_code()->bind(code_unit);
     else
         gl::Texture3D::unbind(code_unit);
+    if (seen != nullptr)
+        bind_seen(program, bone, *seen);
+    else
+        gl::Texture3D::unbind(seen_unit);
     if (shows_ct(look))
         bind_ct(program, bone, look);
     else
         gl::Texture3D::unbind(ct_unit);
     return program;
+}
+
+void BoneProgram::bind_seen(const gl::Program& program, const BoneTextures& bone, const SeenThrough& seen) {
+    program.set("seen_step", static_cast<float>(seen.lattice().step));
+    program.set("seen_farthest", static_cast<float>(seen.farthest_voxels()));
+    program.set("seen_span", static_cast<float>(seen.span_voxels()));
+    seen.texture().bind(seen_unit);
+    bone.seen_looks().bind(seen_looks_unit);
 }
 
 void BoneProgram::bind_ct(const gl::Program& program, const BoneTextures& bone, const SceneAppearance& look) {

@@ -17,7 +17,7 @@ namespace osteomill {
 class BoneProgram {
   public:
     /// Texture units from this one on are the renderer's own.
-    static constexpr int first_free_unit = 8;
+    static constexpr int first_free_unit = 10;
 
     explicit BoneProgram(const ProgramFiles& own) : own_(own) {}
 
@@ -38,6 +38,7 @@ class BoneProgram {
         bool has_surface_colours = false;
         bool is_translucent = false;
         bool is_occluded = true;
+        bool shows_through = false;
         bool shines = false;
         int cut_count = 0;
         bool cuts_show_ct = false;
@@ -46,6 +47,7 @@ class BoneProgram {
     };
     gl::Program make(const Variant& variant) const;
     const gl::Program& program_for(const Variant& variant);
+    static void bind_seen(const gl::Program& program, const BoneTextures& bone, const SeenThrough& seen);
     void bind_ct(const gl::Program& program, const BoneTextures& bone, const SceneAppearance& look);
 
     ProgramFiles own_;

@@ -1,4 +1,4 @@
-// What light makes of the bone at a point; follows bone_sampling.glsl and lighting.glsl.
+// What light makes of the bone at a point; follows thin_bone.glsl and lighting.glsl.
 //
 //     vec3  surface_pixel(vec3 point, vec3 direction)   display RGB of the bone's surface at a point, seen
 //                                                       along a unit direction
@@ -25,7 +25,9 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
     }
     vec3 normal = normal_at(point, -direction);
     float openness = bone_is_occluded ? ambient_occlusion(point, normal) : 1.0;
-    vec3 light = lit(look_under(point, normal).rgb, normal, openness);
+    vec3 colour = look_under(point, normal).rgb;
+    if (bone_shows_through) colour = colour_through(colour, point, direction);
+    vec3 light = lit(colour, normal, openness);
     if (bone_shines) light += specular * openness * highlight(normal, -direction);
     return display(light);
 }

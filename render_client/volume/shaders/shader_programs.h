@@ -33,8 +33,12 @@ inline constexpr ProgramFiles raycast_files{
 inline constexpr ProgramFiles bone_surface_files{
     "camera_rays.vert.glsl",
     {"lighting.glsl", "bone_shading.glsl", "bone_rays.glsl", "bone_surface.frag.glsl"}};
+inline constexpr ProgramFiles silhouette_files{
+    "camera_rays.vert.glsl",
+    {"lighting.glsl", "bone_shading.glsl", "bone_rays.glsl", "silhouettes.frag.glsl"}};
 inline constexpr ProgramFiles slice_files{
     "slice.vert.glsl", {"lighting.glsl", "bone_shading.glsl", "cut_shading.glsl", "slice.frag.glsl"}};
-inline constexpr std::array<std::string_view, 2> bone_sampling_files{"bone_sampling.glsl", "cuts.glsl"};
+inline constexpr std::array<std::string_view, 3> bone_sampling_files{"bone_sampling.glsl", "thin_bone.glsl",
+                                                                    "cuts.glsl"};
 
 }  // namespace osteomill

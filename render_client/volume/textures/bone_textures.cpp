@@ -53,11 +53,13 @@ Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
     const glm::ivec3 texels = places_.texture_size();
     auto fraction = make_texture(storage, gl::VoxelFormat::interpolated_byte, texels);
     auto blocks = make_texture(storage, gl::VoxelFormat::interpolated_bytes, empty_space_.size_blocks());
-    std::future<gl::Texture3D> code, smoothed, surface;
+    std::future<gl::Texture3D> code, smoothed, surface, seen;
     if (table_.codes.exist()) code = make_texture(storage, gl::VoxelFormat::byte_code, texels);
     if (plan_.smoothed) smoothed = make_texture(storage, gl::VoxelFormat::interpolated_byte, texels);
     if (shading_ == Shading::surface_voxels)
         surface = make_texture(storage, gl::VoxelFormat::interpolated_rgba, texels);
+    if (table_.seen)
+        seen = make_texture(storage, gl::VoxelFormat::interpolated_bytes, SeenLattice(box()).places);
 
     if (hides_bone(table_)) {
         visible_.emplace(table_);
@@ -93,13 +95,43 @@ Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
     if (plan_.smoothed) {
         for (Steps wait = arrival(smoothed); wait.step();) co_yield 0.7;
         smoothed_.emplace(table_, smoothed.get());
-        for (Steps part = smoothed_->fill(drawn, places_); part.step();) co_yield part_of(part, 0.7, 1.0);
+        for (Steps part = smoothed_->fill(drawn, places_); part.step();)
+            co_yield part_of(part, 0.7, table_.seen ? 0.9 : 1.0);
+    }
+    if (table_.seen) {
+        for (Steps wait = arrival(seen); wait.step();) co_yield 0.9;
+        seen_.emplace(SeenLattice(box()), grid_.spacing_mm, *table_.seen, seen.get());
+        store_seen_looks();
+        for (Steps part = seen_->fill(drawn); part.step();) co_yield part_of(part, 0.9, 1.0);
     }
     if (shading_ == Shading::surface_voxels) {
         for (Steps wait = arrival(surface); wait.step();) co_yield 0.7;
         surface_.emplace(table_, surface.get());
         for (Steps part = surface_->fill(drawn, places_); part.step();) co_yield part_of(part, 0.7, 1.0);
     }
+}
+
+void BoneTextures::store_seen_looks() {
+    std::vector<glm::vec4> looks(2 * table_.seen->size());
+    for (std::size_t label = 0; label < table_.seen->size(); ++label) {
+        const SeenTissue& tissue = (*table_.seen)[label];
+        looks[label] = glm::vec4(tissue.colour, tissue.strength);
+        looks[table_.seen->size() + label] =
+            glm::vec4(static_cast<float>(seen_->depth_voxels(tissue)), 0.0f, 0.0f, 0.0f);
+    }
+    seen_looks_.store({256, 2}, GL_RGBA32F, GL_RGBA, GL_FLOAT, looks.data(), GL_NEAREST, GL_NEAREST);
+}
+
+void BoneTextures::add_structure(std::uint8_t label, StructureMask structure) {
+    if (seen_) seen_->add(label, std::move(structure), plan_.coarsening);
+}
+
+std::span<const VoxelBox> BoneTextures::work(const Bone& bone) {
+    changed_.clear();
+    if (seen_)
+        if (const VoxelBox changed = seen_->work(shown(bone)); changed.count() > 0)
+            changed_.push_back(changed);
+    return changed_;
 }
 
 Steps BoneTextures::for_all(const Bone& drawn, std::function<void(const PlacedVoxels&)> upload) {
@@ -120,6 +152,10 @@ std::span<const VoxelBox> BoneTextures::update(const Bone& bone, std::span<const
     for (const VoxelBox& blocks : empty_space_.update(drawn, changes)) upload_blocks(blocks);
     if (smoothed_) smoothed_->update(drawn, places_, changed_);
     if (surface_) surface_->update(drawn, places_, changed_);
+    if (seen_) {
+        const std::span<const VoxelBox> seen = seen_->update(drawn, changes);
+        changed_.insert(changed_.end(), seen.begin(), seen.end());
+    }
     return changed_;
 }
 
@@ -128,6 +164,7 @@ std::vector<TextureSize> BoneTextures::sizes() const {
     if (colour_code_) sizes.push_back({"colour codes", colour_code_->bytes()});
     if (smoothed_) sizes.push_back({"smoothed fractions", smoothed_->texture().bytes()});
     if (surface_) sizes.push_back({"surface voxels", surface_->texture().bytes()});
+    if (seen_) sizes.push_back({"what thin bone shows", seen_->texture().bytes()});
     if (tile_table_) sizes.push_back({"tiles of bricks", tile_table_->bytes()});
     sizes.push_back({"empty space", blocks_->bytes()});
     return sizes;

@@ -18,6 +18,7 @@
 #include "render_client/volume/textures/changed_boxes.h"
 #include "render_client/volume/textures/coarse_bone.h"
 #include "render_client/volume/textures/empty_space.h"
+#include "render_client/volume/textures/seen_through.h"
 #include "render_client/volume/textures/smoothed_fraction.h"
 #include "render_client/volume/textures/surface_texture.h"
 #include "render_client/volume/textures/texture_plan.h"
@@ -39,6 +40,11 @@ class BoneTextures {
     /// since. Call before drawing: a texture that a frame in flight uses makes the call wait for that frame.
     /// Returns what changed, in voxels of grid(); valid until the next call.
     std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickChange> changes);
+
+    /// A structure outside the bone, with a tissue's label, that thin bone is to show. work() takes it in.
+    void add_structure(std::uint8_t label, StructureMask structure);
+    /// A step of that, of a few milliseconds. Returns what changed, as update does; none: nothing is left.
+    std::span<const VoxelBox> work(const Bone& bone);
 
     /// How the bone is held: in which layout, how much coarser than it is, in how many bytes.
     const TexturePlan& plan() const { return plan_; }
@@ -71,6 +77,11 @@ class BoneTextures {
     /// For each block of EmptySpace, two bytes: its mean fraction and its distance.
     const gl::Texture3D& blocks() const { return *blocks_; }
 
+    /// What thin bone shows; none where it shows nothing.
+    const SeenThrough* seen_through() const { return seen_ ? &*seen_ : nullptr; }
+    /// By label, in texel (label, 0) linear RGB and strength, in (label, 1) the depth in voxels.
+    const gl::Texture2D& seen_looks() const { return seen_looks_; }
+
     /// A point of patient space in texture coordinates counted in voxels: (0, 0, 0) is the box's corner.
     glm::dvec3 to_box_voxels(const glm::dvec3& position_mm) const;
 
@@ -88,6 +99,7 @@ class BoneTextures {
     const Bone& copied(const Bone& bone) const { return copy_ ? copy_->bone() : bone; }
     const Bone& shown(const Bone& bone) const { return visible_ ? visible_->bone() : copied(bone); }
     void upload_blocks(const VoxelBox& blocks);
+    void store_seen_looks();
 
     TexturePlan plan_;
     TransferTable table_;
@@ -104,6 +116,8 @@ class BoneTextures {
     gl::Texture2D colours_;
     std::optional<SmoothedTexture> smoothed_;
     std::optional<SurfaceTexture> surface_;
+    std::optional<SeenThrough> seen_;
+    gl::Texture2D seen_looks_;
     std::vector<VoxelBox> changed_;  ///< by the last update
     std::vector<std::uint8_t> scratch_;
 };

@@ -14,7 +14,8 @@ namespace {
 VoxelBytes bytes_per_voxel(const TransferTable& table, Shading shading) {
     const bool published = shading == Shading::surface_voxels;
     return {.needed = std::size_t{1} + (table.codes.exist() ? 1 : 0) + (published ? sizeof(SurfaceTexel) : 0),
-            .smoothed = published ? std::size_t{0} : std::size_t{1}};
+            .smoothed = published ? std::size_t{0} : std::size_t{1},
+            .seen_through = table.seen.has_value()};
 }
 
 }  // namespace

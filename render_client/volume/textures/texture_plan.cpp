@@ -7,6 +7,7 @@
 
 #include "render_client/volume/textures/block_summary.h"
 #include "render_client/volume/textures/coarse_bone.h"
+#include "render_client/volume/textures/seen_through.h"
 
 namespace osteomill {
 
@@ -49,7 +50,8 @@ std::vector<TexturePlan> texture_plans(const BoneContent& content, const VoxelBy
                 if (limits.layout && limits.layout != layout) continue;
                 if (!fits_edges(box, bricks.size(), layout, longest_edge_texels)) continue;
                 const std::size_t bytes =
-                    bytes_of_plan(per_voxel, box, bricks.size(), layout, longest_edge_texels);
+                    bytes_of_plan(per_voxel, box, bricks.size(), layout, longest_edge_texels) +
+                    (bytes_per_voxel.seen_through ? SeenLattice(box).bytes() : 0);
                 if (bytes <= most_bytes) plans.push_back({layout, coarsening, bytes, smoothed});
             }
         }

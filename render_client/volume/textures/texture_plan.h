@@ -38,6 +38,7 @@ struct TextureSize {
 struct VoxelBytes {
     std::size_t needed = 1;
     std::size_t smoothed = 0;  ///< more for smoothed fractions; 0: the look has no use for them
+    bool seen_through = false;  ///< beside them a field of what thin bone shows (seen_through.h)
 };
 
 /// Every way that keeps within the limits, best first: the bone itself before coarser copies of it (by 2, 4,

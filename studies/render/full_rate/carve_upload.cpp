@@ -14,18 +14,12 @@ namespace {
 
 constexpr double ball_radius_mm = 2.5;
 
-std::vector<TissueColour> colours_of(const SessionInfo& session) {
-    std::vector<TissueColour> colours;
-    for (const Tissue& tissue : session.tissues) colours.push_back({tissue.label, tissue.colour_rgb});
-    return colours;
-}
-
 }  // namespace
 
 CarveUpload upload_carves(const std::string& phantom, int times) {
     PhantomSession session(phantom);
     const Bone& bone = *session.bone();
-    BoneTextures textures(bone, colours_of(*session.session()));
+    BoneTextures textures(bone, tissue_colours(session.session()->tissues));
     CarveUpload found{.plan = textures.plan(), .textures = textures.sizes()};
 
     Bone with_ball = bone;

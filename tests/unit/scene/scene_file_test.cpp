@@ -147,6 +147,25 @@ TEST(SceneFile, ATissueTakesItsStrengthFromAMaterialOrItsOwnNumbers) {
     EXPECT_THAT(error_of(tissue + "relative_stiffness = 9\n"), HasSubstr("'relative_stiffness' is 9"));
 }
 
+TEST(SceneFile, AProtectedTissueShowsThroughThinBoneUnlessItSaysOtherwise) {
+    const std::string tissue = smallest + "[[tissues]]\nlabel = 2\nname = \"sinus\"\ncolour = \"#304f88\"\n";
+    EXPECT_EQ(parse_scene(tissue, "my.toml").tissues[0].shows_through_mm, 0.0);
+    EXPECT_EQ(parse_scene(tissue + "protected = true\n", "my.toml").tissues[0].shows_through_mm, 1.5);
+    const Scene own = parse_scene(tissue + "shows_through_mm = 0.8\nshows_through_strength = 0.5\n"
+                                           "identifier = \"#6eb8d1\"\n",
+                                  "my.toml");
+    EXPECT_EQ(own.tissues[0].shows_through_mm, 0.8);
+    EXPECT_EQ(own.tissues[0].shows_through_strength, 0.5);
+    EXPECT_EQ(identifier_of(own.tissues[0]), (std::array<std::uint8_t, 3>{0x6e, 0xb8, 0xd1}));
+    EXPECT_EQ(own.tissues[0].colour_rgb, (std::array<std::uint8_t, 3>{0x30, 0x4f, 0x88}));
+    for (const SceneText extent : {SceneText::concise, SceneText::complete})
+        EXPECT_EQ(parse_scene(write_scene(own, extent), "again.toml"), own);
+    EXPECT_THAT(error_of(tissue + "shows_through_mm = 4\n"), HasSubstr("'shows_through_mm' is 4"));
+    EXPECT_THAT(error_of(tissue + "shows_through_strength = 1.5\n"),
+                HasSubstr("'shows_through_strength' is 1.5"));
+    EXPECT_THAT(error_of(tissue + "identifier = \"blue\"\n"), HasSubstr("'identifier' must look like"));
+}
+
 TEST(SceneFile, ATissueMayHaveAFactorAndMayNotBeCut) {
     const std::string tissue = smallest + "[[tissues]]\nlabel = 4\nname = \"x\"\ncolour = \"#ffffff\"\n";
     EXPECT_TRUE(parse_scene(tissue, "my.toml").tissues[0].is_cuttable);

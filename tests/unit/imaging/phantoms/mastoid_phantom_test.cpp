@@ -73,7 +73,7 @@ std::size_t index_in_grid(const glm::ivec3& v) {
                 static_cast<std::size_t>(size.y) * static_cast<std::size_t>(v.z));
 }
 
-TEST(MastoidPhantom, HasTheNamesColoursAndLabelsOfFivrs) {
+TEST(MastoidPhantom, HasTheNamesIdentifiersAndLabelsOfFivrs) {
     std::ifstream table(OSTEOMILL_SCENES "/fivrs.ctbl");
     std::string line;
     std::size_t tissue = 0;
@@ -88,9 +88,9 @@ TEST(MastoidPhantom, HasTheNamesColoursAndLabelsOfFivrs) {
         const Tissue& ours = scene.tissues[tissue++];
         EXPECT_EQ(ours.label, label);
         EXPECT_EQ(ours.name, name);
-        EXPECT_EQ(ours.colour_rgb, (std::array<std::uint8_t, 3>{static_cast<std::uint8_t>(red),
-                                                                static_cast<std::uint8_t>(green),
-                                                                static_cast<std::uint8_t>(blue)}));
+        EXPECT_EQ(identifier_of(ours), (std::array<std::uint8_t, 3>{static_cast<std::uint8_t>(red),
+                                                                    static_cast<std::uint8_t>(green),
+                                                                    static_cast<std::uint8_t>(blue)}));
         EXPECT_GT(volume_mm3(static_cast<TemporalTissue>(label)), 0.0) << name;
     }
     EXPECT_EQ(tissue, scene.tissues.size());

@@ -76,6 +76,7 @@ TEST_P(RendererAccuracy, Reaches40Decibels) {
     const Bone bone = carved_bone();
     const BoneTextures textures(bone, tissues, GetParam().look);
     RaycastRenderer raycast;
+    raycast.set_appearance({.smooth_silhouettes = false});  // a ray a pixel, as the reference
     SliceRenderer slices;
     BoneRenderer& renderer = GetParam().slices ? static_cast<BoneRenderer&>(slices) : raycast;
     const Picture reference =

@@ -1,0 +1,68 @@
+// Silhouettes without stairs; follows bone_rays.glsl. A pixel beside a step in depth shows the nearer surface as far as that
+// covers it. The nearer surface ends where a ray only just touches it, and how far that is from the middle of the pixel
+// follows from the fullest place on its ray: the fraction there, less that of a surface, over its slope.
+
+uniform sampler2D drawn_colour, drawn_depth;
+uniform vec2 picture_size;
+uniform float pixel_width;  // at distance 1 along forward
+out vec4 pixel;
+
+const float least_step = 8.0;   // of depth, in pixels: a slope of 76 degrees has as much
+const float limb_depth = 24.0;  // in pixels: how far behind the last pixel of a surface its outline lies
+const int places = 24;
+
+float distance_of(float window_depth) { return depth_terms.y / (window_depth - depth_terms.x); }
+
+float slope_at(vec3 point) {
+    vec2 step = vec2(0.5, 0.0);
+    return length(vec3(fraction_at(point + step.xyy) - fraction_at(point - step.xyy),
+                       fraction_at(point + step.yxy) - fraction_at(point - step.yxy),
+                       fraction_at(point + step.yyx) - fraction_at(point - step.yyx)));
+}
+
+// Of the fullest place between two on the ray, which becomes `place`.
+float fullest(float first, float end, out float place) {
+    float most = -1.0, width = (end - first) / float(places);
+    place = first;
+    for (int i = 0; i <= places; ++i) {
+        float along = first + float(i) * width;
+        float fraction = fraction_at(eye + along * direction);
+        place = fraction > most ? along : place;
+        most = max(most, fraction);
+    }
+    vec2 beside = vec2(max(place - 0.5 * width, first), min(place + 0.5 * width, end));
+    vec2 fractions = vec2(fraction_at(eye + beside.x * direction), fraction_at(eye + beside.y * direction));
+    if (max(fractions.x, fractions.y) > most) place = fractions.x > fractions.y ? beside.x : beside.y;
+    return max(most, max(fractions.x, fractions.y));
+}
+
+void main() {
+    ivec2 here = ivec2(gl_FragCoord.xy), last = ivec2(picture_size) - 1;
+    float own = texelFetch(drawn_depth, here, 0).r;
+    float nearest = own, farthest = own;
+    ivec2 near_at = here, far_at = here;
+    for (int side = 0; side < 4; ++side) {
+        ivec2 beside = here + (side < 2 ? ivec2(2 * side - 1, 0) : ivec2(0, 2 * side - 5));
+        float depth = texelFetch(drawn_depth, clamp(beside, ivec2(0), last), 0).r;
+        if (depth < nearest) near_at = clamp(beside, ivec2(0), last);
+        if (depth > farthest) far_at = clamp(beside, ivec2(0), last);
+        nearest = min(nearest, depth);
+        farthest = max(farthest, depth);
+    }
+    float near = distance_of(nearest), far = distance_of(farthest);
+    float width = pixel_width * near;  // voxels
+    // A software rasteriser goes no further where all of a group of pixels are discarded.
+    if (far - near < least_step * width + 1.0) discard;
+    begin_ray();
+    float along = 1.0 / dot(direction, forward);
+    float first = clamp((near - 2.0 * width) * along - 2.0, enter, leave);
+    float end = clamp(min(near + limb_depth * width, 0.5 * (near + far)) * along + 1.0, first, leave);
+    float place;
+    float most = fullest(first, end, place);
+    float inside = (most - bone_surface) / max(slope_at(eye + place * direction), 1e-3);
+    float covered = clamp(0.5 + inside / width, 0.0, 1.0);
+    bool is_far = distance_of(own) > 0.5 * (near + far);
+    vec3 near_colour = texelFetch(drawn_colour, is_far ? near_at : here, 0).rgb;
+    vec3 far_colour = texelFetch(drawn_colour, is_far ? here : far_at, 0).rgb;
+    pixel = vec4(mix(far_colour, near_colour, covered), 1.0);
+}

@@ -1,0 +1,151 @@
+#include "render_client/volume/thin_bone.h"
+
+#include <cmath>
+#include <glm/exponential.hpp>
+
+#include "render_client/volume/gl/framebuffer.h"
+#include "render_client/volume/passes/raycast_renderer.h"
+#include "render_client/volume/shaders/lighting.h"
+#include "studies/render/made_bone.h"
+#include "tests/unit/volume/offscreen_test.h"
+
+namespace osteomill::thin_bone_test {
+namespace {
+
+using ThinBoneTest = OffscreenTest;
+
+constexpr double depth_mm = 1.5, strength = 0.9;
+const TissueColour bone_colour{1, {230, 210, 170}};
+const TissueColour sinus_colour{2, {40, 70, 170}, 1.0, depth_mm, strength};
+const std::array<TissueColour, 2> tissues{{bone_colour, sinus_colour}};
+const Grid grid{.size_voxels = {96, 96, 64}, .origin_mm = {-4.75, -4.75, -3.15}};
+const glm::ivec2 size_px(120, 90);
+
+TEST(ThinBone, TakesOnTheStrengthAtNoDepthAndNothingFromTheDepthOn) {
+    EXPECT_DOUBLE_EQ(share_through_bone(0.8, 0.0), 0.8);
+    EXPECT_NEAR(share_through_bone(0.8, 1.0), 0.0, 1e-12);
+    EXPECT_EQ(share_through_bone(0.8, 1.2), 0.0);
+    for (double way = 0.1; way < 0.95; way += 0.1) {
+        EXPECT_LT(share_through_bone(0.8, way), share_through_bone(0.8, way - 0.1));
+        // A second layer as thick takes as large a part of the light again.
+        const double least = std::exp(-3.0), scale = 1.0 - least;
+        EXPECT_NEAR(share_through_bone(1.0, way) * scale + least, std::exp(-3.0 * way), 1e-12);
+    }
+}
+
+/// A flat bone up to z = top_mm, of the second tissue below z = 0.
+Bone layered(double top_mm) {
+    return made_bone(
+        grid, [=](const glm::dvec3& p) { return std::min(top_mm - p.z, p.z + 2.5); },
+        [](const glm::dvec3& p) { return static_cast<std::uint8_t>(p.z > 0.0 ? 1 : 2); });
+}
+
+Camera from_above(double elevation_rad = 1.57) {
+    Camera camera = camera_on({0.0, 0.0, 0.0}, 2.0);
+    camera.elevation_rad = elevation_rad;
+    return camera;
+}
+
+Picture drawn(const BoneTextures& textures, const Camera& camera, bool thin_bone = true) {
+    RaycastRenderer renderer;
+    renderer.set_appearance({.thin_bone = thin_bone});
+    const gl::Framebuffer framebuffer(size_px);
+    framebuffer.bind();
+    renderer.draw(textures, camera, size_px);
+    return framebuffer.read_back();
+}
+
+glm::dvec3 linear_at(const Picture& picture, const glm::ivec2& place) {
+    const std::uint8_t* rgb = picture.at(place.x, place.y);
+    return glm::pow(glm::dvec3(rgb[0], rgb[1], rgb[2]) / 255.0, glm::dvec3(2.2));
+}
+
+/// Share of the second tissue in the middle's colour. Light is the same with it and without.
+double share_in_middle(const BoneTextures& textures, const Camera& camera) {
+    const glm::dvec3 with = linear_at(drawn(textures, camera), size_px / 2);
+    const glm::dvec3 without = linear_at(drawn(textures, camera, false), size_px / 2);
+    const glm::dvec3 own(linear_from_srgb(bone_colour.srgb)), other(linear_from_srgb(sinus_colour.srgb));
+    const glm::dvec3 light = without / own;
+    return (1.0 - with.r / (light.r * own.r)) / (1.0 - other.r / own.r);
+}
+
+TEST_F(ThinBoneTest, ShowsATissueBehindLayersByTheFormula) {
+    double before = 1.0;
+    for (const double thickness_mm : {0.3, 0.45, 0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.2}) {
+        const BoneTextures textures(layered(thickness_mm), tissues);
+        const double share = share_in_middle(textures, from_above());
+        EXPECT_NEAR(share, share_through_bone(strength, thickness_mm / depth_mm), 0.02) << thickness_mm;
+        if (thickness_mm < depth_mm) {
+            EXPECT_LT(share, before) << thickness_mm;
+        }
+        before = share;
+    }
+}
+
+TEST_F(ThinBoneTest, CountsTheWayOfARayThatGoesAslant) {
+    const double elevation = 0.9, thickness_mm = 0.6;
+    const BoneTextures textures(layered(thickness_mm), tissues);
+    const double way_mm = thickness_mm / std::sin(elevation);
+    Camera camera = from_above(elevation);
+    camera.target_mm = {0.0, 0.0, thickness_mm};
+    EXPECT_NEAR(share_in_middle(textures, camera), share_through_bone(strength, way_mm / depth_mm), 0.03);
+}
+
+TEST_F(ThinBoneTest, FollowsTheBurrThroughBoneIntoTheTissueAndBack) {
+    const Bone whole = layered(2.0);
+    Bone bone = whole;
+    BoneTextures textures(bone, tissues);
+    const Picture before = drawn(textures, from_above());
+    // A wide ball down to 0.5 mm over the tissue.
+    auto carved = carve_sphere(bone, {0.0, 0.0, 3.5}, 3.0);
+    textures.update(bone, carved);
+    EXPECT_NEAR(share_in_middle(textures, from_above()), share_through_bone(strength, 0.5 / depth_mm), 0.06);
+    EXPECT_EQ(drawn(textures, from_above()), drawn(BoneTextures(bone, tissues), from_above()));
+    // From below through the tissue up to the layer: then there is nothing to be seen behind it.
+    const auto opened = carve_sphere(bone, {0.0, 0.0, -2.6}, 2.7);
+    const std::span<const VoxelBox> changed = textures.update(bone, opened);
+    EXPECT_GT(changed.size(), opened.size()) << "what looks different is more than what changed";
+    EXPECT_LT(share_in_middle(textures, from_above()), 0.01);
+    EXPECT_EQ(drawn(textures, from_above()), drawn(BoneTextures(bone, tissues), from_above()));
+    carved.insert(carved.end(), opened.begin(), opened.end());
+    textures.update(whole, carved);
+    EXPECT_EQ(drawn(textures, from_above()), before);
+}
+
+TEST_F(ThinBoneTest, ShowsASoftStructureBesideTheBone) {
+    const Bone bone = made_bone(
+        grid, [](const glm::dvec3& p) { return std::min(0.6 - p.z, p.z); },
+        [](const glm::dvec3&) { return std::uint8_t{1}; });
+    BoneTextures textures(bone, tissues);
+    const Picture before = drawn(textures, from_above());
+    EXPECT_EQ(before, drawn(textures, from_above(), false));
+    std::vector<StructureBrick> bricks;
+    const glm::ivec3 size = size_in_bricks(grid);
+    for (int number = 0; number < size.x * size.y * size.z; ++number) {
+        StructureBrick brick{.brick = static_cast<BrickIndex>(number)};
+        const glm::ivec3 first = brick_edge_voxels * brick_position(size, brick.brick);
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
+            if (centre_of_voxel_mm(grid, first + voxel_in_brick(offset)).z < 0.0) brick.voxels.set(offset);
+        if (brick.voxels.any()) bricks.push_back(brick);
+    }
+    textures.add_structure(2, StructureMask(grid, std::move(bricks)));
+    int pieces = 0;
+    while (!textures.work(bone).empty()) ++pieces;
+    EXPECT_GT(pieces, 0);
+    EXPECT_NEAR(share_in_middle(textures, from_above()), share_through_bone(strength, 0.6 / depth_mm), 0.02);
+}
+
+TEST_F(ThinBoneTest, IsOfTheUsualLookAlone) {
+    const Bone bone = layered(0.5);
+    EXPECT_NE(BoneTextures(bone, tissues).seen_through(), nullptr);
+    EXPECT_EQ(BoneTextures(bone, tissues, {.shading = Shading::surface_voxels}).seen_through(), nullptr);
+    EXPECT_EQ(BoneTextures(bone, tissues, {.transfer = transfer_presets()[0]}).seen_through(), nullptr);
+    EXPECT_EQ(BoneTextures(bone, {&bone_colour, 1}).seen_through(), nullptr);
+    const BoneTextures textures(bone, tissues);
+    std::size_t bytes = 0;
+    for (const TextureSize& each : textures.sizes()) bytes += each.bytes;
+    EXPECT_EQ(bytes, textures.plan().bytes);
+}
+
+}  // namespace
+}  // namespace osteomill::thin_bone_test
