@@ -8,6 +8,7 @@
 #include "analysis/report/html_text.h"
 #include "analysis/report/metric_tables.h"
 #include "analysis/report/page_style.h"
+#include "analysis/report/rating_html.h"
 #include "analysis/report/smoothness.h"
 #include "analysis/report/verdict.h"
 
@@ -184,7 +185,8 @@ std::string first_page(const SessionTrace& trace, const SessionMetrics& metrics,
                        const ReferenceSessions& references) {
     const std::vector<JudgedMark> marks = judged_marks(metrics.pass, rows);
     return "<div class='first'>" + heading(trace) + harm(metrics.structures) + verdict(trace, marks) +
-           tiles(rows, marks, references) + figures(pictures.first, "two") + legend(trace) +
+           rating_summary(trace, metrics.rating) + tiles(rows, marks, references) +
+           figures(pictures.first, "two") + legend(trace) +
            "<div class='comment'>Comment</div><div class='signatures'><div>Date</div><div>Teacher</div>"
            "<div>Trainee</div></div></div>";
 }

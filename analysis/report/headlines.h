@@ -19,7 +19,7 @@ struct Headline {
     bool is_count;  ///< compared by ranks, not by means
 };
 
-inline constexpr std::array<Headline, 11> headlines{
+inline constexpr std::array<Headline, 12> headlines{
     {{"time_s", "time", "s", 1.0, Better::lower, false},
      {"plan_removed_share", "of the plan removed", "%", 100.0, Better::higher, false},
      {"plan_excess_mm3", "removed beyond the margin", "mm³", 1.0, Better::lower, false},
@@ -30,7 +30,8 @@ inline constexpr std::array<Headline, 11> headlines{
      {"plan_surface_mean_mm", "mean surface distance", "mm", 1.0, Better::lower, false},
      {"path_mm", "path of the hand", "mm", 1.0, Better::lower, false},
      {"stroke_length_variation", "variation of strokes' length", "", 1.0, Better::lower, false},
-     {"cutting_angle_mean_deg", "angle of spindle to surface", "°", 1.0, Better::neither, false}}};
+     {"cutting_angle_mean_deg", "angle of spindle to surface", "°", 1.0, Better::neither, false},
+     {"rating_share", "of the rating's points", "%", 100.0, Better::higher, false}}};
 
 constexpr const Headline* headline(std::string_view key) {
     for (const Headline& one : headlines)

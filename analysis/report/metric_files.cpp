@@ -25,10 +25,39 @@ std::string metrics_csv(const std::vector<MetricRow>& rows) {
     return with_utf8_mark(std::move(text));
 }
 
-std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>& rows) {
-    const auto or_null = [](const std::optional<double>& value) {
-        return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
-    };
+namespace {
+
+template <typename Value>
+nlohmann::ordered_json or_null(const std::optional<Value>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace
+
+nlohmann::ordered_json rating_json(const RatingResult& rating) {
+    nlohmann::ordered_json items = nlohmann::ordered_json::array();
+    for (const RatedItem& one : rating.items) {
+        nlohmann::ordered_json values = nlohmann::ordered_json::object();
+        for (const AskedValue& asked : one.values) values[asked.text] = or_null(asked.value);
+        items.push_back({{"name", one.item.name},
+                         {"points", one.points()},
+                         {"most_points", one.item.points},
+                         {"is_reached", or_null(one.is_reached)},
+                         {"when", one.item.when},
+                         {"source", one.item.source},
+                         {"values", values},
+                         {"why_not", one.why_not.empty() ? nlohmann::ordered_json(nullptr)
+                                                         : nlohmann::ordered_json(one.why_not)}});
+    }
+    return {{"points", rating.points()},
+            {"most_points", rating.most_points()},
+            {"undos", rating.undos},
+            {"undone_mm3", rating.undone_mm3},
+            {"items", items}};
+}
+
+std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>& rows,
+                         const RatingResult& rating) {
     nlohmann::ordered_json metrics;
     for (const MetricRow& row : rows)
         if (row.of.empty())
@@ -55,8 +84,9 @@ std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>
           {"bone_checksum", fmt::format("{:016x}", trace.bone_checksum)},
           {"bone_at_start", start_conditions(trace).bone},
           {"settings", settings}}},
-        {"metrics", metrics},
-        {"events", events}};
+        {"metrics", metrics}};
+    if (!rating.items.empty()) json["rating"] = rating_json(rating);
+    json["events"] = events;
     json["is_complete"] = trace.ends && trace.error.empty();
     json["error"] = nullptr;
     if (!trace.error.empty()) json["error"] = trace.error;

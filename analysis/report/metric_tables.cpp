@@ -67,6 +67,10 @@ std::string metric_tables(const std::vector<MetricRow>& rows, const SessionInfo&
         const auto end =
             std::find_if(begin, rows.end(), [&](const MetricRow& row) { return row.group != begin->group; });
         const std::span<const MetricRow> group(begin, end);
+        if (begin->key == "rating_item_points") {  // has a table of its own (rating_html.h)
+            begin = end;
+            continue;
+        }
         const std::string heading = fmt::format("<h3>{}</h3>", html_text(begin->group));
         if (begin->of.empty())
             narrow += "<section>" + heading + table(group) + "</section>";

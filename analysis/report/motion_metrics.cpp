@@ -17,6 +17,8 @@ MotionMetrics motion_metrics(const SessionTrace& trace) {
     double depth_integral = 0.0;
     double angle_integral = 0.0;
     double angle_s = 0.0;
+    double in_view_s = 0.0;
+    double looked_s = 0.0;
     // Of all placements: the hand did not make them. In between it is taken to go on as it went before, since
     // to stop and start again would be a jerk.
     glm::dvec3 leaps_mm(0.0);
@@ -52,6 +54,10 @@ MotionMetrics motion_metrics(const SessionTrace& trace) {
             angle_integral += *now.spindle_to_surface_deg * dt_s;
             angle_s += dt_s;
         }
+        if (now.burr_in_view) {
+            looked_s += dt_s;
+            in_view_s += *now.burr_in_view ? dt_s : 0.0;
+        }
         cutting_speeds.push_back(burr_mm / dt_s);
     }
     metrics.smoothness = log_dimensionless_jerk(hand);
@@ -59,6 +65,7 @@ MotionMetrics motion_metrics(const SessionTrace& trace) {
         metrics.cutting_speed_mm_per_s = cutting_path_mm / metrics.cutting_s;
         metrics.cutting_depth_mm = depth_integral / metrics.cutting_s;
     }
+    if (looked_s > 0.0) metrics.burr_in_view_share = in_view_s / looked_s;
     if (angle_s > 0.0) metrics.cutting_angle_deg = angle_integral / angle_s;
     metrics.cutting_speed_p95_mm_per_s = percentile(std::move(cutting_speeds), 0.95);
     return metrics;

@@ -35,11 +35,15 @@ NearestPlace::~NearestPlace() = default;
 NearestPlace::NearestPlace(NearestPlace&&) noexcept = default;
 NearestPlace& NearestPlace::operator=(NearestPlace&&) noexcept = default;
 
-std::optional<double> NearestPlace::distance_mm(const glm::dvec3& from_mm) const {
-    const Point from = point(from_mm);
-    const auto found = tree_->points.qbegin(geometry::index::nearest(from, 1));
+std::optional<glm::dvec3> NearestPlace::nearest_mm(const glm::dvec3& from_mm) const {
+    const auto found = tree_->points.qbegin(geometry::index::nearest(point(from_mm), 1));
     if (found == tree_->points.qend()) return std::nullopt;
-    return geometry::distance(from, *found);
+    return glm::dvec3(found->get<0>(), found->get<1>(), found->get<2>());
+}
+
+std::optional<double> NearestPlace::distance_mm(const glm::dvec3& from_mm) const {
+    const auto nearest = nearest_mm(from_mm);
+    return nearest ? std::optional(geometry::distance(point(from_mm), point(*nearest))) : std::nullopt;
 }
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-// Distance of a place from the nearest of many (Boost.Geometry's R-tree).
+// The nearest of many places (Boost.Geometry's R-tree).
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -16,6 +16,7 @@ class NearestPlace {
     NearestPlace& operator=(NearestPlace&&) noexcept;
 
     /// Nothing where there is no place.
+    std::optional<glm::dvec3> nearest_mm(const glm::dvec3& from_mm) const;
     std::optional<double> distance_mm(const glm::dvec3& from_mm) const;
 
   private:

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "analysis/report/cavity.h"
 #include "analysis/report/planned_region.h"
 #include "common/statistics/percentile.h"
 
@@ -40,7 +41,6 @@ std::optional<PlanMetrics> plan_metrics(const SessionTrace& trace) {
     const Bone& start = trace.at_start;
     const PlannedRegion region(start, trace.session);
     PlanMetrics metrics{.margin_mm = trace.session.plan->margin_mm};
-    VoxelSet cavity(start);
     std::int64_t planned = 0;
     std::int64_t removed = 0;
     std::int64_t outside = 0;
@@ -60,7 +60,6 @@ std::optional<PlanMetrics> plan_metrics(const SessionTrace& trace) {
             const int lost = int{before[offset]} - int{after[offset]};
             if (lost == 0) continue;
             const glm::ivec3 voxel = first + voxel_in_brick(offset);
-            if (before[offset] >= half_a_voxel && lost >= half_a_voxel) cavity.set(slot, offset);
             if (region.voxels().contains(slot, offset)) {
                 removed += lost;
             } else {
@@ -75,7 +74,7 @@ std::optional<PlanMetrics> plan_metrics(const SessionTrace& trace) {
     metrics.removed_share = planned > 0 ? static_cast<double>(removed) / static_cast<double>(planned) : 0.0;
     metrics.outside_mm3 = trace.mm3(outside);
     metrics.excess_mm3 = trace.mm3(excess);
-    metrics.surface = surface_distance(region.voxels(), cavity);
+    metrics.surface = surface_distance(region.voxels(), cavity_of(trace));
     return metrics;
 }
 

@@ -25,6 +25,9 @@ RemovalMetrics removal_metrics(const SessionTrace& trace, std::span<const Stroke
             undone += levels.restored;
         }
     RemovalMetrics metrics{.removed_mm3 = trace.mm3(removed), .undone_mm3 = trace.mm3(undone)};
+    metrics.undos = static_cast<std::size_t>(std::ranges::count_if(trace.events, [](const ControlEvent& one) {
+        return !one.is_refused && (one.action == SessionAction::undo || one.action == SessionAction::reset);
+    }));
     std::array<bool, 256> is_named{};
     for (const Tissue& tissue : trace.session.tissues) {
         metrics.by_tissue.push_back({tissue.name, trace.mm3(left_out[tissue.label])});

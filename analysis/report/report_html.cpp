@@ -6,6 +6,7 @@
 #include "analysis/report/html_text.h"
 #include "analysis/report/metric_tables.h"
 #include "analysis/report/page_style.h"
+#include "analysis/report/rating_html.h"
 #include "analysis/report/session_plots.h"
 
 namespace osteomill {
@@ -61,6 +62,7 @@ std::string report_html(const SessionTrace& trace, const SessionMetrics& metrics
         html_text(trace.session.trainee.empty() ? trace.session.scene_name : trace.session.trainee),
         page_style);
     html += first_page(trace, metrics, rows, pictures, references);
+    html += rating_table(metrics.rating);
     html += "<h2>Numbers</h2>" + metric_tables(rows, trace.session);
     html += "<h2>Over time</h2>";
     for (const SvgPlot& plot : session_plots(trace)) html += to_svg(plot);

@@ -1,5 +1,9 @@
 #include "analysis/report/session_metrics.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "analysis/report/verdict.h"
@@ -50,12 +54,21 @@ void add_motion(Rows& rows, const MotionMetrics& motion, const StrokeMetrics& st
     rows.add("depth_max_mm", "greatest depth", motion.depth_mm, "mm");
     rows.add("cutting_depth_mean_mm", "mean depth while cutting", motion.cutting_depth_mm, "mm");
     rows.add("cutting_angle_mean_deg", "mean angle of spindle to surface", motion.cutting_angle_deg, "deg");
+    rows.add("burr_in_view_share", "with the burr in view", motion.burr_in_view_share);
+}
+
+void add_plunges(Rows& rows, const PlungeMetrics& plunges) {
+    rows.begin("Breakthroughs");
+    rows.add("breakthroughs", "through a far wall", static_cast<double>(plunges.breakthroughs));
+    rows.add("plunge_mean_mm", "mean plunge in 100 ms", plunges.mean_mm, "mm");
+    rows.add("plunge_max_mm", "deepest", plunges.most_mm, "mm");
 }
 
 void add_removal(Rows& rows, const RemovalMetrics& removal) {
     rows.begin("Removed bone");
     rows.add("removed_mm3", "removed", removal.removed_mm3, "mm^3");
     rows.add("undone_mm3", "milled and undone", removal.undone_mm3, "mm^3");
+    rows.add("undos", "times that it was undone", static_cast<double>(removal.undos));
 }
 
 void add_burrs(Rows& rows, const SessionMetrics& metrics) {
@@ -104,6 +117,55 @@ void add_structures(Rows& rows, const std::vector<StructureMetrics>& structures)
     }
 }
 
+std::optional<double> ratio(const std::optional<double>& value, const std::optional<double>& to) {
+    return value && to && *to > 0.0 ? std::optional(*value / *to) : std::nullopt;
+}
+
+void add_elsewhere(Rows& rows, const ForceAndFeed& elsewhere) {
+    rows.begin("Cutting further than 3 mm from protected structures");
+    rows.add("elsewhere_cutting_s", "cutting bone", elsewhere.time_s, "s");
+    rows.add("elsewhere_force_n", "mean force", elsewhere.force_n, "N");
+    rows.add("elsewhere_feed_mm_per_s", "mean feed", elsewhere.feed_mm_per_s, "mm/s");
+}
+
+void add_nearness(Rows& rows, const NearnessMetrics& near) {
+    const ForceAndFeed& elsewhere = near.elsewhere;
+    for (std::size_t k = 0; k < near_mm.size(); ++k) {
+        rows.begin(fmt::format("Cutting within {} mm of protected structures", near_mm[k]));
+        for (const NearStructure& one : near.structures) {
+            const ForceAndFeed& within = one.within[k];
+            const auto add = [&](const char* key, const char* text, std::optional<double> value,
+                                 const char* unit = "") {
+                rows.add(fmt::format("structure_near_{}_mm_{}", near_mm[k], key), text, value, unit,
+                         one.name);
+            };
+            add("cutting_s", "cutting bone", within.time_s, "s");
+            add("force_n", "mean force", within.force_n, "N");
+            add("force_ratio", "of that elsewhere", ratio(within.force_n, elsewhere.force_n));
+            add("feed_mm_per_s", "mean feed", within.feed_mm_per_s, "mm/s");
+            add("feed_ratio", "of that elsewhere", ratio(within.feed_mm_per_s, elsewhere.feed_mm_per_s));
+        }
+    }
+    rows.begin("Where strokes lead within 3 mm of protected structures");
+    for (const NearStructure& one : near.structures) {
+        rows.add("structure_toward_mm", "toward it", one.toward_mm, "mm", one.name);
+        rows.add("structure_along_mm", "along it", one.along_mm, "mm", one.name);
+        rows.add("structure_away_mm", "away from it", one.away_mm, "mm", one.name);
+        rows.add("structure_toward_share", "share toward it", one.toward_share(), "", one.name);
+    }
+}
+
+void add_exposures(Rows& rows, const std::vector<ExposureMetrics>& exposures) {
+    static constexpr std::array<const char*, thin_mm.size()> keys{"0_5", "1", "2"};
+    rows.begin("Share of a protected structure's surface that was laid open");
+    for (const ExposureMetrics& one : exposures) {
+        rows.add("structure_bare_share", "bare", one.bare_share, "", one.name);
+        for (std::size_t k = 0; k < thin_mm.size(); ++k)
+            rows.add(fmt::format("structure_under_{}_mm_share", keys[k]),
+                     fmt::format("under less than {:g} mm", thin_mm[k]), one.thin_share[k], "", one.name);
+    }
+}
+
 void add_plan(Rows& rows, const PlanMetrics& plan) {
     rows.begin("Against the plan");
     rows.add("plan_mm3", "planned", plan.planned_mm3, "mm^3");
@@ -120,17 +182,40 @@ void add_plan(Rows& rows, const PlanMetrics& plan) {
     rows.add("plan_hausdorff_mm", "largest (Hausdorff)", surface(&SurfaceDistance::hausdorff_mm), "mm");
 }
 
+void add_rating(Rows& rows, const RatingResult& rating) {
+    const double most = rating.most_points();
+    rows.begin("Rating");
+    rows.add("rating_points", "points", rating.points());
+    rows.add("rating_most_points", "of", most);
+    rows.add("rating_share", "share of them", rating.points() / most);
+    rows.add("rating_undecided", "items not decided",
+             static_cast<double>(
+                 std::ranges::count_if(rating.items, [](const RatedItem& one) { return !one.is_reached; })));
+    rows.begin("Rating, item by item");
+    for (const RatedItem& one : rating.items)
+        rows.add("rating_item_points", "points", one.points(), "", one.item.name);
+}
+
 }  // namespace
 
 SessionMetrics session_metrics(const SessionTrace& trace) {
     const std::vector<Stroke> strokes = strokes_of(trace);
-    return {.motion = motion_metrics(trace),
-            .strokes = stroke_metrics(strokes),
-            .removal = removal_metrics(trace, strokes),
-            .force = force_metrics(trace),
-            .structures = structure_metrics(trace),
-            .plan = plan_metrics(trace),
-            .pass = trace.ends && trace.error.empty() ? trace.session.pass : PassMarks{}};
+    const bool is_whole = trace.ends && trace.error.empty();
+    SessionMetrics metrics{.motion = motion_metrics(trace),
+                           .strokes = stroke_metrics(strokes),
+                           .removal = removal_metrics(trace, strokes),
+                           .force = force_metrics(trace),
+                           .plunges = plunge_metrics(trace.breakthroughs),
+                           .structures = structure_metrics(trace),
+                           .near = nearness_metrics(trace),
+                           .exposures = exposure_metrics(trace),
+                           .plan = plan_metrics(trace),
+                           .pass = is_whole ? trace.session.pass : PassMarks{},
+                           .rating = {}};
+    if (is_whole && !trace.session.rating.empty())
+        metrics.rating = rating_result(trace.session.rating, metric_rows(metrics), rated_regions(trace),
+                                       trace.session.tissues);
+    return metrics;
 }
 
 std::vector<MetricRow> metric_rows(const SessionMetrics& metrics) {
@@ -139,10 +224,15 @@ std::vector<MetricRow> metric_rows(const SessionMetrics& metrics) {
     add_motion(rows, metrics.motion, metrics.strokes);
     add_removal(rows, metrics.removal);
     add_force(rows, metrics.force);
+    add_plunges(rows, metrics.plunges);
+    if (!metrics.structures.empty()) add_elsewhere(rows, metrics.near.elsewhere);
     add_burrs(rows, metrics);
     add_tissues(rows, metrics);
     add_structures(rows, metrics.structures);
+    add_exposures(rows, metrics.exposures);
+    add_nearness(rows, metrics.near);
     if (metrics.plan) add_plan(rows, *metrics.plan);
+    if (!metrics.rating.items.empty()) add_rating(rows, metrics.rating);
     if (const auto passed = has_passed(judged_marks(metrics.pass, all))) {
         rows.begin("Verdict");
         rows.add("passed", "passed (1) or not (0)", *passed ? 1.0 : 0.0);

@@ -7,9 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/report/exposure_metrics.h"
 #include "analysis/report/force_metrics.h"
 #include "analysis/report/motion_metrics.h"
+#include "analysis/report/nearness_metrics.h"
 #include "analysis/report/plan_metrics.h"
+#include "analysis/report/plunge_metrics.h"
+#include "analysis/report/rating_result.h"
 #include "analysis/report/removal_metrics.h"
 #include "analysis/report/structure_metrics.h"
 
@@ -20,9 +24,13 @@ struct SessionMetrics {
     StrokeMetrics strokes;
     RemovalMetrics removal;
     ForceMetrics force;
+    PlungeMetrics plunges;
     std::vector<StructureMetrics> structures;
+    NearnessMetrics near;
+    std::vector<ExposureMetrics> exposures;
     std::optional<PlanMetrics> plan;
-    PassMarks pass;  ///< empty where the recording is incomplete: half a session reaches no mark
+    PassMarks pass;       ///< empty where the recording is incomplete: half a session reaches no mark
+    RatingResult rating;  ///< likewise
 };
 
 SessionMetrics session_metrics(const SessionTrace& trace);

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <numeric>
 
+#include "analysis/report/burr_in_view.h"
 #include "analysis/report/surface_normal.h"
 #include "common/bone/structure_in_bone.h"
 #include "common/recording/packet_reader.h"
@@ -72,8 +73,30 @@ std::vector<TraceMoment> moments_of(const Playhead& playhead, const SessionTrace
     return moments;
 }
 
+/// Where the tool was in the frame, by its ticks if there are any.
+std::vector<ToolMoment> tool_moments_of(const Playhead& playhead) {
+    const std::vector<Burr>& burrs = playhead.session().burrs;
+    std::vector<ToolMoment> moments;
+    for (const TickSample& tick : playhead.ticks())
+        if (tick.burr < burrs.size())
+            moments.push_back({tick.time_s, tick.burr_mm, tick.spindle_axis, burrs[tick.burr].radius_mm(),
+                               tick.spindle_on});
+    const ToolState& tool = *playhead.tool();
+    if (moments.empty())
+        moments.push_back({tool.time_s, tool.burr_position_mm, glm::normalize(tool.spindle_axis),
+                           burrs[tool.burr].radius_mm(), tool.spindle_on});
+    return moments;
+}
+
+/// What is kept of the frames before.
+struct Watches {
+    StructureWatch structures;
+    PlungeWatch plunges{};
+};
+
 /// The trace's bone at the end is that of the frame before until then.
-void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structures) {
+void add_sample(SessionTrace& trace, Playhead& playhead, Watches& watches) {
+    StructureWatch& structures = watches.structures;
     const ToolState& tool = *playhead.tool();
     if (trace.samples.empty()) trace.began_unix_ns = tool.taken_unix_ns;
     const bool is_placed = std::ranges::any_of(playhead.state().events, [](const ControlEvent& event) {
@@ -92,10 +115,19 @@ void add_sample(SessionTrace& trace, Playhead& playhead, StructureWatch& structu
          .is_placed = is_placed,
          .moments = moments_of(playhead, trace),
          .levels = take_over(playhead.take_changes(), playhead.bone(), trace.at_end, structures)});
-    if (trace.samples.back().cuts())
-        trace.samples.back().spindle_to_surface_deg = spindle_to_surface_deg(playhead.bone(), trace, tool);
+    TraceSample& sample = trace.samples.back();
+    if (sample.cuts()) {
+        sample.spindle_to_surface_deg = spindle_to_surface_deg(playhead.bone(), trace, tool);
+        if (const auto& view = playhead.state().view)
+            sample.burr_in_view =
+                is_burr_in_view(playhead.bone(), trace.session.tissues, *view, tool.burr_position_mm);
+    }
     structures.update(tool);
-    trace.samples.back().distances = structures.distances();
+    sample.distances = structures.distances();
+    if (sample.is_paused || trace.leaps(trace.samples.size() - 1))
+        watches.plunges.forget();
+    else
+        watches.plunges.update(playhead.bone(), tool_moments_of(playhead), sample.cuts());
     if (tool.peak_force_n) trace.peak_force_n = tool.peak_force_n;
     trace.events.insert(trace.events.end(), playhead.state().events.begin(), playhead.state().events.end());
 }
@@ -141,22 +173,23 @@ std::int64_t TraceSample::restored() const {
 SessionTrace read_trace(const std::filesystem::path& file, const ReportProgress& on_frame) {
     Playhead playhead(file);
     SessionTrace trace = begin(playhead);
-    std::optional<StructureWatch> structures;  // from the first state on: what is where has been said by then
+    std::optional<Watches> watches;  // from the first state on: what is where has been said by then
     trace.error = play_to_end(playhead, on_frame, [&](Playhead::Step step) {
         if (step == Playhead::Step::state) {
-            if (!structures) structures = watch(trace, playhead.structures());
-            add_sample(trace, playhead, *structures);
+            if (!watches) watches = Watches{watch(trace, playhead.structures())};
+            add_sample(trace, playhead, *watches);
         }
         if (step == Playhead::Step::goodbye) trace.ends = true;
         if (step == Playhead::Step::new_bone) {
             trace = begin(playhead);
-            structures.reset();
+            watches.reset();
         }
     });
     if (trace.began_unix_ns == 0) trace.began_unix_ns = recorded_unix_ns(file);
-    if (!structures) structures = watch(trace, playhead.structures());
-    (void)take_over(playhead.take_changes(), playhead.bone(), trace.at_end, *structures);
-    trace.structures = structures->accounts();
+    if (!watches) watches = Watches{watch(trace, playhead.structures())};
+    (void)take_over(playhead.take_changes(), playhead.bone(), trace.at_end, watches->structures);
+    trace.structures = watches->structures.accounts();
+    trace.breakthroughs = watches->plunges.breakthroughs();
     trace.bone_checksum = playhead.bone_checksum();
     return trace;
 }

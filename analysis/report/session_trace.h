@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/report/plunge_watch.h"
 #include "common/bone/bone.h"
 #include "common/program/progress.h"
 #include "common/scene/session_control.h"
@@ -52,6 +53,7 @@ struct TraceSample {
     std::vector<TissueLevels> levels{};          ///< only of tissues that changed; ascending labels
     std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
     std::optional<double> spindle_to_surface_deg{};  ///< where it cuts: 90 is square to it, 0 along it
+    std::optional<bool> burr_in_view{};  ///< where it cuts; nothing: nobody said from where one looked
 
     std::int64_t milled() const;
     std::int64_t restored() const;
@@ -66,11 +68,12 @@ struct SessionTrace {
     std::vector<ControlEvent> events{};
     std::vector<StructureAccount> structures{};  ///< of each protected tissue that is somewhere
     std::vector<Structure> where{};              ///< they are
-    std::optional<double> peak_force_n{};        ///< of all ticks, where the recording says it
-    std::int64_t began_unix_ns = 0;              ///< 0: not said
-    std::uint64_t bone_checksum = 0;             ///< at the end
-    bool ends = false;                           ///< with a goodbye, in the recording
-    std::string error{};                         ///< why it is not read further; empty at the end
+    std::vector<Breakthrough> breakthroughs{};
+    std::optional<double> peak_force_n{};  ///< of all ticks, where the recording says it
+    std::int64_t began_unix_ns = 0;        ///< 0: not said
+    std::uint64_t bone_checksum = 0;       ///< at the end
+    bool ends = false;                     ///< with a goodbye, in the recording
+    std::string error{};                   ///< why it is not read further; empty at the end
 
     /// Of the frame as a whole.
     double dt_s(std::size_t i) const {

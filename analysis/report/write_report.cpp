@@ -27,7 +27,7 @@ std::string write_report(const std::filesystem::path& recording, const std::file
                       report_html(trace, metrics, rows, pictures, reference_sessions(folder, trace)),
                       Link::replace);
     write_atomic_file(folder / "metrics.csv", metrics_csv(rows), Link::replace);
-    write_atomic_file(folder / "metrics.json", metrics_json(trace, rows), Link::replace);
+    write_atomic_file(folder / "metrics.json", metrics_json(trace, rows, metrics.rating), Link::replace);
     on_frame(1.0);
     return trace.error;
 }

@@ -16,7 +16,8 @@ struct PassMarkKind {
     double high;
 };
 
-inline constexpr std::array<PassMarkKind, 5> pass_mark_kinds{{{"time_s", false, 1.0, 1e6},
+inline constexpr std::array<PassMarkKind, 6> pass_mark_kinds{{{"rating_share", true, 0.0, 1.0},
+                                                              {"time_s", false, 1.0, 1e6},
                                                               {"plan_removed_share", true, 0.0, 1.0},
                                                               {"plan_excess_mm3", false, 0.0, 1e6},
                                                               {"structure_touches", false, 0.0, 1e6},

@@ -10,6 +10,10 @@ namespace osteomill {
 namespace {
 
 constexpr double most_mm = 500.0;
+constexpr const char* region_keys =
+    "tissue = \"NAME\", sphere = { centre_mm = [x, y, z], radius_mm = r } and cylinder = { from_mm = [x, y, "
+    "z], "
+    "to_mm = [x, y, z], radius_mm = r }";
 
 TissueRegion read_tissue(TomlReader& reader, const std::string& name, std::span<const Tissue> tissues) {
     std::string names;
@@ -41,21 +45,25 @@ CylinderRegion read_cylinder(TomlReader reader) {
 
 }  // namespace
 
-Plan read_plan(TomlReader reader, std::span<const Tissue> tissues) {
-    Plan plan;
+std::optional<Region> read_region(TomlReader& reader, std::span<const Tissue> tissues, const char* table) {
     const std::optional<std::string> tissue = reader.text("tissue");
     const std::optional<TomlReader> sphere = reader.table("sphere");
     const std::optional<TomlReader> cylinder = reader.table("cylinder");
+    if (int{tissue.has_value()} + int{sphere.has_value()} + int{cylinder.has_value()} > 1)
+        reader.fail("tissue", std::string(table) + " takes one of " + region_keys);
+    if (tissue) return read_tissue(reader, *tissue, tissues);
+    if (sphere) return read_sphere(*sphere);
+    if (cylinder) return read_cylinder(*cylinder);
+    return std::nullopt;
+}
+
+Plan read_plan(TomlReader reader, std::span<const Tissue> tissues) {
+    Plan plan;
+    std::optional<Region> region = read_region(reader, tissues, "[plan]");
     plan.margin_mm = reader.number("margin_mm", {0.0, most_mm}).value_or(plan.margin_mm);
     reader.refuse_other_keys();
-    if (int{tissue.has_value()} + int{sphere.has_value()} + int{cylinder.has_value()} != 1)
-        reader.fail(
-            "tissue",
-            "[plan] takes one of tissue = \"NAME\", sphere = { centre_mm = [x, y, z], radius_mm = r } "
-            "and cylinder = { from_mm = [x, y, z], to_mm = [x, y, z], radius_mm = r }");
-    if (tissue) plan.region = read_tissue(reader, *tissue, tissues);
-    if (sphere) plan.region = read_sphere(*sphere);
-    if (cylinder) plan.region = read_cylinder(*cylinder);
+    if (!region) reader.fail("tissue", std::string("[plan] takes one of ") + region_keys);
+    plan.region = *std::move(region);
     return plan;
 }
 
@@ -67,6 +75,8 @@ PassMarks read_pass_marks(TomlReader reader, const Scene& scene) {
     for (const auto& [metric, mark] : marks) {
         if (metric.starts_with("plan_") && !scene.plan)
             reader.fail(metric, fmt::format("'{}' needs a [plan] to measure against", metric));
+        if (metric == "rating_share" && scene.rating.empty())
+            reader.fail(metric, fmt::format("'{}' needs items of [[rating]]", metric));
         if (metric == "structure_touches" && std::ranges::none_of(scene.tissues, &Tissue::is_protected))
             reader.fail(metric, fmt::format("'{}' needs a tissue with protected = true", metric));
     }

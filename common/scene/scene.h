@@ -17,6 +17,7 @@
 #include "common/scene/motor.h"
 #include "common/scene/pass_marks.h"
 #include "common/scene/plan.h"
+#include "common/scene/rating.h"
 #include "common/scene/stiffness_relation.h"
 
 namespace osteomill {
@@ -134,6 +135,7 @@ struct Scene {
     TrajectorySpec trajectory;
     std::optional<Plan> plan{};  ///< what a session is measured against
     PassMarks pass{};            ///< what it has to reach
+    Rating rating{};             ///< what earns it points
 
     bool operator==(const Scene&) const = default;
 };

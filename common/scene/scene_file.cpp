@@ -11,6 +11,7 @@
 #include "common/scene/apply_change.h"
 #include "common/scene/phantom_names.h"
 #include "common/scene/plan_table.h"
+#include "common/scene/rating_table.h"
 #include "common/scene/tissue_tables.h"
 #include "common/scene/toml_reader.h"
 #include "common/scene/toml_text.h"
@@ -233,6 +234,7 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     if (auto table = reader.table("trajectory"))
         scene.trajectory = read_trajectory(*table, folder, scene.burrs[scene.start_burr]);
     if (auto table = reader.table("plan")) scene.plan = read_plan(*table, scene.tissues);
+    scene.rating = read_rating(reader.tables("rating"), scene);
     if (auto table = reader.table("pass")) scene.pass = read_pass_marks(*table, scene);
     reader.refuse_other_keys();
     return scene;

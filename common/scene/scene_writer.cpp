@@ -212,18 +212,34 @@ std::string trajectory_text(const TrajectorySpec& trajectory, SceneText extent) 
     return keys.below("\n# What a simulated hand does.\n[trajectory]\n");
 }
 
-std::string plan_text(const Plan& plan, SceneText extent) {
-    Keys keys(extent);
-    if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) keys.add("tissue", tissue->tissue);
-    if (const auto* sphere = std::get_if<SphereRegion>(&plan.region))
+void add_region(Keys& keys, const Region& region) {
+    if (const auto* tissue = std::get_if<TissueRegion>(&region)) keys.add("tissue", tissue->tissue);
+    if (const auto* sphere = std::get_if<SphereRegion>(&region))
         keys.add_text(fmt::format("sphere = {{ centre_mm = {}, radius_mm = {} }}\n",
                                   toml_text(sphere->centre_mm), sphere->radius_mm));
-    if (const auto* cylinder = std::get_if<CylinderRegion>(&plan.region))
+    if (const auto* cylinder = std::get_if<CylinderRegion>(&region))
         keys.add_text(fmt::format("cylinder = {{ from_mm = {}, to_mm = {}, radius_mm = {} }}\n",
                                   toml_text(cylinder->from_mm), toml_text(cylinder->to_mm),
                                   cylinder->radius_mm));
+}
+
+std::string plan_text(const Plan& plan, SceneText extent) {
+    Keys keys(extent);
+    add_region(keys, plan.region);
     keys.add("margin_mm", plan.margin_mm, Plan().margin_mm);
     return keys.below("\n# What is to be removed.\n[plan]\n");
+}
+
+std::string rating_text(const Rating& rating, SceneText extent) {
+    std::string text = rating.empty() ? "" : "\n# What earns a session points.\n";
+    for (const RatingItem& item : rating) {
+        Keys keys(extent);
+        keys.add("name", item.name).add("points", item.points, RatingItem().points).add("when", item.when);
+        keys.add_if_any("source", item.source);
+        if (item.region) add_region(keys, *item.region);
+        text += "[[rating]]\n" + keys.text();
+    }
+    return text;
 }
 
 }  // namespace
@@ -254,7 +270,7 @@ std::string write_scene(const Scene& scene, SceneText extent) {
     Keys pass(extent);
     for (const auto& [metric, mark] : scene.pass) pass.add(metric.c_str(), mark);
     text += pass.below("\n# What a session has to reach.\n[pass]\n");
-    return text;
+    return text + rating_text(scene.rating, extent);
 }
 
 }  // namespace osteomill

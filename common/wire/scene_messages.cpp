@@ -10,6 +10,7 @@
 #include "common/bone/patient_space.h"
 #include "common/text/plain_text.h"
 #include "common/wire/plan_message.h"
+#include "common/wire/rating_message.h"
 #include "common/wire/vec3.h"
 
 namespace osteomill {
@@ -165,6 +166,7 @@ v2::Hello to_message(const SessionInfo& session) {
     for (const auto& [name, value] : session.settings) (*hello.mutable_settings())[name] = value;
     hello.set_scene_toml(session.scene_toml);
     for (const auto& [metric, mark] : session.pass) (*hello.mutable_pass())[metric] = mark;
+    for (const RatingItem& item : session.rating) *hello.add_rating() = to_message(item);
     return hello;
 }
 
@@ -268,6 +270,8 @@ std::variant<SessionInfo, WireError> session_info_from(const v2::Hello& hello) {
         if (auto* error = std::get_if<WireError>(&read)) return *error;
         plan = std::get<0>(std::move(read));
     }
+    auto rating = rating_from(hello.rating());
+    if (auto* error = std::get_if<WireError>(&rating)) return *error;
     return SessionInfo{.protocol_major = hello.protocol_major(),
                        .protocol_minor = hello.protocol_minor(),
                        .scene_name = printable(hello.scene_name()),
@@ -283,6 +287,7 @@ std::variant<SessionInfo, WireError> session_info_from(const v2::Hello& hello) {
                        .holds_ticks = hello.holds_ticks(),
                        .plan = std::move(plan),
                        .pass = pass_from(hello),
+                       .rating = std::get<0>(std::move(rating)),
                        .trainee = printable(hello.trainee()),
                        .case_name = printable(hello.case_()),
                        .settings = settings_from(hello),

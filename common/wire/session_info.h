@@ -30,6 +30,7 @@ struct SessionInfo {
     bool holds_ticks = false;            ///< a recording: its states hold every tick of the haptic loop
     std::optional<Plan> plan{};
     PassMarks pass{};
+    Rating rating{};
     std::string trainee{};
     std::string case_name{};
     std::map<std::string, std::string> settings{};  ///< as haptic_server --json names them

@@ -19,7 +19,8 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
             .force_limit_n = force_limit_n,
             .reach_mm = ArmScale(scene.device.scale).length_mm(longest_reach_mm),
             .plan = scene.plan,
-            .pass = scene.pass};
+            .pass = scene.pass,
+            .rating = scene.rating};
 }
 
 void LiveSession::watch(StructureWatch structures, std::vector<Tissue> tissues) {

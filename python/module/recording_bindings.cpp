@@ -65,6 +65,17 @@ py::object metrics(const SharedRecording& recording) {
     return from_json(text)["metrics"];
 }
 
+py::object rating(const SharedRecording& recording) {
+    std::string text;
+    {
+        const ReleasedLock released;
+        const RatingResult found = session_metrics(read_trace(recording->file(), [](double) {})).rating;
+        if (!found.items.empty())
+            text = rating_json(found).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    }
+    return text.empty() ? py::none() : from_json(text);
+}
+
 py::object info(const SharedRecording& recording) {
     std::string text;
     {
@@ -187,6 +198,11 @@ patient LPS.)")
              "The metrics of docs/metrics.md, by key, as metrics.json has them: a number or None; those of "
              "tissues, burrs or structures "
              "under KEY_of, by name.")
+        .def(
+            "rating", &rating,
+            "What the case's rating says of the session, as metrics.json has it: points, most_points, undos, "
+            "undone_mm3, and items with name, points, is_reached (None: not decided), when, source and "
+            "values. None: the case has no rating, or the recording is not complete.")
         .def("to_hdf5", &to_hdf5, py::arg("file"), py::arg("layout") = "osteomill",
              "Writes all of it into an HDF5 file (docs/hdf5.md); layout: \"osteomill\", \"fivrs\" or "
              "\"fivrs-v3\". Of a torn recording, what can be read. RuntimeError: it cannot be written, or is "

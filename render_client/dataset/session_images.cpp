@@ -66,8 +66,8 @@ void SessionImages::take_structures() {
             view->surface.add_structure(surface, label_of_tissue(structure.tissue));
         }
     }
-    for (auto changed = textures_.work(playhead_.bone()); !changed.empty();
-         changed = textures_.work(playhead_.bone()))
+    for (auto changed = textures_.work(session_.bone()); !changed.empty();
+         changed = textures_.work(session_.bone()))
         for (const auto& view : views_) view->picture.mark_dirty(textures_, changed);
 }
 

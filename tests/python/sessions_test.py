@@ -127,6 +127,20 @@ class StatisticsTest(unittest.TestCase):
         self.assertIn("<td class='no'>pulp 3.27 mm³</td>", found)
         self.assertIn("<td class='no'></td>", found)
 
+    def test_a_rating_has_its_points_what_was_undone_for_them_and_its_items(self):
+        sessions = of_trainees("", (1.0, 2.0, 3.0))
+        for session, points, undos in ((sessions[0], 3.0, 0.0), (sessions[1], 1.0, 2.0)):
+            session.metrics += [Metric("rating_points", "", points, "", ""), Metric("rating_most_points", "", 3.0, "", ""),
+                                Metric("rating_item_points", "Pulp <closed>", 1.0, "", ""), Metric("rating_item_points", "All gone", points - 1.0, "", ""),
+                                Metric("undos", "", undos, "", ""), Metric("undone_mm3", "", 4.25 * undos, "mm^3", "")]
+        found = page.overview(sessions, [], []).html
+        self.assertIn("<td class='n w'>3 of 3</td><td class='no'></td>", found)
+        self.assertIn("<td class='n w'>1 of 3</td><td class='no'>2 undos, 8.50 mm³</td>", found)
+        self.assertIn("<td class='n w'></td><td class='no'></td>", found)
+        self.assertIn("<tr><td>Pulp &lt;closed&gt;</td><td class='n'>2 of 2</td></tr>", found)
+        self.assertIn("<tr><td>All gone</td><td class='n'>1 of 2</td></tr>", found)
+        self.assertNotIn("undone for them", page.overview(of_trainees("", (1.0, 2.0)), [], []).html)
+
     def test_the_curves_tell_trainees_apart_and_hold_nothing_impossible(self):
         case = cases_of(of_trainees("t", [20.0 + i for i in range(30)], attempts=2))[0]
         looks = {tuple(sorted(_look_of(case, f"t{i}").items())) for i in range(30)}

@@ -67,10 +67,12 @@ class WrittenSession {
     }
     /// Before the frame that is to hold it.
     void tick(const TickSample& tick) { ticks_.push(tick); }
+    /// From now on, until it changes.
+    void look(const Viewpoint& view) { view_ = view; }
     void event(const ControlEvent& event) { events_.push_back(event); }
     void frame(const ToolState& tool, const SessionStatus& status = {}) {
         recorder_->note(mirror_.take_changes());
-        last_ = {.tool = tool, .status = status};
+        last_ = {.tool = tool, .status = status, .view = view_};
         SessionState state = last_;
         state.events = std::exchange(events_, {});
         recorder_->record(std::move(state), true);
@@ -111,6 +113,7 @@ class WrittenSession {
     SampleQueue<TickSample> ticks_;
     std::optional<SessionRecorder> recorder_;
     std::vector<ControlEvent> events_;
+    std::optional<Viewpoint> view_;
     SessionState last_;
 };
 

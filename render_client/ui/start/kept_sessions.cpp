@@ -49,6 +49,22 @@ std::optional<NamedFolder> parts_of(const std::string& name) {
                            stamp.substr(10, 2), stamp.substr(12, 2))};
 }
 
+/// "14 of 20 points", and how often something was undone for them; empty if the case has no rating.
+std::string rating_text(const nlohmann::json& metrics) {
+    const auto number = [&](const char* key) {
+        const auto found = metrics.find(key);
+        return found != metrics.end() && found->is_number() ? std::optional(found->get<double>())
+                                                            : std::nullopt;
+    };
+    const auto points = number("rating_points");
+    const auto most = number("rating_most_points");
+    if (!points || !most) return {};
+    std::string text = trf("{:g} of {:g} points", *points, *most);
+    if (const double undos = number("undos").value_or(0.0); undos > 0.0)
+        text += trf(" ({:g} times undone)", undos);
+    return text;
+}
+
 /// "Anna, jaw" and the verdict, of a report; empty if there is none of ours.
 std::pair<std::string, std::string> said_by_report(const fs::path& folder) {
     try {
@@ -61,6 +77,8 @@ std::pair<std::string, std::string> said_by_report(const fs::path& folder) {
         std::string verdict;
         if (const auto passed = metrics.find("passed"); passed != metrics.end() && passed->is_number())
             verdict = passed->get<double>() != 0.0 ? tr("passed") : tr("not passed");
+        if (const std::string points = rating_text(metrics); !points.empty())
+            verdict += (verdict.empty() ? "" : ", ") + points;
         if (trainee.empty()) trainee = tr("nobody");
         return {one_line(trainee + ", " + tr(of)), verdict};
     } catch (const std::exception&) {

@@ -151,6 +151,36 @@ TEST(SceneMessages, RefuseAnOperatorWhoAsksTheImpossible) {
                 HasSubstr("burr 4"));
 }
 
+TEST(SceneMessages, BringBackARating) {
+    const SessionInfo session{
+        .burrs = {Burr{.name = "round"}},
+        .rating = {{.name = "Nerve kept", .points = 2.0, .when = "structure_touches == 0", .source = "ours"},
+                   {.name = "Later", .when = "what_a_later_version_knows > 1"},
+                   {.name = "Opened",
+                    .when = "region_removed_share > 0.5",
+                    .region = SphereRegion{{1, 2, 3}, 4.0}}}};
+    const v2::Hello good = to_message(session);
+    EXPECT_EQ(std::get<SessionInfo>(session_info_from(good)).rating, session.rating);
+    const auto wrong = [&](const auto& change) {
+        v2::Hello hello = good;
+        change(*hello.mutable_rating(0));
+        return error_of(session_info_from(hello));
+    };
+    for (const double points : {std::nan(""), -1.0, 0.0, 1e9})
+        EXPECT_THAT(wrong([&](v2::RatingItem& item) { item.set_points(points); }),
+                    HasSubstr("impossible points"));
+    EXPECT_THAT(wrong([](v2::RatingItem& item) { item.set_when(std::string(501, '(')); }),
+                HasSubstr("too long a text"));
+    EXPECT_THAT(wrong([](v2::RatingItem& item) { item.mutable_region()->set_margin_mm(1.0); }),
+                HasSubstr("no region"));
+    v2::Hello many = good;
+    for (int i = 0; i < 100; ++i) *many.add_rating() = many.rating(0);
+    EXPECT_THAT(error_of(session_info_from(many)), HasSubstr("103 items"));
+    v2::Hello steered = good;
+    steered.mutable_rating(0)->set_name("a\x1b[2J");
+    EXPECT_EQ(std::get<SessionInfo>(session_info_from(steered)).rating[0].name, "a\\x1b[2J");
+}
+
 TEST(SceneMessages, BringBackPlanTraineeAndSettings) {
     SessionInfo session{.burrs = {Burr{.name = "round"}},
                         .plan = Plan{.region = CylinderRegion{{1, 2, 3}, {4, 5, 6}, 2.0}, .margin_mm = 0.25},

@@ -75,6 +75,8 @@ def overview(sessions: list[SessionRecord], compared: list[str], skipped: list[s
             "is_opened": any(one.session.opened() for one in case.attempts),
             "columns": [what.heading() for what in _columns(case)],
             "is_judged": bool(case.passes()),
+            "is_rated": any(one.session.rating_items() for one in case.attempts),
+            "rating": _rating_rows(case),
             "sessions": [_session_row(case, one) for one in sorted(case.attempts, key=lambda one: one.session.trainee)],
             "statistics": [_statistics_row(case, what, compared) for what in _columns(case)],
             "curves": [_inline(svg) for svg in drawn.values()],
@@ -102,9 +104,32 @@ def _session_row(case: Case, attempt: Attempt) -> dict[str, Any]:
         "began": _studies.local_time_text(session.began_unix_ns),
         "report": session.report,
         "passed": session.value("passed"),
+        "points": _points(session),
+        "undone": _undone(session),
         "opened": ", ".join(f"{one.of} {_studies.number_text(one.key, one.value or 0.0)} mm³" for one in session.opened()),
         "values": [NONE if value is None else what.number(value) for what, value in values],
     }
+
+
+def _points(session: SessionRecord) -> str:
+    points, most = session.value("rating_points"), session.value("rating_most_points")
+    return "" if points is None or most is None else f"{points:g} of {most:g}"
+
+
+def _undone(session: SessionRecord) -> str:
+    """Beside the points: full marks by undoing are none."""
+    if not (undos := session.value("undos")):
+        return ""
+    return f"{undos:g} undo{'' if undos == 1 else 's'}, {_studies.number_text('undone_mm3', session.value('undone_mm3') or 0.0)} mm³"
+
+
+def _rating_rows(case: Case) -> list[tuple[str, str]]:
+    """Of each item, in how many of the rated sessions it is reached."""
+    reached: dict[str, list[bool]] = {}
+    for one in case.attempts:
+        for name, points in one.session.rating_items().items():
+            reached.setdefault(name, []).append(points > 0.0)
+    return [(name, f"{sum(found)} of {len(found)}") for name, found in reached.items()]
 
 
 def _statistics_row(case: Case, what: Headline, compared: list[str]) -> dict[str, Any]:

@@ -45,6 +45,10 @@ class SessionRecord:
         values = [metric.value for metric in self.metrics if metric.key == key and metric.value is not None]
         return sum(values) if values else None
 
+    def rating_items(self) -> dict[str, float]:
+        """The points of each item of the case's rating, by its name; empty where it has none, or was not rated."""
+        return {metric.of: metric.value for metric in self.metrics if metric.key == "rating_item_points" and metric.value is not None}
+
     def opened(self) -> list[Metric]:
         """Protected structures that lost bone, given back or not: of each the volume."""
         volume_mm3: dict[str, float] = {}

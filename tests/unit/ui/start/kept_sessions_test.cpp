@@ -45,6 +45,13 @@ TEST(KeptSessions, HaveNamesAsAPersonWritesThem) {
         named / "metrics.json",
         R"({"session": {"trainee": "Anna B.", "case": "jaw", "scene": "jaw"}, "metrics": {"passed": 0.0}})");
     EXPECT_EQ(title_of_session(named), "Anna B., jaw, 28 November 14:05, not passed");
+    write(named / "metrics.json", R"({"session": {"trainee": "Bo", "case": "jaw", "scene": "jaw"},
+        "metrics": {"rating_points": 14.5, "rating_most_points": 20, "undos": 3, "passed": 1}})");
+    EXPECT_EQ(title_of_session(named),
+              "Bo, jaw, 28 November 14:05, passed, 14.5 of 20 points (3 times undone)");
+    write(named / "metrics.json", R"({"session": {"trainee": "Bo", "case": "jaw", "scene": "jaw"},
+        "metrics": {"rating_points": 20, "rating_most_points": 20, "undos": 0}})");
+    EXPECT_EQ(title_of_session(named), "Bo, jaw, 28 November 14:05, 20 of 20 points");
     write(named / "metrics.json",
           R"({"session": {"trainee": "", "case": "", "scene": "tooth"}, "metrics": {}})");
     EXPECT_EQ(title_of_session(named), "nobody, tooth, 28 November 14:05");

@@ -1,0 +1,64 @@
+// Watch for breakthroughs: the burr's tip leaves bone through its far side, and plunges into what is behind.
+//
+// In each state with the spindle on, the bone ahead of the tip along the spindle is looked for, up to 3 mm
+// from it. Where it ends, with no bone for 1 mm behind, is a far wall (to half a voxel). The burr breaks
+// through where its tip passes the far wall's plane, square to the spindle, within a radius of that place and
+// at most 0.25 s after bone was ahead, while bone is cut. The plunge is the farthest that the tip is beyond
+// the plane in the 100 ms from then on. Who mills sideways breaks through nothing: the tip does not lead.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/bone/bone.h"
+#include "common/scene/burr.h"
+
+namespace osteomill {
+
+struct Breakthrough {
+    double time_s = 0.0;     ///< session time
+    double plunge_mm = 0.0;  ///< beyond the far wall, in plunge_window_s
+};
+
+inline constexpr double plunge_window_s = 0.1;
+
+/// Where the tool was at a tick, or at a state where a recording has no ticks. Patient LPS.
+struct ToolMoment {
+    double time_s = 0.0;
+    glm::dvec3 burr_mm{0.0};
+    glm::dvec3 spindle_axis{0.0, 0.0, 1.0};  ///< unit, from tip to shank
+    double radius_mm = 0.0;                  ///< half of the head's diameter: the tip lies as far below
+    bool spindle_on = false;
+};
+
+class PlungeWatch {
+  public:
+    /// The next state. `bone`: as it is there. `moments`: since the state before, the last of them this
+    /// one's. `cuts`: bone was milled in between.
+    void update(const Bone& bone, std::span<const ToolMoment> moments, bool cuts);
+    /// The tool was put elsewhere, or the session stood still: what was ahead is no more.
+    void forget();
+
+    /// In the order of their time. That of the last 100 ms may be the plunge so far.
+    const std::vector<Breakthrough>& breakthroughs() const { return breakthroughs_; }
+
+  private:
+    struct FarWall {
+        glm::dvec3 place_mm;
+        glm::dvec3 inwards;  ///< unit, along which the tip comes
+        double seen_s;
+    };
+    static std::optional<FarWall> far_wall(const Bone& bone, const ToolMoment& from);
+    /// The wall ahead before the `next` one: of its last voxel less than half is left, so it is not seen.
+    bool is_about_to_pass(const FarWall& next, double voxel_mm) const;
+    void follow(const ToolMoment& from, const ToolMoment& to, bool cuts);
+
+    std::optional<ToolMoment> last_;
+    std::optional<FarWall> ahead_;
+    std::optional<FarWall> behind_;  // of the last breakthrough, while its plunge is measured
+    std::vector<Breakthrough> breakthroughs_;
+};
+
+}  // namespace osteomill

@@ -1,0 +1,94 @@
+// A condition of a rating: comparisons of named quantities, joined by and, or and not. It is read, not run:
+// nothing in it can do anything but compare numbers.
+//
+//     condition   any                     any         all { "or" all }
+//     all         not { "and" not }       not         "not" not | comparison
+//     comparison  sum [ ("<" | "<=" | ">" | ">=" | "==" | "!=") sum ]
+//     sum         product { ("+" | "-") product }
+//     product     factor { ("*" | "/") factor }
+//     factor      "-" factor | number | quantity | "(" any ")"
+//     quantity    key [ "(" 'name' ")" ]  key of rating_quantities.h; a name in single or double quotes
+//
+// A quantity has a range: one number where it was measured, more where only a bound is known, and all numbers
+// where nothing is. A comparison of ranges is decided where all their numbers agree, and unknown else; and,
+// or, not follow Kleene's logic: what does not depend on the unknown is decided. Arithmetic is that of
+// intervals.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace osteomill {
+
+/// One printable line: what is wrong, at which letter, and what would be right.
+class ConditionError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// All numbers from low to high.
+struct ValueRange {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+
+    static ValueRange of(double value) { return {value, value}; }
+};
+
+struct AskedQuantity {
+    std::string key{};
+    std::string of{};  ///< empty: no name
+
+    bool operator==(const AskedQuantity&) const = default;
+};
+
+class RatingCondition {
+  public:
+    /// Parentheses, not and - within one another.
+    static constexpr int deepest = 16;
+
+    /// Throws ConditionError, also for more than longest_rating_condition bytes, and for keys that are none.
+    explicit RatingCondition(std::string_view text);
+
+    /// Each once, in the order in which they first come.
+    const std::vector<AskedQuantity>& quantities() const { return quantities_; }
+
+    /// Whether it holds; nothing: unknown. `value_of` is asked once for each quantity.
+    std::optional<bool> holds(const std::function<ValueRange(const AskedQuantity&)>& value_of) const;
+
+  private:
+    friend class ConditionParser;
+    enum class Op : std::uint8_t {
+        number,
+        quantity,
+        negate,
+        add,
+        subtract,
+        multiply,
+        divide,
+        less,
+        at_most,
+        more,
+        at_least,
+        equal,
+        unequal,
+        both,
+        either,
+        opposite,
+    };
+    struct Step {
+        Op op;
+        double number = 0.0;
+        std::size_t quantity = 0;
+    };
+
+    std::vector<Step> steps_;  // a value, or what takes those before it (reverse Polish)
+    std::vector<AskedQuantity> quantities_;
+};
+
+}  // namespace osteomill
