@@ -81,7 +81,7 @@ glm::ivec3 margin_voxels(const ImportOptions& options, const SourceImage& image,
     return margin;
 }
 
-double spacing_for(const Region& region, const ImportOptions& options,
+double spacing_for(const ScanRegion& region, const ImportOptions& options,
                    const ImportSurroundings& surroundings) {
     if (!options.may_be_coarser) return options.spacing_mm;
     // Not by the memory that is free: the same command makes the same bone on each machine.
@@ -96,8 +96,8 @@ double spacing_for(const Region& region, const ImportOptions& options,
 
 ImportPlan plan(const ImportOptions& options, const SourceImage& image,
                 const ImportSurroundings& surroundings) {
-    const Region extent = extent_of(image);
-    Region region = extent;
+    const ScanRegion extent = extent_of(image);
+    ScanRegion region = extent;
     return said_of(options.input, [&]() -> ImportPlan {
         if (options.region) {
             region = clip(*options.region, extent);

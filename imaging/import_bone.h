@@ -31,7 +31,7 @@ struct ImportOptions {
     bool leaves_out_specks = false;
     /// Between slices far apart bone's contour is followed, if there is a threshold (slice_shapes.h).
     bool follows_contours = true;
-    std::optional<Region> region{};
+    std::optional<ScanRegion> region{};
     ImageChoice choice{};
     /// The mapping from the file's values to HU (after the rescale that the file itself states).
     std::variant<std::monostate, Rescale, IntensityWindow> to_hu{};

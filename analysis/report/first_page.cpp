@@ -82,7 +82,7 @@ std::string verdict(const SessionTrace& trace, const std::vector<JudgedMark>& ma
 }
 
 /// Value, reference band and pass mark on one line, from zero (or the least of them) to the greatest.
-std::string gauge(double value, const std::optional<ValueRange>& band, const JudgedMark* mark) {
+std::string gauge(double value, const std::optional<ValueBand>& band, const JudgedMark* mark) {
     double low = std::min(0.0, value);
     double high = std::max(0.0, value);
     const auto hold = [&](double other) { low = std::min(low, other), high = std::max(high, other); };
@@ -112,7 +112,7 @@ std::string tile(const Headline& what, double value, const std::string& words,
     const auto mark = std::ranges::find_if(
         marks, [&](const JudgedMark& judged) { return judged.kind->metric == std::string_view(what.key); });
     const bool is_judged = mark != marks.end();
-    std::optional<ValueRange> band;
+    std::optional<ValueBand> band;
     if (const auto others = references.values.find(what.key); others != references.values.end())
         band = middle_half(others->second);
     std::string html = fmt::format("<div class='tile {}'><span>{}</span><b>{}</b>{}",

@@ -55,9 +55,9 @@ std::optional<std::string> add(const std::filesystem::path& file, const nlohmann
 
 }  // namespace
 
-std::optional<ValueRange> middle_half(std::span<const double> values) {
+std::optional<ValueBand> middle_half(std::span<const double> values) {
     if (values.size() < fewest_references) return std::nullopt;
-    return ValueRange{percentile(values, 0.25), percentile(values, 0.75)};
+    return ValueBand{percentile(values, 0.25), percentile(values, 0.75)};
 }
 
 ReferenceSessions reference_sessions(const std::filesystem::path& folder, const SessionTrace& trace) {

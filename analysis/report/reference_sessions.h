@@ -20,14 +20,14 @@ namespace osteomill {
 
 inline constexpr std::size_t fewest_references = 4;
 
-struct ValueRange {
+struct ValueBand {
     double low = 0.0;
     double high = 0.0;
 };
 
 /// Where the middle half of some values lies: from the first quartile to the third (percentile.h). Nothing
 /// for fewer than fewest_references.
-std::optional<ValueRange> middle_half(std::span<const double> values);
+std::optional<ValueBand> middle_half(std::span<const double> values);
 
 struct ReferenceSessions {
     bool are_experts = false;

@@ -92,7 +92,7 @@ class ScratchFolder {
 /// The whole scan, coarse, by way of a file that is gone afterwards.
 void preview(ImportOptions options, const BegunCase& begun, const std::filesystem::path& picture,
              const ImportSurroundings& surroundings) {
-    const std::optional<Region> region = std::exchange(options.region, std::nullopt);
+    const std::optional<ScanRegion> region = std::exchange(options.region, std::nullopt);
     options.threshold_hu.reset();
     if (picture.has_parent_path()) std::filesystem::create_directories(picture.parent_path());
     const ScratchFolder scratch(picture);

@@ -57,7 +57,7 @@ void draw(const CtVolume& ct, const Plane& plane, const glm::ivec3& middle, int 
         }
 }
 
-void draw_region(const CtVolume& ct, const Plane& plane, const Region& region, int left_px, Canvas& canvas) {
+void draw_region(const CtVolume& ct, const Plane& plane, const ScanRegion& region, int left_px, Canvas& canvas) {
     constexpr std::array<std::uint8_t, 3> orange{255, 150, 0};
     const glm::ivec3 low = glm::round(to_voxel_coordinates(ct.grid, region.low_mm));
     const glm::ivec3 high = glm::round(to_voxel_coordinates(ct.grid, region.high_mm));
@@ -81,7 +81,7 @@ void mark(const StructureMask& structure, std::uint8_t number, std::vector<std::
     }
 }
 
-Region box_of(const CtVolume& ct) {
+ScanRegion box_of(const CtVolume& ct) {
     return {ct.grid.origin_mm, centre_of_voxel_mm(ct.grid, ct.grid.size_voxels - 1)};
 }
 
@@ -102,10 +102,10 @@ std::string summary_of(const CtVolume& ct) {
         to_text(box_of(ct)), least, most, black_hu, white_hu);
 }
 
-void write_preview(const CtVolume& ct, const std::optional<Region>& region,
+void write_preview(const CtVolume& ct, const std::optional<ScanRegion>& region,
                    const std::filesystem::path& png) {
     const glm::ivec3& size = ct.grid.size_voxels;
-    const Region shown = region.value_or(box_of(ct));
+    const ScanRegion shown = region.value_or(box_of(ct));
     const glm::ivec3 middle = glm::clamp(
         glm::ivec3(glm::round(to_voxel_coordinates(ct.grid, 0.5 * (shown.low_mm + shown.high_mm)))),
         glm::ivec3(0), size - 1);

@@ -21,7 +21,7 @@ std::vector<Structure> segmented_structures(const Scene& scene, const std::files
         if (tissue.segment.empty()) continue;
         StructureMask mask = structure_of(read, segment_named(read, tissue.segment), grid);
         if (mask.empty()) {
-            const Region bone{grid.origin_mm, centre_of_voxel_mm(grid, grid.size_voxels - 1)};
+            const ScanRegion bone{grid.origin_mm, centre_of_voxel_mm(grid, grid.size_voxels - 1)};
             throw ImagingError(
                 segmentation,
                 fmt::format("no voxel of the bone is in its segment \"{}\" (tissue \"{}\"): the "

@@ -30,7 +30,7 @@ Turn turn_to_lps(const SourceImage& image) {
 
 }  // namespace
 
-ImageBox voxels_for(const SourceImage& image, const Region& region, const glm::ivec3& margin_voxels) {
+ImageBox voxels_for(const SourceImage& image, const ScanRegion& region, const glm::ivec3& margin_voxels) {
     glm::dvec3 low(1e30);
     glm::dvec3 high(-1e30);
     for (int corner = 0; corner < 8; ++corner) {

@@ -17,7 +17,7 @@ struct ImageBox {
 
 /// Voxels that a region needs: those in it and `margin_voxels` around, along the image's axes, within the
 /// image.
-ImageBox voxels_for(const SourceImage& image, const Region& region, const glm::ivec3& margin_voxels);
+ImageBox voxels_for(const SourceImage& image, const ScanRegion& region, const glm::ivec3& margin_voxels);
 
 std::uint64_t voxel_count(const ImageBox& box);
 

@@ -10,8 +10,8 @@
 
 namespace osteomill {
 
-Region extent_of(const SourceImage& image) {
-    Region extent{.low_mm = image.origin_mm, .high_mm = image.origin_mm};
+ScanRegion extent_of(const SourceImage& image) {
+    ScanRegion extent{.low_mm = image.origin_mm, .high_mm = image.origin_mm};
     const glm::dvec3 last = glm::dvec3(image.size_voxels - 1);
     for (int corner = 1; corner < 8; ++corner) {
         const glm::dvec3 at =
@@ -22,7 +22,7 @@ Region extent_of(const SourceImage& image) {
     return extent;
 }
 
-Region parse_region(const std::string& text) {
+ScanRegion parse_region(const std::string& text) {
     const auto refuse = [&](const char* why) {
         throw std::invalid_argument(
             fmt::format("--region '{}': {}; it is x0,y0,z0,x1,y1,z1 in mm of patient LPS", text, why));
@@ -30,14 +30,14 @@ Region parse_region(const std::string& text) {
     const auto numbers = listed_numbers<6>(text);
     if (!numbers) refuse("not six numbers");
     const auto& [x0, y0, z0, x1, y1, z1] = *numbers;
-    const Region region{.low_mm = {x0, y0, z0}, .high_mm = {x1, y1, z1}};
+    const ScanRegion region{.low_mm = {x0, y0, z0}, .high_mm = {x1, y1, z1}};
     if (!glm::all(glm::lessThan(region.low_mm, region.high_mm)))
         refuse("its second corner must be above its first");
     return region;
 }
 
-Region clip(const Region& region, const Region& extent) {
-    const Region common{.low_mm = glm::max(region.low_mm, extent.low_mm),
+ScanRegion clip(const ScanRegion& region, const ScanRegion& extent) {
+    const ScanRegion common{.low_mm = glm::max(region.low_mm, extent.low_mm),
                         .high_mm = glm::min(region.high_mm, extent.high_mm)};
     if (!glm::all(glm::lessThan(common.low_mm, common.high_mm)))
         throw std::invalid_argument(
@@ -46,12 +46,12 @@ Region clip(const Region& region, const Region& extent) {
     return common;
 }
 
-std::string to_text(const Region& region) {
+std::string to_text(const ScanRegion& region) {
     return fmt::format("{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f}", region.low_mm.x, region.low_mm.y,
                        region.low_mm.z, region.high_mm.x, region.high_mm.y, region.high_mm.z);
 }
 
-Grid grid_over(const Region& region, double spacing_mm) {
+Grid grid_over(const ScanRegion& region, double spacing_mm) {
     // A centre that rounding puts just outside the region still belongs to it.
     constexpr double rounding_voxels = 1e-6;
     const glm::dvec3 count =

@@ -62,7 +62,7 @@ HuVolume refine(WholeImage part, const Grid& grid) {
 }
 
 HuVolume refined(const WholeImage& image, double spacing_mm) {
-    const Region extent = extent_of(image);
+    const ScanRegion extent = extent_of(image);
     const ImageBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};
     return refine(cut(image, all), grid_over(extent, spacing_mm));
 }
@@ -134,7 +134,7 @@ TEST(Refine, SmoothsACheckerboardAwayWhenCoarsening) {
 
 TEST(Refine, AgreesWithTheWholeWhereOnlyARegionIsCut) {
     const WholeImage image = scan_of_marker(glm::dmat3(1.0));
-    const Region region{.low_mm = {1.0, -3.0, 0.5}, .high_mm = {5.0, 1.0, 4.0}};
+    const ScanRegion region{.low_mm = {1.0, -3.0, 0.5}, .high_mm = {5.0, 1.0, 4.0}};
     const Grid grid = grid_over(region, 0.25);
     const ImageBox all{.first = {0, 0, 0}, .last = image.size_voxels - 1};
     const HuVolume whole = refine(cut(image, all), grid);

@@ -8,7 +8,7 @@ namespace osteomill {
 namespace {
 
 TEST(Region, IsParsedFromSixNumbers) {
-    const Region region = parse_region("-1,2,3.5,4,5,6");
+    const ScanRegion region = parse_region("-1,2,3.5,4,5,6");
     EXPECT_EQ(region.low_mm, glm::dvec3(-1.0, 2.0, 3.5));
     EXPECT_EQ(region.high_mm, glm::dvec3(4.0, 5.0, 6.0));
     for (const char* wrong :
@@ -17,9 +17,9 @@ TEST(Region, IsParsedFromSixNumbers) {
 }
 
 TEST(Region, OutsideTheImageIsRefusedNamingWhatTheImageCovers) {
-    const Region extent{.low_mm = {0.0, 0.0, 0.0}, .high_mm = {10.0, 10.0, 10.0}};
+    const ScanRegion extent{.low_mm = {0.0, 0.0, 0.0}, .high_mm = {10.0, 10.0, 10.0}};
     EXPECT_EQ(clip({{-5.0, 1.0, 1.0}, {5.0, 2.0, 20.0}}, extent),
-              (Region{{0.0, 1.0, 1.0}, {5.0, 2.0, 10.0}}));
+              (ScanRegion{{0.0, 1.0, 1.0}, {5.0, 2.0, 10.0}}));
     try {
         clip({{20.0, 1.0, 1.0}, {25.0, 2.0, 2.0}}, extent);
         FAIL();

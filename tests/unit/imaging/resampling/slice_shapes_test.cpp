@@ -19,7 +19,7 @@
 namespace osteomill::slice_shapes_test {
 namespace {
 
-const Region middle{.low_mm = glm::dvec3(-7.0), .high_mm = glm::dvec3(7.0)};
+const ScanRegion middle{.low_mm = glm::dvec3(-7.0), .high_mm = glm::dvec3(7.0)};
 constexpr double border_mm = 1.0;
 
 HuVolume refined(const WholeImage& scan, bool follows, double spacing_mm = 0.25) {
