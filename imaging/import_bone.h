@@ -26,8 +26,8 @@ struct ImportOptions {
     /// Far from bone, too, HU stay as they are. Else a file with a threshold has air there (near_bone.h),
     /// which makes it some times smaller.
     bool keeps_soft_tissue = false;
-    /// Parts of bone that are small and touch nothing else become air (specks.h), if there is a threshold; the
-    /// scan is then refined twice. Else they are counted and stay.
+    /// Parts of bone that are small and touch nothing else become air (specks.h), if there is a threshold;
+    /// the scan is then refined twice. Else they are counted and stay.
     bool leaves_out_specks = false;
     /// Between slices far apart bone's contour is followed, if there is a threshold (slice_shapes.h).
     bool follows_contours = true;

@@ -80,8 +80,8 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segme
             reader.number("warn_mm", {0.0, most_warn_mm}).value_or(usual_warn_mm(tissue.is_protected));
         tissue.shows_through_mm = reader.number("shows_through_mm", {0.0, most_shows_through_mm})
                                       .value_or(usual_shows_through_mm(tissue.is_protected));
-        tissue.shows_through_strength = reader.number("shows_through_strength", {0.0, 1.0})
-                                            .value_or(Tissue().shows_through_strength);
+        tissue.shows_through_strength =
+            reader.number("shows_through_strength", {0.0, 1.0}).value_or(Tissue().shows_through_strength);
         if (!tissue.segment.empty() && !has_segmentation)
             reader.fail("segment", "'segment' needs [bone] segmentation = \"FILE.seg.nrrd\"");
         reader.refuse_other_keys();

@@ -187,9 +187,10 @@ void add_options(CLI::App& app, ImportCommand& command, Texts& texts) {
     app.add_flag("--keep-soft-tissue", options.keeps_soft_tissue,
                  "with --threshold-hu: HU far from bone stay, so that a carved bone can be laid beside the "
                  "scan; the file is some 3 to 10 times as large");
-    app.add_flag("--leave-out-specks", options.leaves_out_specks,
-                 "with --threshold-hu or --labels: parts of bone of less than 2 mm3 that touch nothing else become "
-                 "air; without, they are counted");
+    app.add_flag(
+        "--leave-out-specks", options.leaves_out_specks,
+        "with --threshold-hu or --labels: parts of bone of less than 2 mm3 that touch nothing else become "
+        "air; without, they are counted");
     app.add_option("--region", texts.region, "x0,y0,z0,x1,y1,z1 in mm of patient LPS: import only this box");
     app.add_option("--series", options.choice.series_uid,
                    "UID of the DICOM series to take (default: the largest)");
@@ -300,7 +301,8 @@ void parse_texts(const CLI::App& app, const Texts& texts, ImportCommand& command
     if (options.keeps_soft_tissue && !options.threshold_hu)
         throw std::invalid_argument("--keep-soft-tissue: goes with --threshold-hu; without, all HU are kept");
     if (options.leaves_out_specks && !options.threshold_hu && texts.labels.empty())
-        throw std::invalid_argument("--leave-out-specks: goes with --threshold-hu; without, nothing says what is bone");
+        throw std::invalid_argument(
+            "--leave-out-specks: goes with --threshold-hu; without, nothing says what is bone");
     if (app.count("--region") > 0) options.region = parse_region(texts.region);
     if (app.count("--rescale") > 0) options.to_hu = parse_rescale(texts.rescale);
     if (app.count("--intensity-window") > 0) options.to_hu = parse_intensity_window(texts.intensity_window);

@@ -57,7 +57,8 @@ void draw(const CtVolume& ct, const Plane& plane, const glm::ivec3& middle, int 
         }
 }
 
-void draw_region(const CtVolume& ct, const Plane& plane, const ScanRegion& region, int left_px, Canvas& canvas) {
+void draw_region(const CtVolume& ct, const Plane& plane, const ScanRegion& region, int left_px,
+                 Canvas& canvas) {
     constexpr std::array<std::uint8_t, 3> orange{255, 150, 0};
     const glm::ivec3 low = glm::round(to_voxel_coordinates(ct.grid, region.low_mm));
     const glm::ivec3 high = glm::round(to_voxel_coordinates(ct.grid, region.high_mm));

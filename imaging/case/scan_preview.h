@@ -24,7 +24,8 @@ std::string summary_of(const CtVolume& ct);
 /// pixel a voxel, from -200 HU black to 1800 white; the region's edges in orange. Left in the picture is the
 /// patient's right, up is anterior in the first and superior in the others. Throws std::runtime_error where
 /// it cannot be written.
-void write_preview(const CtVolume& ct, const std::optional<ScanRegion>& region, const std::filesystem::path& png);
+void write_preview(const CtVolume& ct, const std::optional<ScanRegion>& region,
+                   const std::filesystem::path& png);
 
 /// For a program that goes through the slices itself: the same greys of every voxel, a byte each, x fastest,
 /// then y, then z; and behind them, where there are segmentations, in which segment each voxel lies, counted

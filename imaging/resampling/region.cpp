@@ -38,7 +38,7 @@ ScanRegion parse_region(const std::string& text) {
 
 ScanRegion clip(const ScanRegion& region, const ScanRegion& extent) {
     const ScanRegion common{.low_mm = glm::max(region.low_mm, extent.low_mm),
-                        .high_mm = glm::min(region.high_mm, extent.high_mm)};
+                            .high_mm = glm::min(region.high_mm, extent.high_mm)};
     if (!glm::all(glm::lessThan(common.low_mm, common.high_mm)))
         throw std::invalid_argument(
             fmt::format("--region {} lies outside the image, which covers {} (mm, patient LPS)",

@@ -1,8 +1,9 @@
-// Specks of bone: parts that are small and touch no other part, as noise, calcifications and crumbs make them.
+// Specks of bone: parts that are small and touch no other part, as noise, calcifications and crumbs make
+// them.
 //
-// Parts are of voxels that reach the threshold and share a face, an edge or a corner; found slice by slice, by
-// runs along x and a union of those that touch (Rosenfeld and Pfaltz 1966, J ACM 13:471). Only parts that may
-// still be specks keep their runs, so memory follows the specks and one slice.
+// Parts are of voxels that reach the threshold and share a face, an edge or a corner; found slice by slice,
+// by runs along x and a union of those that touch (Rosenfeld and Pfaltz 1966, J ACM 13:471). Only parts that
+// may still be specks keep their runs, so memory follows the specks and one slice.
 #pragma once
 
 #include <cstddef>

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "python/module/stepped_session.h"
-#include "render_client/dataset/drawn_session.h"
+#include "render_client/dataset/imaged_session.h"
 
 namespace osteomill::python {
 
-class DrawnLiveSession final : public DrawnSession {
+class DrawnLiveSession final : public ImagedSession {
   public:
     /// At the instant where `session` is, whose `busy` the caller holds, here and whenever this is asked of
     /// it.

@@ -11,7 +11,7 @@ Rendering::Rendering(std::filesystem::path recording, DatasetContents contents) 
     const CurrentContext current(context_);
     gl::require_opengl_3_3();
     frames_.emplace(std::move(recording), std::move(contents),
-                    [this](const DrawnSession& session) { sessions_.push_back(session_json(session)); });
+                    [this](const ImagedSession& session) { sessions_.push_back(session_json(session)); });
 }
 
 Rendering::~Rendering() {

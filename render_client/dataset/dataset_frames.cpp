@@ -9,7 +9,7 @@
 namespace osteomill {
 
 DatasetFrames::DatasetFrames(std::filesystem::path recording, DatasetContents contents,
-                             std::function<void(const DrawnSession&)> on_session)
+                             std::function<void(const ImagedSession&)> on_session)
     : contents_(std::move(contents)), on_session_(std::move(on_session)), playhead_(recording) {
     require_view(
         contents_.cameras, [&] { return outline_of(recording).has_view; }, recording);
@@ -56,7 +56,7 @@ bool DatasetFrames::is_due() {
 }
 
 DatasetFrame draw_frame(SessionImages& images, const DatasetContents& contents, std::size_t number,
-                        const DrawnSession& session) {
+                        const ImagedSession& session) {
     const DatasetImages& wanted = contents.images;
     const bool is_randomised = contents.randomise.has_value();
     DatasetFrame frame{.number = number};

@@ -13,7 +13,7 @@
 
 #include "common/recording/playhead.h"
 #include "render_client/dataset/dataset_contents.h"
-#include "render_client/dataset/drawn_session.h"
+#include "render_client/dataset/imaged_session.h"
 #include "render_client/dataset/random_look.h"
 #include "render_client/dataset/session_images.h"
 
@@ -28,7 +28,7 @@ struct DatasetFrame {
 
 /// Frame `number`, of the instant that `images` followed last.
 DatasetFrame draw_frame(SessionImages& images, const DatasetContents& contents, std::size_t number,
-                        const DrawnSession& session);
+                        const ImagedSession& session);
 
 class DatasetFrames {
   public:
@@ -37,7 +37,7 @@ class DatasetFrames {
     /// trainee whose viewpoint the recording does not state. All calls, and the end of this, need an OpenGL
     /// context current, the same.
     DatasetFrames(std::filesystem::path recording, DatasetContents contents,
-                  std::function<void(const DrawnSession&)> on_session);
+                  std::function<void(const ImagedSession&)> on_session);
 
     /// The next of this part; nothing at the recording's end, and where `stop_requested` says so, which is
     /// asked at every state. Throws RecordingError for what cannot be read.
@@ -45,7 +45,7 @@ class DatasetFrames {
 
     /// The instant of the last frame.
     const Playhead& playhead() const { return playhead_; }
-    const DrawnSession& session() const { return drawn_; }
+    const ImagedSession& session() const { return drawn_; }
     const DatasetContents& contents() const { return contents_; }
     const BoneTextures& textures() const { return images_->textures(); }
     /// Among all parts' frames so far.
@@ -57,7 +57,7 @@ class DatasetFrames {
     bool is_due();
 
     DatasetContents contents_;
-    std::function<void(const DrawnSession&)> on_session_;
+    std::function<void(const ImagedSession&)> on_session_;
     Playhead playhead_;
     DrawnRecording drawn_{playhead_};
     std::optional<SessionImages> images_;

@@ -59,7 +59,7 @@ Json json_of(const DatasetCamera& camera) {
             {"intrinsics", camera.has_trainees_angle ? Json() : intrinsics_of(camera.pinhole)}};
 }
 
-Json session_json(const DrawnSession& drawn) {
+Json session_json(const ImagedSession& drawn) {
     const SessionInfo& session = drawn.session();
     Json labels = Json::array();
     for (const SurfaceLabel& label : label_table(session.tissues))
@@ -71,7 +71,7 @@ Json session_json(const DrawnSession& drawn) {
             {"labels", labels}};
 }
 
-Json instant_json(const DatasetFrame& frame, const DrawnSession& drawn) {
+Json instant_json(const DatasetFrame& frame, const ImagedSession& drawn) {
     const ToolState& state = *drawn.tool();
     const SessionInfo& session = drawn.session();
     const glm::dmat4 pose = pose_of(tool_as_thing(state, session));
@@ -114,7 +114,7 @@ DatasetIndex::DatasetIndex(const std::filesystem::path& folder, const std::strin
     for (const DatasetCamera& camera : contents.cameras) all_["cameras"].push_back(json_of(camera));
 }
 
-void DatasetIndex::add_frame(const DatasetFrame& frame, const DrawnSession& drawn, Json images) {
+void DatasetIndex::add_frame(const DatasetFrame& frame, const ImagedSession& drawn, Json images) {
     Json all = instant_json(frame, drawn);
     all["images"] = std::move(images);
     all_["frames"].push_back(std::move(all));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render_client/dataset/dataset_frames.h"
-#include "render_client/dataset/drawn_session.h"
+#include "render_client/dataset/imaged_session.h"
 
 namespace osteomill {
 
@@ -17,9 +17,9 @@ namespace osteomill {
 
 /// Name, size and intrinsics; null for these if they change from frame to frame.
 nlohmann::ordered_json json_of(const DatasetCamera& camera);
-nlohmann::ordered_json session_json(const DrawnSession& drawn);
+nlohmann::ordered_json session_json(const ImagedSession& drawn);
 /// All but its images: time, tool, hand, force, removed volume. The session has a tool.
-nlohmann::ordered_json instant_json(const DatasetFrame& frame, const DrawnSession& drawn);
+nlohmann::ordered_json instant_json(const DatasetFrame& frame, const ImagedSession& drawn);
 /// The entry of camera number `camera`: name, pose, intrinsics if those are the frame's, and the random
 /// appearance.
 nlohmann::ordered_json view_json(const DatasetFrame& frame, std::size_t camera, const DatasetCamera& its);
@@ -31,9 +31,9 @@ class DatasetIndex {
                  const std::string& version, const DatasetContents& contents);
 
     /// Another session of the recording has begun.
-    void begin_session(const DrawnSession& drawn) { all_["sessions"].push_back(session_json(drawn)); }
+    void begin_session(const ImagedSession& drawn) { all_["sessions"].push_back(session_json(drawn)); }
     /// `images`: for each camera view_json and files.
-    void add_frame(const DatasetFrame& frame, const DrawnSession& drawn, nlohmann::ordered_json images);
+    void add_frame(const DatasetFrame& frame, const ImagedSession& drawn, nlohmann::ordered_json images);
 
     /// dataset.json or, of a part, dataset-2-of-8.json. Throws std::runtime_error naming the file if it
     /// cannot be written.

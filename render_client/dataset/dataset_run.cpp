@@ -56,7 +56,7 @@ RenderReport run_dataset(const RenderOptions& options, const std::string& versio
     gl::require_opengl_3_3();
     DatasetIndex index(folder, recording.filename().string(), version, contents);
     DatasetFrames frames(recording, contents,
-                         [&](const DrawnSession& session) { index.begin_session(session); });
+                         [&](const ImagedSession& session) { index.begin_session(session); });
     for (const DatasetCamera& camera : contents.cameras)
         std::filesystem::create_directories(folder / camera.name);
     RenderReport report;

@@ -31,7 +31,7 @@ DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session) {
     return tool;
 }
 
-SessionImages::SessionImages(DrawnSession& session, std::span<const DatasetCamera> cameras,
+SessionImages::SessionImages(ImagedSession& session, std::span<const DatasetCamera> cameras,
                              const SceneAppearance& look, const TextureLimits& limits)
     : session_(session),
       tissues_(session.session().tissues),

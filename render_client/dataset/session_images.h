@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render_client/dataset/camera_file.h"
-#include "render_client/dataset/drawn_session.h"
+#include "render_client/dataset/imaged_session.h"
 #include "render_client/dataset/surface_labels.h"
 #include "render_client/volume/passes/scene_picture.h"
 
@@ -28,10 +28,10 @@ DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session);
 
 class SessionImages {
   public:
-    /// Draws `session`, which outlives it and has a bone. Tissues are solid, but for those of opacity 0, which
-    /// are left out. Throws std::runtime_error if the bone cannot be drawn. Calls need a
-    /// context current.
-    SessionImages(DrawnSession& session, std::span<const DatasetCamera> cameras, const SceneAppearance& look,
+    /// Draws `session`, which outlives it and has a bone. Tissues are solid, but for those of opacity 0,
+    /// which are left out. Throws std::runtime_error if the bone cannot be drawn. Calls need a context
+    /// current.
+    SessionImages(ImagedSession& session, std::span<const DatasetCamera> cameras, const SceneAppearance& look,
                   const TextureLimits& limits);
 
     /// Takes up what changed since the last call, up to the session's instant. The first with a tool fixes
@@ -52,7 +52,7 @@ class SessionImages {
     };
     void take_structures();
 
-    DrawnSession& session_;
+    ImagedSession& session_;
     RaycastRenderer renderer_;
     std::vector<Tissue> tissues_;
     BoneTextures textures_;

@@ -106,8 +106,9 @@ void add_look(CLI::App& app, RenderOptions& options) {
         ->excludes("--transfer");
     app.add_flag("!--no-ambient-occlusion", options.ambient_occlusion,
                  "No soft shadow of the bone on itself, a little faster; never with surface-voxels");
-    app.add_flag("!--no-thin-bone", options.thin_bone,
-                 "Thin bone hides what is behind it; unless given, it takes on the colour of a sinus or a nerve");
+    app.add_flag(
+        "!--no-thin-bone", options.thin_bone,
+        "Thin bone hides what is behind it; unless given, it takes on the colour of a sinus or a nerve");
     app.add_flag("--smooth-silhouettes", options.smooth_silhouettes,
                  "Antialiased outlines of the bone, at about a seventh of a frame's time; never of slices");
     app.add_option("--specular", options.specular,

@@ -30,8 +30,8 @@ struct SceneAppearance {
     glm::vec3 background_low{0.035f, 0.040f, 0.048f};  ///< linear RGB at the picture's lower edge
     glm::vec3 background_high{0.115f, 0.130f, 0.150f};
 
-    bool ambient_occlusion = true;  ///< bone near by takes light away. Not on surface voxels
-    bool thin_bone = true;          ///< thin bone shows what is behind it (thin_bone.h)
+    bool ambient_occlusion = true;    ///< bone near by takes light away. Not on surface voxels
+    bool thin_bone = true;            ///< thin bone shows what is behind it (thin_bone.h)
     bool smooth_silhouettes = false;  ///< antialiased. Not of slices, nor where one sees through bone
     /// Highlights of the lamps on the bone, as on wet bone: 0 matt, 1 as bright as the lamps. Not on surface
     /// voxels.

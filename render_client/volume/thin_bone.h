@@ -2,9 +2,9 @@
 //
 //     share(w) = strength (exp(-k w / depth) - exp(-k)) / (1 - exp(-k))     k = 3; none from w = depth on
 //
-// Light is absorbed along its way w through bone (Beer and Lambert's law), shifted so that it ends at the depth.
-// Bone scatters, so the way is not the ray's alone: from any point of the ray, light may turn aside to the
-// tissue and is then absorbed twice as much,
+// Light is absorbed along its way w through bone (Beer and Lambert's law), shifted so that it ends at the
+// depth. Bone scatters, so the way is not the ray's alone: from any point of the ray, light may turn aside to
+// the tissue and is then absorbed twice as much,
 //
 //     w = min over t >= 0 of  t + 2 d(t)
 //
@@ -48,7 +48,8 @@ using SeenTissues = std::array<SeenTissue, 256>;
 inline SeenTissues seen_tissues(std::span<const TissueColour> tissues) {
     SeenTissues seen{};
     for (const TissueColour& tissue : tissues)
-        seen[tissue.label] = {linear_from_srgb(tissue.srgb), static_cast<float>(tissue.shows_through_strength),
+        seen[tissue.label] = {linear_from_srgb(tissue.srgb),
+                              static_cast<float>(tissue.shows_through_strength),
                               static_cast<float>(tissue.shows_through_mm)};
     return seen;
 }

@@ -66,9 +66,8 @@ Supersampled supersampled(const BoneTextures& bone, const Camera& camera, const 
             for (std::size_t channel = 0; channel < 3; ++channel)
                 made.picture.rgb[3 * made.is_silhouette.size() + channel] = static_cast<std::uint8_t>(
                     std::lround(static_cast<double>(sum[channel]) / (rays_a_side * rays_a_side)));
-            made.is_silhouette.push_back(distance_mm(camera, size_px, farthest) -
-                                             distance_mm(camera, size_px, nearest) >
-                                         leap_mm);
+            made.is_silhouette.push_back(
+                distance_mm(camera, size_px, farthest) - distance_mm(camera, size_px, nearest) > leap_mm);
         }
     return made;
 }

@@ -1,5 +1,5 @@
-// What each cue of the picture costs and gives: frames with it and without, drawn in turns in one run, and how
-// much nearer to a supersampled picture it makes silhouettes.
+// What each cue of the picture costs and gives: frames with it and without, drawn in turns in one run, and
+// how much nearer to a supersampled picture it makes silhouettes.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct CueCost {
     double with_ms = 0.0;        ///< likewise
     double part_of_frame = 0.0;  ///< what it takes of a frame without it: the median of pairs that follow
                                  ///< one another
-    double part_of_cpu = 0.0;    ///< the same of all threads' time, which others on the machine do not lengthen
+    double part_of_cpu = 0.0;  ///< the same of all threads' time, which others on the machine do not lengthen
     double changed_pixels = 0.0;  ///< share of the picture
 };
 

@@ -50,8 +50,8 @@ class PictureTrial {
     PictureTrial(const PictureTrial&) = delete;
     PictureTrial& operator=(const PictureTrial&) = delete;
 
-    /// Draws as the reference does: no thin bone, a ray a pixel. Its time is the median of so many frames; with
-    /// 0 the first one's, for ways that take seconds.
+    /// Draws as the reference does: no thin bone, a ray a pixel. Its time is the median of so many frames;
+    /// with 0 the first one's, for ways that take seconds.
     DrawnWay draw(const DrawingWay& way, int times) const;
     /// The cost of a cue of the usual appearance (cue_names), by so many pairs of frames.
     CueCost cue(std::string_view name, int pairs) const;

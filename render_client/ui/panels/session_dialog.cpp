@@ -26,7 +26,8 @@ Question question_of(const OverlayContent& content) {
         case SessionQuestion::finish:
             return {tr("Finish the session, for everybody? All is saved."), tr("Finish")};
         case SessionQuestion::surface:
-            return {tr("Save the surface of the bone as it is, beside the bone that the server saves, as:"), "STL"};
+            return {tr("Save the surface of the bone as it is, beside the bone that the server saves, as:"),
+                    "STL"};
         case SessionQuestion::end:
             if (content.start != nullptr && content.start->page.is_session_running())
                 return {tr("End this program, and the session that it started? All is saved."), tr("End")};

@@ -1,9 +1,10 @@
-// Antialiased silhouettes of the bone: where depth leaps between two pixels, each is mixed from the colours on
-// either side, by how much of it the nearer surface covers.
+// Antialiased silhouettes of the bone: where depth leaps between two pixels, each is mixed from the colours
+// on either side, by how much of it the nearer surface covers.
 //
-// What covers how much is found by one ray a pixel that looks for the fullest place near the surface's outline
-// (silhouettes.frag.glsl): the picture's own rays are not drawn again, and nothing is shaded twice. Other pixels,
-// and depth, stay as they were drawn. Between colours as they are displayed, as pictures are scaled.
+// What covers how much is found by one ray a pixel that looks for the fullest place near the surface's
+// outline (silhouettes.frag.glsl): the picture's own rays are not drawn again, and nothing is shaded twice.
+// Other pixels, and depth, stay as they were drawn. Between colours as they are displayed, as pictures are
+// scaled.
 #pragma once
 
 #include <optional>

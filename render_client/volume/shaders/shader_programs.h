@@ -26,10 +26,9 @@ inline constexpr ProgramFiles tool_files{"tool.vert.glsl", {"lighting.glsl", "to
 inline constexpr ProgramFiles mesh_surface_files{"tool.vert.glsl", {"mesh_surface.frag.glsl"}};
 
 /// Those of BoneProgram, which puts what samples the bone ahead of them.
-inline constexpr ProgramFiles raycast_files{
-    "camera_rays.vert.glsl",
-    {"lighting.glsl", "background.glsl", "bone_shading.glsl", "cut_shading.glsl", "bone_rays.glsl",
-     "raycast.frag.glsl"}};
+inline constexpr ProgramFiles raycast_files{"camera_rays.vert.glsl",
+                                            {"lighting.glsl", "background.glsl", "bone_shading.glsl",
+                                             "cut_shading.glsl", "bone_rays.glsl", "raycast.frag.glsl"}};
 inline constexpr ProgramFiles bone_surface_files{
     "camera_rays.vert.glsl",
     {"lighting.glsl", "bone_shading.glsl", "bone_rays.glsl", "bone_surface.frag.glsl"}};
@@ -39,6 +38,6 @@ inline constexpr ProgramFiles silhouette_files{
 inline constexpr ProgramFiles slice_files{
     "slice.vert.glsl", {"lighting.glsl", "bone_shading.glsl", "cut_shading.glsl", "slice.frag.glsl"}};
 inline constexpr std::array<std::string_view, 3> bone_sampling_files{"bone_sampling.glsl", "thin_bone.glsl",
-                                                                    "cuts.glsl"};
+                                                                     "cuts.glsl"};
 
 }  // namespace osteomill

@@ -131,9 +131,8 @@ void SeenThrough::add(std::uint8_t label, StructureMask structure, int coarsenin
         box_between(divided_down(bounds->first, coarsening), divided_down(bounds->last, coarsening) + 1));
     soft_.push_back({label, std::move(structure), coarsening});
     for (const VoxelBox& piece : pieces()) {
-        const VoxelBox both =
-            box_between(glm::max(piece.first, near.first),
-                    glm::min(piece.first + piece.size, near.first + near.size));
+        const VoxelBox both = box_between(glm::max(piece.first, near.first),
+                                          glm::min(piece.first + piece.size, near.first + near.size));
         if (both.count() > 0 && std::ranges::find(due_, piece) == due_.end()) due_.push_back(piece);
     }
 }
@@ -151,7 +150,7 @@ VoxelBox SeenThrough::places_near(const VoxelBox& voxels) const {
     const glm::ivec3 low = voxels.first - lattice_.box.first - reach();
     const glm::ivec3 high = voxels.first + voxels.size - 1 - lattice_.box.first + reach();
     return box_between(glm::max(divided_up(low, lattice_.step), 0),
-                   glm::min(divided_down(high, lattice_.step) + 1, lattice_.places));
+                       glm::min(divided_down(high, lattice_.step) + 1, lattice_.places));
 }
 
 VoxelBox SeenThrough::voxels_of(const VoxelBox& places) const {
@@ -227,7 +226,8 @@ void SeenThrough::find_nearest(const VoxelBox& places, const VoxelBox& voxels, i
     // Along x, row by row of the voxels: the nearest to the left and to the right.
     squares_[0].assign(nx * static_cast<std::size_t>(full.y) * static_cast<std::size_t>(full.z), no_square);
     labels_[0].assign(squares_[0].size(), 0);
-    for (std::size_t row = 0; row < static_cast<std::size_t>(full.y) * static_cast<std::size_t>(full.z); ++row) {
+    for (std::size_t row = 0; row < static_cast<std::size_t>(full.y) * static_cast<std::size_t>(full.z);
+         ++row) {
         const std::uint8_t* label = &label_of_voxel_[row * static_cast<std::size_t>(full.x)];
         const auto note = [&](int x, int found) {
             const int off = x - margin;

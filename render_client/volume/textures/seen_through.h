@@ -23,8 +23,8 @@
 
 namespace osteomill {
 
-/// Where the field has values: every so many voxels of a bone's box and one step beyond, where a structure may
-/// lie just outside.
+/// Where the field has values: every so many voxels of a bone's box and one step beyond, where a structure
+/// may lie just outside.
 struct SeenLattice {
     explicit SeenLattice(const VoxelBox& of);
 

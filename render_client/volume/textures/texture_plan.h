@@ -37,7 +37,7 @@ struct TextureSize {
 /// Bytes that a voxel takes in all the textures that hold voxels.
 struct VoxelBytes {
     std::size_t needed = 1;
-    std::size_t smoothed = 0;  ///< more for smoothed fractions; 0: the look has no use for them
+    std::size_t smoothed = 0;   ///< more for smoothed fractions; 0: the look has no use for them
     bool seen_through = false;  ///< beside them a field of what thin bone shows (seen_through.h)
 };
 

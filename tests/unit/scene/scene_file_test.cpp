@@ -151,8 +151,9 @@ TEST(SceneFile, AProtectedTissueShowsThroughThinBoneUnlessItSaysOtherwise) {
     const std::string tissue = smallest + "[[tissues]]\nlabel = 2\nname = \"sinus\"\ncolour = \"#304f88\"\n";
     EXPECT_EQ(parse_scene(tissue, "my.toml").tissues[0].shows_through_mm, 0.0);
     EXPECT_EQ(parse_scene(tissue + "protected = true\n", "my.toml").tissues[0].shows_through_mm, 1.5);
-    const Scene own = parse_scene(tissue + "shows_through_mm = 0.8\nshows_through_strength = 0.5\n"
-                                           "identifier = \"#6eb8d1\"\n",
+    const Scene own = parse_scene(tissue +
+                                      "shows_through_mm = 0.8\nshows_through_strength = 0.5\n"
+                                      "identifier = \"#6eb8d1\"\n",
                                   "my.toml");
     EXPECT_EQ(own.tissues[0].shows_through_mm, 0.8);
     EXPECT_EQ(own.tissues[0].shows_through_strength, 0.5);

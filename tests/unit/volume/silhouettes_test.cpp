@@ -49,10 +49,9 @@ TEST_F(SilhouettesTest, ChangeWhatIsBesideALeapOfDepthAndNothingElse) {
     int changed_at_outline = 0, outline = 0;
     for (int y = 1; y < size_px.y - 1; ++y)
         for (int x = 1; x < size_px.x - 1; ++x) {
-            const bool is_at_outline = is_bone(x - 1, y) != is_bone(x, y) ||
-                                       is_bone(x + 1, y) != is_bone(x, y) ||
-                                       is_bone(x, y - 1) != is_bone(x, y) ||
-                                       is_bone(x, y + 1) != is_bone(x, y);
+            const bool is_at_outline =
+                is_bone(x - 1, y) != is_bone(x, y) || is_bone(x + 1, y) != is_bone(x, y) ||
+                is_bone(x, y - 1) != is_bone(x, y) || is_bone(x, y + 1) != is_bone(x, y);
             const bool is_changed = !std::equal(before.at(x, y), before.at(x, y) + 3, after.at(x, y));
             outline += is_at_outline ? 1 : 0;
             changed_at_outline += is_at_outline && is_changed ? 1 : 0;

@@ -14,7 +14,8 @@ using CueCostTest = OffscreenTest;
 Bone ball_and_plate() {
     const Grid grid{.size_voxels = {96, 96, 80}, .origin_mm = {-4.75, -4.75, -3.95}};
     Bone bone = made_bone(grid, [](const glm::dvec3& p) {
-        return std::max(3.0 - glm::length(p - glm::dvec3(0.6, 0.0, 0.0)), 0.25 - std::abs(p.x + 3.2 + 0.2 * p.y));
+        return std::max(3.0 - glm::length(p - glm::dvec3(0.6, 0.0, 0.0)),
+                        0.25 - std::abs(p.x + 3.2 + 0.2 * p.y));
     });
     carve_sphere(bone, {1.0, -2.0, 2.6}, 1.5);
     return bone;

@@ -15,9 +15,9 @@
 
 namespace osteomill {
 
-class DrawnSession {
+class ImagedSession {
   public:
-    virtual ~DrawnSession() = default;
+    virtual ~ImagedSession() = default;
 
     virtual double time_s() const = 0;
     virtual const SessionInfo& session() const = 0;
@@ -32,7 +32,7 @@ class DrawnSession {
 };
 
 /// At the place of a playhead, which outlives it.
-class DrawnRecording final : public DrawnSession {
+class DrawnRecording final : public ImagedSession {
   public:
     explicit DrawnRecording(Playhead& playhead) : playhead_(playhead) {}
 
