@@ -53,7 +53,7 @@ class ForcefulCoupling final : public Coupling {
         return {.force_n = force(hand), .burr_pose = hand.pose};
     }
     void reset() noexcept override { ++resets; }
-    std::unique_ptr<Coupling> copy() const override { return std::make_unique<ScriptedCoupling>(*this); }
+    std::unique_ptr<Coupling> copy() const override { return std::make_unique<ForcefulCoupling>(*this); }
 };
 
 }  // namespace osteomill::testing

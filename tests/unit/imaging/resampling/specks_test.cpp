@@ -7,7 +7,7 @@
 
 #include "imaging/bone_from_hu.h"
 
-namespace osteomill {
+namespace osteomill::specks_test {
 namespace {
 
 constexpr double threshold_hu = 300.0;
@@ -93,4 +93,4 @@ TEST(Specks, AreNotCountedWhereAllIsNoise) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::specks_test
