@@ -49,7 +49,9 @@ py::array_t<double> forces_of(const LoadedCase& loaded, const ArmModel& arm,
 }  // namespace
 
 void bind_arms(py::module_& module) {
-    py::class_<ArmModel>(module, "ArmModel", "The make of an arm; what is left out is the simulated arm's.")
+    // Registered for this module alone: the core registers it as osteomill.Arm.
+    py::class_<ArmModel>(module, "ArmModel", py::module_local(),
+                         "The make of an arm; what is left out is the simulated arm's.")
         .def(py::init([](double coulomb_friction_n, double resolution_mm) {
                  return ArmModel{.coulomb_friction_n = coulomb_friction_n, .resolution_mm = resolution_mm};
              }),
