@@ -31,7 +31,7 @@ Picture drawn(BoneRenderer& renderer, const gl::Framebuffer& framebuffer, const 
 
 double distance_mm(const Camera& camera, const glm::ivec2& size_px, float window_depth) {
     const glm::dmat4 projection = camera.projection(size_px);
-    return projection[3][2] / (1.0 - projection[2][2] - 2.0 * static_cast<double>(window_depth));
+    return projection[3][2] / (2.0 * static_cast<double>(window_depth) - 1.0 + projection[2][2]);
 }
 
 /// Of the squares of rays that are a pixel each: their mean, and whether depth leaps among them.
