@@ -62,13 +62,14 @@ class RepeatRecordingTest(unittest.TestCase):
         np.testing.assert_allclose(told["removed_mm3"][1:], ticks["removed_mm3"]["total"], atol=5.1e-6)
 
     def test_a_recorded_motion_on_rails(self):
-        file, _, checksum = self.record("a.pcap")
+        file, _, _ = self.record("a.pcap")
         subprocess.run([program("packet_replay"), file, "--trajectory", self.folder / "a.csv"], check=True, capture_output=True)
         self.serve("--clock", "virtual", "--trajectory", self.folder / "a.csv", "--grip", "rails", "--record", self.folder / "b.pcap",
                    "--duration-s", "1.5")
         first, second = om.Recording(file).ticks, om.Recording(self.folder / "b.pcap").ticks
         np.testing.assert_array_equal(second["hand_mm"], first["hand_mm"])
-        self.assertEqual(om.Recording(self.folder / "b.pcap").info()["bone_checksum"], checksum)
+        # The arm on rails has the simulated arm's encoder, whose steps are smoothed; a prescribed hand has none.
+        self.assertAlmostEqual(second["removed_mm3"][-1] / first["removed_mm3"][-1], 1.0, delta=0.05)
         self.assert_repeats(self.folder / "b.pcap", 1501)
 
     def test_a_simulated_hand_with_settings_of_its_own(self):

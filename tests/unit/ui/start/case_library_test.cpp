@@ -79,7 +79,7 @@ TEST(CaseLibrary, SaysInOneLineThatNothingCanBeKeptAndWhatToDo) {
     EXPECT_TRUE(std::filesystem::is_directory(folder / "home/reports"));
     std::ofstream(folder / "file") << "x";
     const std::string line = make_folder_at_home(folder / "file/reports");
-    EXPECT_THAT(line, HasSubstr("--home DIR"));
+    EXPECT_THAT(line, HasSubstr("can name another folder"));
     EXPECT_EQ(line.find('\n'), std::string::npos);
 }
 
