@@ -289,6 +289,9 @@ void parse_pass_marks(const Texts& texts, CaseParts& parts) {
         if (metric.starts_with("plan_") && !parts.target)
             throw std::invalid_argument(
                 fmt::format("--pass '{}': needs a --target to measure against", text));
+        if (metric == "rating_share")
+            throw std::invalid_argument(
+                fmt::format("--pass '{}': needs a [[rating]], which is written into case.toml", text));
         if (metric == "structure_touches" && parts.is_protected.empty())
             throw std::invalid_argument(
                 fmt::format("--pass '{}': needs a segment that is to --protect", text));

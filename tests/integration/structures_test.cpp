@@ -216,9 +216,9 @@ TEST_F(StructuresProgram, OfACaseAreJudgedByTheMarksThatItsImportSet) {
         return run_program(command);
     };
     const std::vector<std::vector<std::string>> refused{
-        {"--pass", "speed=1"},           {"--pass", "time_s"},        {"--pass", "time_s=0"},
-        {"--pass", "time_s=nan"},        {"--pass", "time_s=300s"},   {"--pass", "structure_touches=0"},
-        {"--pass", "plan_excess_mm3=1"}, {"--description", "\033[2J"}};
+        {"--pass", "speed=1"},           {"--pass", "time_s"},          {"--pass", "time_s=0"},
+        {"--pass", "time_s=nan"},        {"--pass", "time_s=300s"},     {"--pass", "structure_touches=0"},
+        {"--pass", "plan_excess_mm3=1"}, {"--pass", "rating_share=0.5"}};
     for (const auto& options : refused) {
         const Finished finished = import("refused", options);
         EXPECT_EQ(finished.status, 2) << options.back();

@@ -169,7 +169,7 @@ struct MarkField {
 
 /// What a session has to reach; a mark that nobody could miss is not offered.
 void draw_marks(ImportForm& form) {
-    const std::array<MarkField, pass_mark_kinds.size()> fields{
+    const std::array<MarkField, 5> fields{
         {{"time_s", tr("s at most"), 600.0},
          {"plan_removed_share", tr("% of the target at least"), 0.9, 0.01},
          {"plan_excess_mm3", tr("mm3 beside the target at most"), 10.0},
