@@ -19,7 +19,7 @@ const std::array<SurfaceLabel, 4> things{
 std::vector<SurfaceLabel> label_table(std::span<const Tissue> tissues) {
     std::vector<SurfaceLabel> table(things.begin(), things.end());
     for (const Tissue& tissue : tissues.first(std::min(tissues.size(), most_tissues)))
-        table.push_back({tissue.name, tissue.colour_rgb});
+        table.push_back({tissue.name, identifier_of(tissue)});
     return table;
 }
 
