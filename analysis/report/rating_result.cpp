@@ -14,7 +14,7 @@ namespace osteomill {
 
 namespace {
 
-RegionVolumes volumes_of(const SessionTrace& trace, const Region& region) {
+RegionVolumes volumes_of(const SessionTrace& trace, const PlanRegion& region) {
     SessionInfo session{.tissues = trace.session.tissues, .plan = Plan{.region = region}};
     std::int64_t bone = 0;
     std::int64_t removed = 0;

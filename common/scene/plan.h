@@ -31,10 +31,10 @@ struct CylinderRegion {
     bool operator==(const CylinderRegion&) const = default;
 };
 
-using Region = std::variant<TissueRegion, SphereRegion, CylinderRegion>;
+using PlanRegion = std::variant<TissueRegion, SphereRegion, CylinderRegion>;
 
 struct Plan {
-    Region region{};
+    PlanRegion region{};
     double margin_mm = 0.5;  ///< what is removed beyond it is excess
 
     bool operator==(const Plan&) const = default;

@@ -13,7 +13,7 @@ namespace osteomill {
 /// Takes one of `tissue`, `sphere` and `cylinder`; nothing: none of them is there. Throws SceneError for more
 /// than one, and for a tissue that is not one of the scene's.
 /// `table`: how the table is called in messages.
-std::optional<Region> read_region(TomlReader& reader, std::span<const Tissue> tissues, const char* table);
+std::optional<PlanRegion> read_region(TomlReader& reader, std::span<const Tissue> tissues, const char* table);
 
 /// Takes `tissue`, `sphere` or `cylinder`, and `margin_mm`. Throws SceneError, also for a tissue that is not
 /// one of the scene's.

@@ -18,7 +18,7 @@ struct RatingItem {
     double points = 1.0;
     std::string when{};              ///< the condition
     std::string source{};            ///< where item and threshold come from; may be empty
-    std::optional<Region> region{};  ///< what its condition calls the region
+    std::optional<PlanRegion> region{};  ///< what its condition calls the region
 
     bool operator==(const RatingItem&) const = default;
 };

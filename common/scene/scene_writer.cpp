@@ -212,7 +212,7 @@ std::string trajectory_text(const TrajectorySpec& trajectory, SceneText extent) 
     return keys.below("\n# What a simulated hand does.\n[trajectory]\n");
 }
 
-void add_region(Keys& keys, const Region& region) {
+void add_region(Keys& keys, const PlanRegion& region) {
     if (const auto* tissue = std::get_if<TissueRegion>(&region)) keys.add("tissue", tissue->tissue);
     if (const auto* sphere = std::get_if<SphereRegion>(&region))
         keys.add_text(fmt::format("sphere = {{ centre_mm = {}, radius_mm = {} }}\n",

@@ -325,7 +325,6 @@ void parse_texts(const CLI::App& app, const Texts& texts, ImportCommand& command
     for (const char* option : {"--description", "--pass"})
         if (!command.case_folder && app.count(option) > 0)
             throw std::invalid_argument(std::string(option) + ": goes with --case");
-    require_plain("--description", command.parts.description);
     parse_pass_marks(texts, command.parts);
     if (!texts.stack_spacing.empty())
         options.choice.stack_spacing_mm = command.parts.stack_spacing_mm =

@@ -68,7 +68,7 @@ class RatedSession : public ::testing::Test {
         made.html = report_html(trace, metrics, made.rows, {}, {});
         return made;
     }
-    std::optional<bool> reached(const std::string& when, const std::optional<Region>& region = {}) {
+    std::optional<bool> reached(const std::string& when, const std::optional<PlanRegion>& region = {}) {
         return report({{.name = "a", .when = when, .region = region}}).rating.items.at(0).is_reached;
     }
 

@@ -55,8 +55,8 @@ rating_share = 0.8
                                            .when = "structure_touches('Facial_Nerve') == 0",
                                            .source = "Our department, 2026"}));
     EXPECT_EQ(scene.rating[1].points, 1.0);
-    EXPECT_EQ(scene.rating[1].region, std::optional<Region>(TissueRegion{"lesion"}));
-    EXPECT_EQ(scene.rating[2].region, std::optional<Region>(SphereRegion{{1, 2, 3}, 4.0}));
+    EXPECT_EQ(scene.rating[1].region, std::optional<PlanRegion>(TissueRegion{"lesion"}));
+    EXPECT_EQ(scene.rating[2].region, std::optional<PlanRegion>(SphereRegion{{1, 2, 3}, 4.0}));
     EXPECT_EQ(scene.pass, (PassMarks{{"rating_share", 0.8}}));
     EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
     EXPECT_EQ(parse_scene(write_scene(scene, SceneText::complete), "again.toml"), scene);
