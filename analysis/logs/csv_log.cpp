@@ -52,7 +52,7 @@ void CsvFile::close() {
         try {
             file_.commit();
         } catch (const std::runtime_error& error) {
-            error_ = error.what();
+            error_ = error.what() + where_it_lies();
         }
     }
     if (!error_.empty()) file_.keep_part();
@@ -61,9 +61,12 @@ void CsvFile::close() {
 
 void CsvFile::fail(const std::string& why) {
     if (!error_.empty()) return;
-    error_ = fmt::format("{}: the log is not complete: {}", file_.path().string(), why);
-    if (file_.part() != file_.path())
-        error_ += fmt::format("; what there is lies in {}", file_.part().string());
+    error_ = fmt::format("{}: the log is not complete: {}{}", file_.path().string(), why, where_it_lies());
+}
+
+std::string CsvFile::where_it_lies() const {
+    if (file_.part() == file_.path()) return {};
+    return fmt::format("; what there is lies in {}", file_.part().string());
 }
 
 }  // namespace osteomill

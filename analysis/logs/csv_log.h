@@ -43,6 +43,8 @@ class CsvFile {
 
   private:
     void fail(const std::string& why);
+    /// "; what there is lies in FILE", of a log that has a file beside its own until it is whole.
+    std::string where_it_lies() const;
 
     SessionFile file_;
     BackgroundWriter writer_;

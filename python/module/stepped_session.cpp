@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/recording/recording_writer.h"
 #include "common/text/plain_text.h"
 #include "haptic_server/session/device_table.h"
 #include "haptic_server/session/session_defaults.h"
@@ -253,7 +254,7 @@ void SteppedSession::end() {
     run_.assembly->shown()->server().stop();
     if (const auto recording = run_.assembly->shown()->server().recording();
         recording && !recording->error.empty())
-        throw std::runtime_error(recording->error);
+        throw std::runtime_error(ending_of(*recording));
 }
 
 }  // namespace osteomill::python

@@ -196,6 +196,15 @@ class SessionTest(unittest.TestCase):
             session.close()
             self.assertTrue(os.path.exists(os.path.join(folder, "a.pcap")))
 
+    def test_says_where_a_recording_lies_that_cannot_have_its_name(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "a.pcap")
+            session = om.Session(tooth(), record=file)
+            session.step(ms=10)
+            os.mkdir(file)
+            with self.assertRaisesRegex(om.Fault, "Is a directory; what there is lies in .*a.part.pcap, which packet_replay reads"):
+                session.close()
+
     def test_ends_once_it_is_closed(self):
         with om.Session(tooth()) as session:
             session.step()

@@ -118,6 +118,19 @@ TEST(ForceLog, KeepsWhatADiskThatBecameFullTookAndTheOldFile) {
     std::filesystem::remove(part_of(file));
 }
 
+TEST(ForceLog, SaysWhereItLiesIfTheFileCannotHaveItsName) {
+    const auto file = scratch_file();
+    ForceLog log(file);
+    log.push({});
+    std::filesystem::create_directory(file);
+    log.close();
+    EXPECT_THAT(log.error(), AllOf(HasSubstr("Is a directory"),
+                                   HasSubstr("what there is lies in " + part_of(file).string())));
+    EXPECT_THAT(text_of(part_of(file)), StartsWith("t_s,"));
+    std::filesystem::remove(file);
+    std::filesystem::remove(part_of(file));
+}
+
 TEST(ForceLog, KeepsThePartOfASessionThatFailed) {
     const auto file = scratch_file();
     { const ForceLog nothing_written(file); }
