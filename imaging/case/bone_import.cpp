@@ -22,7 +22,6 @@
 #include "common/program/option_checks.h"
 #include "common/program/run_program.h"
 #include "common/scene/tissue_tables.h"
-#include "common/text/plain_text.h"
 #include "imaging/case/case_folder.h"
 #include "imaging/case/scan_preview.h"
 #include "imaging/formats/picture_stack.h"
