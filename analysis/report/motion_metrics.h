@@ -22,7 +22,7 @@ struct MotionMetrics {
     double cutting_speed_p95_mm_per_s = 0.0;  ///< likewise, 95th percentile
     double depth_mm = 0.0;                    ///< largest while the spindle turns
     double cutting_depth_mm = 0.0;            ///< mean while bone is taken
-    /// Of the time in which bone is taken, as far as it is known from where the trainee looked.
+    /// Share of the time in which bone is taken, as far as the trainee's viewpoint is known.
     std::optional<double> burr_in_view_share{};
     std::optional<double> cutting_angle_deg{};  ///< of the spindle to the surface, mean while bone is taken
 };

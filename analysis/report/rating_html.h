@@ -8,8 +8,8 @@
 
 namespace osteomill {
 
-/// "14 of 20 points", which items are missed, and how often and how much was undone. Empty where the session
-/// has no rating; says so where it has one and the recording is not complete.
+/// "14 of 20 points", which items are missed, and how often and how much was undone. Empty if the session has
+/// no rating; if it has one and the recording is not complete, it says so.
 std::string rating_summary(const SessionTrace& trace, const RatingResult& rating);
 
 /// A heading, and a line for each item: whether it is reached, its condition, what was measured, its source.

@@ -26,7 +26,7 @@ struct RemovalMetrics {
 
 RemovalMetrics removal_metrics(const SessionTrace& trace, std::span<const Stroke> strokes);
 
-/// "bone" for 0 ("other bone" where a tissue has that name), "tissue 7" for what the scene has no name for.
+/// "bone" for 0 ("other bone" if a tissue has that name), "tissue 7" for a label without a name in the scene.
 std::string tissue_name(const SessionInfo& session, std::uint8_t label);
 
 }  // namespace osteomill

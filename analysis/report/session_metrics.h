@@ -47,7 +47,8 @@ struct MetricRow {
 
 std::vector<MetricRow> metric_rows(const SessionMetrics& metrics);
 
-/// Of the metric with this key, added up over tissues, burrs or structures; nothing where none has a value.
+/// Value of the metric with this key, added up over tissues, burrs or structures; nothing if none has a
+/// value.
 std::optional<double> sum_of(std::span<const MetricRow> rows, std::string_view key);
 
 }  // namespace osteomill

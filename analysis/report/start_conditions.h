@@ -1,5 +1,5 @@
-// What a session began with, as far as a trainee feels it: only sessions that began alike are attempts at the
-// same task, and only they are shown against each other.
+// Start conditions of a session, as far as a trainee feels them: only sessions that began alike are attempts
+// at the same task, and only they are compared.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@ struct StartConditions {
     bool operator==(const StartConditions&) const = default;
 };
 
-/// Those of a session's settings that a trainee feels.
+/// The settings of a session that a trainee feels.
 std::map<std::string, std::string> felt_settings(const std::map<std::string, std::string>& settings);
 
 StartConditions start_conditions(const SessionTrace& trace);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double shortest_smooth_s = 0.5;
 
-/// What was undone, as the server's journal keeps it.
+/// Undone slices, as the server's journal keeps them.
 class UndoneSlices {
   public:
     explicit UndoneSlices(std::vector<Stroke>& strokes) : strokes_(strokes) {}
