@@ -10,9 +10,9 @@
 //     im    = <a . (p x m)>  / <p . p>_across      <> means over a sliding window
 //     along = <m_a p_a> / <p_a p_a>
 //
-// Impulses are compared, not forces: at 300 Hz three haptic ticks make one of the model's steps here and four
-// there. re and along stay within [0.5, 1.5], im within +-0.3; where there is little force to compare, G
-// returns to 1. What was learnt in one contact says nothing of the next: after 20 ms in air it is forgotten.
+// Impulses are compared, not forces: at 300 Hz one of the model's steps takes three haptic ticks, the next
+// takes four. re and along stay within [0.5, 1.5], im within +-0.3; while there is little force to compare, G
+// returns to 1. A gain learnt in one contact does not fit the next: after 20 ms in air it is forgotten.
 #pragma once
 
 #include <algorithm>
