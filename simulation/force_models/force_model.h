@@ -27,13 +27,13 @@ class ForceModel {
     virtual void restore(const BrickChange& change, BrickFractions fractions,
                          ChangeSink& changes) noexcept = 0;
 
-    /// Another that goes on from here alike, with a copy of the bone. Between steps.
+    /// A copy that goes on from here alike, with a copy of the bone. Between steps.
     virtual std::unique_ptr<ForceModel> copy() const = 0;
 
     virtual const Bone& bone() const = 0;
-    /// Since the start, less what was restored.
+    /// Bone removed since the start, less bone restored.
     virtual RemovedByTissue removed_mm3() const = 0;
-    /// Of one tissue, below 256.
+    /// The same of one tissue, with a label below 256.
     virtual double removed_mm3(std::size_t label) const = 0;
 };
 

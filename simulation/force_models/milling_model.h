@@ -50,11 +50,10 @@ class MillingModel final : public ForceModel {
     double removed_mm3(std::size_t label) const override { return account_.removed_mm3(label); }
 
   private:
-    /// How far the farthest point of the burr moves from where it is to the command's pose: along the path
-    /// and, for a head that is no ball, by the spindle's tilt.
+    /// Motion of the burr's farthest point to the command's pose: along the path and, for a head that is no
+    /// ball, by the spindle's tilt.
     double motion_mm(const BurrCommand& command) const noexcept;
-    /// Whether so little lies between position_mm_ and the command's position that it can wait for the next
-    /// step.
+    /// Whether the command's position is so near to position_mm_ that milling can wait for the next step.
     bool can_wait(const BurrCommand& command) const noexcept;
     /// From position_mm_ to the command's position, in substeps.
     void mill(const BurrCommand& command, ChangeSink& changes, MillingResult& result) noexcept;
@@ -62,7 +61,7 @@ class MillingModel final : public ForceModel {
     /// as `to` has it; adds to `result`, force weighed by `share` of the path.
     void cut(const BurrCommand& command, const ToolPose& to, double share, ChangeSink& changes,
              MillingResult& result) noexcept;
-    /// Adds what edges rub on from the step's start to `ahead` of it.
+    /// Adds the bone on which edges rub, from the step's start to `ahead` of it.
     template <typename Force>
     EdgeLook look_ahead(const Sweep& sweep, const CuttingStep& cutting, const glm::dvec3& ahead,
                         const CarveSettings& carving, Force& force) noexcept;

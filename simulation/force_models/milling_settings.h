@@ -1,5 +1,5 @@
-// Settings of the milling model, how it carves and how it sums: what --force-model chooses, and what studies
-// vary.
+// Settings of the milling model, how it carves and how it sums: --force-model chooses them, and studies vary
+// them.
 #pragma once
 
 #include "simulation/carving/instruction_set.h"
