@@ -16,14 +16,14 @@ inline bool is_place(const glm::dvec3& position_mm) {
     return glm::length(position_mm) <= farthest_place_mm;
 }
 
-/// As far as nine decimals of each component tell.
+/// As far as nine decimals of each component can show.
 inline bool is_of_unit_length(double length) {
     return length > 1.0 - 1e-9 && length < 1.0 + 1e-9;
 }
 
 /// The vector scaled to unit length; nothing if it has no length, is not finite, or is so long that its
-/// digits would be lost. A vector of unit length is returned bit for bit, and so is one that was written with
-/// nine decimals, as recordings write it.
+/// digits would be lost. A vector of unit length is returned bit for bit, and so is one written with nine
+/// decimals, as in recordings.
 inline std::optional<glm::dvec3> unit_direction(const glm::dvec3& v) {
     const double length = glm::length(v);
     if (!(length >= 1e-6 && length <= 1e6)) return std::nullopt;
