@@ -26,8 +26,8 @@ class FractionBricks {
     FractionBricks& operator=(FractionBricks other) noexcept;
     ~FractionBricks() = default;
 
-    /// Shares the bricks from now on; copies share them, too. Bricks that it has by then are never copied
-    /// again.
+    /// Shares the bricks from now on; copies share them, too. Copies no longer copy the bricks that it has by
+    /// then.
     void share();
 
     std::size_t size() const { return places_.size(); }

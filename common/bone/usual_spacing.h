@@ -9,7 +9,7 @@ namespace osteomill {
 /// Bytes of a session for a voxel: fraction, stiffness, tissue.
 inline constexpr double session_bytes_per_voxel = 3.0;
 
-/// A bone with more voxels than this is too large to drill at ease.
+/// A bone with more voxels than this is large to drill.
 inline constexpr double usual_voxels = 2e8;
 /// Share of the available memory for the bone as the server has it: its mirror, the window and the window's
 /// textures hold it again, and half is for other programs.
