@@ -1,7 +1,7 @@
-// A rating of a session, item by item: points that it earns where a condition holds. Plain data.
+// A rating of a session, item by item: points that it earns if a condition holds. Plain data.
 //
-// It is a department's scale as data: what a rater would look for on the finished bone, written over the
-// metrics of docs/metrics.md (rating_condition.h).
+// It is a department's scale as data: the checks of a rater on the finished bone, written over the metrics of
+// docs/metrics.md (rating_condition.h).
 #pragma once
 
 #include <cstddef>

@@ -16,7 +16,7 @@ struct SessionState {
     std::vector<ControlEvent> events{};          ///< since the frame before: what was done to the session
     SessionStatus status{};                      ///< what can be done to it now
     std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
-    /// From where the one who moves the tool looks; only in a recording, and nothing where nobody said.
+    /// Viewpoint of the person who moves the tool; only in a recording, and nothing if nobody sent it.
     std::optional<Viewpoint> view{};
 };
 

@@ -20,7 +20,7 @@ struct StiffnessKnot {
     bool operator==(const StiffnessKnot&) const = default;
 };
 
-/// A tissue whose stiffness does not follow from CT numbers.
+/// A tissue whose stiffness is independent of CT numbers.
 struct TissueStiffness {
     std::uint8_t label = 0;
     double relative_stiffness = 1.0;
