@@ -11,7 +11,7 @@
 
 namespace osteomill {
 
-/// Takes away the points of patient space with dot(normal, p) > offset_mm, for the eye only.
+/// A cut hides the points of patient space with dot(normal, p) > offset_mm, for the eye only.
 struct CutPlane {
     glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit, patient LPS, towards what is taken away
     double offset_mm = 0.0;

@@ -1,4 +1,4 @@
-// Cuts through the bone; set_cut_uniforms sets what they need. Points are in the coordinates of bone_sampling.glsl.
+// Cuts through the bone; set_cut_uniforms sets their uniforms. Points are in the coordinates of bone_sampling.glsl.
 //
 //     const int cut_count                  given ahead of this file, at most 4
 //     void  clip_by_cuts(vec3 eye, vec3 direction, inout float enter, inout float leave)
