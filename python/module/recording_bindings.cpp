@@ -99,7 +99,7 @@ void to_hdf5(const SharedRecording& recording, const std::filesystem::path& file
     if (!error.empty()) throw std::runtime_error(error);
 }
 
-/// Every tick, read when it is asked for and not kept.
+/// Every tick, read on request and not kept.
 py::dict ticks(const SharedRecording& recording) {
     std::vector<TickSample> all;
     {

@@ -1,5 +1,5 @@
-// The module osteomill._render: frames of an image set as arrays. Apart from the core, which has no OpenGL;
-// osteomill.render loads it when it is called.
+// The module osteomill._render: frames of an image set as arrays. Separate from the core, which has no
+// OpenGL; osteomill.render loads it when it is called.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -132,7 +132,7 @@ py::object cameras(const Drawing& drawing) {
     return from_json(all);
 }
 
-/// Waits for whoever draws; the interpreter does not.
+/// Waits for a thread that draws; the interpreter does not.
 struct Unhurried {
     template <typename Drawing>
     void operator()(Drawing* drawing) const {

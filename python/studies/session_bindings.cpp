@@ -1,5 +1,5 @@
-// Recordings as the study of several sessions reads them, and how all pages call and show a metric. Errors
-// are RuntimeError in one printable line.
+// Recordings as the study of several sessions reads them, and the names and forms of metrics on all pages.
+// Errors are RuntimeError in one printable line.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
