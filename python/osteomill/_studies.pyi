@@ -1,4 +1,4 @@
-# Types of the kernels of osteomill.studies; promised to nobody.
+# Types of the kernels of osteomill.studies; their interface is not promised.
 import os
 from collections.abc import Sequence
 from typing import Any
