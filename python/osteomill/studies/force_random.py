@@ -61,7 +61,7 @@ def table_of(cases: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> pd.
 
 
 def summary_of(drawn: Drawn, table: pd.DataFrame, outcomes: list[dict[str, Any]]) -> dict[str, Any]:
-    """Of all; of motions along the surface alone what a dive has not."""
+    """Summary of all; values that a dive does not have are of motions along the surface alone."""
     along = table[~table["dives"]]
     windows = [100.0 * share for found, dives in zip(outcomes, table["dives"]) if not dives for share in found["deviations"]]
     brisk = along[along["feed_mm_per_s"] >= 5.0]
@@ -87,7 +87,7 @@ def summary_of(drawn: Drawn, table: pd.DataFrame, outcomes: list[dict[str, Any]]
 
 
 def percentile(values: Any, share: float) -> float:
-    """0 where there are no values."""
+    """0 if there are no values."""
     return float(np.percentile(values, share)) if len(values) else 0.0
 
 

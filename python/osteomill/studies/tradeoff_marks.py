@@ -1,4 +1,4 @@
-"""Marks that all charts of the study `tradeoff` share: the default, what a scene needs, names beside points."""
+"""Marks that all charts of the study `tradeoff` share: the default, a scene's need, names beside points."""
 
 import math
 from typing import Any
