@@ -227,7 +227,7 @@ class SliceRing {
     std::vector<std::int16_t> hu_;
 };
 
-/// What makes the slices of the result.
+/// Makes the slices of the result.
 struct SliceSource {
     const Refiner& refiner;
     const FieldOfView* field;

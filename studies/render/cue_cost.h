@@ -1,5 +1,5 @@
-// What each cue of the picture costs and gives: frames with it and without, drawn in turns in one run, and
-// how much nearer to a supersampled picture it makes silhouettes.
+// Cost and gain of each cue of the picture: frames with it and without, drawn in turns in one run, and how
+// much nearer to a supersampled picture it makes silhouettes.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct CueCost {
     double changed_pixels = 0.0;  ///< share of the picture
 };
 
-/// Of so many pairs, at least one. Needs a current context.
+/// Cost over so many pairs, at least one. Needs a current context.
 CueCost cue_cost(std::string_view cue, const BoneTextures& bone, const Camera& camera,
                  const glm::ivec2& size_px, int pairs);
 

@@ -1,6 +1,6 @@
 // A renderer of everything beside the bone: the burr with its shank, the force on the hand as an arrow, the
-// hand's target as a ghost. All are meshes, tested against the bone's depth. Where the shank hides the burr
-// or its surroundings, it is translucent.
+// hand's target as a ghost. All are meshes, tested against the bone's depth. The part of the shank that would
+// hide the burr or its surroundings is translucent.
 #pragma once
 
 #include <glm/vec3.hpp>
