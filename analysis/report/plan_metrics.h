@@ -28,7 +28,7 @@ struct PlanMetrics {
     double outside_mm3 = 0.0;    ///< removed outside the region
     double excess_mm3 = 0.0;     ///< of these, further from it than the margin
     double margin_mm = 0.0;
-    std::optional<SurfaceDistance> surface{};  ///< nothing where there is no cavity or no region
+    std::optional<SurfaceDistance> surface{};  ///< nothing if there is no cavity or no region
 };
 
 /// Nothing if the session has no plan.

@@ -1,4 +1,5 @@
-// A rating as people read it on a report: the score with what was undone for it, and the table of its items.
+// A rating as people read it on a report: the score with the amount undone for it, and the table of its
+// items.
 #pragma once
 
 #include <string>
@@ -12,8 +13,8 @@ namespace osteomill {
 /// no rating; if it has one and the recording is not complete, it says so.
 std::string rating_summary(const SessionTrace& trace, const RatingResult& rating);
 
-/// A heading, and a line for each item: whether it is reached, its condition, what was measured, its source.
-/// Empty without items.
+/// A heading, and a line for each item: whether it is reached, its condition, the measured values, its
+/// source. Empty without items.
 std::string rating_table(const RatingResult& rating);
 
 }  // namespace osteomill

@@ -29,8 +29,8 @@ struct SessionMetrics {
     NearnessMetrics near;
     std::vector<ExposureMetrics> exposures;
     std::optional<PlanMetrics> plan;
-    PassMarks pass;       ///< empty where the recording is incomplete: half a session reaches no mark
-    RatingResult rating;  ///< likewise
+    PassMarks pass;       ///< empty if the recording is incomplete: half a session reaches no mark
+    RatingResult rating;  ///< empty if the recording is incomplete
 };
 
 SessionMetrics session_metrics(const SessionTrace& trace);

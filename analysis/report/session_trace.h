@@ -1,5 +1,5 @@
-// Trace of a session, sample by sample, from its recording: tool, force, and what each frame took of which
-// tissue.
+// Trace of a session, sample by sample, from its recording: tool, force, and the bone of each tissue that
+// each frame removed.
 //
 // Sample i stands for the interval from sample i - 1 to itself, dt = t_i - t_(i-1); the first has none. Times
 // are session time. If recordings were joined, the trace is of the last session.
@@ -26,7 +26,7 @@ namespace osteomill {
 struct TissueLevels {
     std::uint8_t tissue = 0;    ///< label; 0: none
     std::int64_t milled = 0;    ///< taken by the burr
-    std::int64_t restored = 0;  ///< given back by undo and reset, less what redo took again
+    std::int64_t restored = 0;  ///< given back by undo and reset, less the volume that redo took again
 };
 
 /// A tick within a frame, or the frame itself if the recording holds no ticks.
@@ -53,7 +53,7 @@ struct TraceSample {
     std::vector<TissueLevels> levels{};          ///< only of tissues that changed; ascending labels
     std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
     std::optional<double> spindle_to_surface_deg{};  ///< where it cuts: 90 is square to it, 0 along it
-    std::optional<bool> burr_in_view{};  ///< where it cuts; nothing: nobody said from where one looked
+    std::optional<bool> burr_in_view{};  ///< where it cuts; nothing: the viewpoint is not known
 
     std::int64_t milled() const;
     std::int64_t restored() const;

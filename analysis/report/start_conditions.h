@@ -10,8 +10,8 @@
 namespace osteomill {
 
 struct StartConditions {
-    std::string bone;                             ///< digest of what was there, of which tissue and how hard
-    std::map<std::string, std::string> settings;  ///< those that are felt; what is off is left out
+    std::string bone;                             ///< digest of the bone, its tissues and its stiffness
+    std::map<std::string, std::string> settings;  ///< those that are felt; settings that are off are left out
 
     bool operator==(const StartConditions&) const = default;
 };

@@ -1,4 +1,4 @@
-// Some of the voxels of a bone, and its boundary within what was bone.
+// A set of a bone's voxels, and its boundary within the original bone.
 #pragma once
 
 #include <cstdint>
