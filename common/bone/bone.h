@@ -45,8 +45,8 @@ struct BoneContent {
     }
 };
 
-/// A bone that can be milled. Copies share content and own their fractions; those of a bone that is shared
-/// own only what changes in them.
+/// A bone that can be milled. Copies share content and own their fractions; copies of a shared bone own only
+/// the bricks that change in them.
 class Bone {
   public:
     /// Takes over content and initial fractions (one brick a slot). Throws std::invalid_argument if their
@@ -95,9 +95,9 @@ double bone_volume_mm3(const Bone& bone);
 /// Volume left per tissue label, mm^3, index = label. One entry (label 0) for an unlabelled bone.
 std::vector<double> bone_volume_by_tissue_mm3(const Bone& bone);
 
-/// Checksum of what is left: the sum (mod 2^64) over bricks of XXH3-64 of the 4096 fractions, seeded with the
-/// brick's index; a brick that is all zero adds nothing. So it does not depend on which empty bricks are
-/// stored, and it can be kept up to date brick by brick: subtract a brick's old term, add its new one.
+/// Checksum of the fractions left: the sum (mod 2^64) over bricks of XXH3-64 of the 4096 fractions, seeded
+/// with the brick's index; a brick that is all zero adds nothing. So it does not depend on which empty bricks
+/// are stored, and it can be kept up to date brick by brick: subtract a brick's old term, add its new one.
 std::uint64_t checksum(const Bone& bone);
 std::uint64_t checksum_of_brick(BrickIndex brick, BrickFractions fractions);
 

@@ -11,7 +11,7 @@ namespace osteomill {
 /// metres of their centre. A larger coordinate is a wrong unit, or an attempt to break the arithmetic.
 inline constexpr double farthest_place_mm = 10'000.0;
 
-/// Within farthest_place_mm of the origin; false for what is not a number.
+/// Within farthest_place_mm of the origin; false if one is not a number.
 inline bool is_place(const glm::dvec3& position_mm) {
     return glm::length(position_mm) <= farthest_place_mm;
 }

@@ -6,7 +6,7 @@
 
 namespace osteomill {
 
-/// Codes up to here, and what lies between two of them, are exact in a double.
+/// Codes up to here, and the differences of two of them, are exact in a double.
 inline constexpr double largest_decimal_code = 1e15;
 
 /// The whole number of a value's last decimal, of 0 to 9: rounded as fmt::format rounds it, half to even.

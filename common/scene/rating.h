@@ -25,7 +25,7 @@ struct RatingItem {
 
 using Rating = std::vector<RatingItem>;
 
-/// Bounds on what a file or a recording may hold.
+/// Bounds on ratings in files and recordings.
 inline constexpr std::size_t most_rating_items = 100;
 inline constexpr std::size_t longest_rating_name = 100;       ///< bytes
 inline constexpr std::size_t longest_rating_condition = 500;  ///< bytes

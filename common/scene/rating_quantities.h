@@ -17,7 +17,7 @@ enum class RatedThing : std::uint8_t {
     tissue,             ///< a tissue's
     burr,               ///< a burr's
     structure,          ///< a protected tissue's
-    any_structure,      ///< likewise; without: of all together
+    any_structure,      ///< its name is optional; without: of all together
 };
 
 struct RatedQuantity {

@@ -41,7 +41,7 @@ struct FileSource {
 /// Strength of a tissue against cutting, relative to the bone for which the burrs' coefficients hold.
 struct TissueStrength {
     std::string material{};           ///< preset that both are from (material.h); empty: the scene's own
-    double relative_stiffness = 1.0;  ///< of the chips, in place of what follows from CT numbers
+    double relative_stiffness = 1.0;  ///< of the chips, in place of the value from CT numbers
     double relative_edge = 1.0;       ///< of edges that rub
 
     bool operator==(const TissueStrength&) const = default;
@@ -66,7 +66,7 @@ struct Tissue {
     std::array<std::uint8_t, 3> colour_rgb{};
     bool is_protected = false;                 ///< touching it with a turning burr raises a warning
     std::optional<TissueStrength> strength{};  ///< absent: as its CT numbers say
-    double stiffness_factor = 1.0;             ///< times what its strength or its CT numbers say
+    double stiffness_factor = 1.0;             ///< factor of the stiffness by its strength or CT numbers
     bool is_cuttable = true;                   ///< false: no burr takes it, it is a wall
     std::string segment{};                     ///< of the segmentation that it is; empty: none
     double opacity = 1.0;                      ///< of its picture, 0 (not drawn) to 1
@@ -128,14 +128,14 @@ struct Scene {
     std::vector<Burr> burrs;  ///< never empty
     std::size_t start_burr = 0;
     double wall_friction = 0.2;    ///< Coulomb's, of a burr at rest on bone
-    double force_scale = 1.0;      ///< times what cutting takes: for arms whose friction hides it
+    double force_scale = 1.0;      ///< factor of cutting forces: for arms whose friction hides them
     std::optional<Motor> motor{};  ///< whose speed falls under load, as it is heard
     DeviceMapping device;
     ToolPose start_pose;
     TrajectorySpec trajectory;
-    std::optional<Plan> plan{};  ///< what a session is measured against
-    PassMarks pass{};            ///< what it has to reach
-    Rating rating{};             ///< what earns it points
+    std::optional<Plan> plan{};  ///< the goal of a session
+    PassMarks pass{};            ///< marks that it has to reach
+    Rating rating{};             ///< items that earn it points
 
     bool operator==(const Scene&) const = default;
 };

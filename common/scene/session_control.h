@@ -51,7 +51,7 @@ inline bool is_spindle_speed(double rpm) {
 struct ControlEvent {
     double time_s = 0.0;  ///< session time
     SessionAction action = SessionAction::none;
-    std::string text{};  ///< a mark's note; the tool's place; what undo gave back; why it was refused
+    std::string text{};  ///< a mark's note; the tool's place; the bone of an undo; why it was refused
     bool is_refused = false;
 
     bool operator==(const ControlEvent&) const = default;

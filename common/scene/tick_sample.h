@@ -66,7 +66,7 @@ enum class TickPart : std::uint8_t {
     always,
     torque,  ///< where a burr has a shank
     input,   ///< where TickInput is known; readers of before do not know of it
-    rest,    ///< likewise: what a quantity of the hand's pose lacks of it, which setting it adds
+    rest,    ///< the same: missing decimals of the hand's pose, which setting it adds
 };
 
 /// One number of a tick. A log's columns are those that are `in_log`, in this order.

@@ -36,7 +36,7 @@ struct ToolState {
     double removed_mm3 = 0.0;  ///< since the server began
     bool touches_protected = false;
     BoundedLine fault{};   ///< why the force is off; empty while all is well
-    BoundedLine notice{};  ///< what something that was requested waits for; empty: nothing does
+    BoundedLine notice{};  ///< the reason for which a request waits; empty: none waits
     /// The server's wall clock when it took this off the haptic loop, ns since 1970; 0: not said.
     std::int64_t taken_unix_ns = 0;
     ToolDriver driver = ToolDriver::unknown;  ///< said to each client by the streaming server
