@@ -1,4 +1,4 @@
-// The bone that a scene names, and saving what a session has left of it.
+// The bone that a scene names, and how a session's remainder of it is saved.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace osteomill {
 /// Source of a bone's slices: they are not kept, but read or made once more when needed.
 struct BoneSource {
     std::string phantom;                   ///< its name; empty: a file, or a bone without CT numbers
-    std::shared_ptr<const BoneFile> file;  ///< stays open, so that another under its name is not taken for it
+    std::shared_ptr<const BoneFile> file;  ///< stays open, not to be confused with another of its name
     std::string hu_digest;                 ///< of the file's CT numbers when the bone was loaded
     double threshold_hu = 0.0;
     VolumesByTissue removed_before_mm3{};  ///< by the sessions before, as a saved bone tells
@@ -34,7 +34,7 @@ struct LoadedBone {
     Bone bone;
     BoneSource source;
     std::vector<Structure> structures{};  ///< of the scene's protected tissues, in their order
-    std::string doubt{};  ///< what may be wrong with a file's CT numbers: a line, or empty (bone_of_file.h)
+    std::string doubt{};  ///< doubt about a file's CT numbers: a line, or empty (bone_of_file.h)
 };
 
 /// Makes the phantom or reads the file, slice by slice. For a file the threshold is the scene's, or the
@@ -48,10 +48,10 @@ struct SavedWithoutCt : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Saves what is left of a bone together with the CT numbers of its source (carved_bone.h), which may be the
-/// file that is saved over, and with how much was removed by tissue in all sessions so far. If the source can
-/// no longer be read, or is not what was loaded, the bone is saved with a picture of it in their place, and
-/// then SavedWithoutCt is thrown. Throws ImagingError if it cannot be written.
+/// Saves the rest of a bone together with the CT numbers of its source (carved_bone.h), which may be the file
+/// that is saved over, and with how much was removed by tissue in all sessions so far. If the source can no
+/// longer be read, or is not what was loaded, the bone is saved with a picture of it in their place, and then
+/// SavedWithoutCt is thrown. Throws ImagingError if it cannot be written.
 void save_bone(
     const std::filesystem::path& path, const BoneSource& source, const Bone& bone,
     const ReportProgress& report = [](double) {});

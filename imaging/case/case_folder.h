@@ -31,14 +31,14 @@ struct CaseParts {
     std::optional<std::filesystem::path> colours{};  ///< names and colours of those that are plain label maps
     std::optional<glm::dvec3> stack_spacing_mm{};    ///< of label maps that are a stack of pictures
     std::vector<std::string> is_protected{};         ///< tissues, by name
-    double warn_mm = 1.0;                            ///< of those: from what distance on
+    double warn_mm = 1.0;                            ///< of those: the distance of warning
     std::map<std::string, double> warns_from_mm{};   ///< by name, of those with a distance of their own
     std::optional<std::string> target{};             ///< the tissue that is to be removed
     /// Materials of tissues by name, or soft_material (material.h). Others are of the material that their
     /// name implies, if bone is made of labels; in a scan their CT numbers decide.
     std::map<std::string, std::string> materials{};
     std::string description{};  ///< a sentence for people; empty: one about its bone
-    PassMarks pass{};           ///< what a session has to reach
+    PassMarks pass{};           ///< marks that a session has to reach
 };
 
 /// A case for which bone is yet to be made.

@@ -17,7 +17,7 @@ std::vector<Structure> segmented_structures(const Scene& scene, const std::files
                                             const Grid& grid);
 
 /// One label a voxel: that of a protected tissue before all, then of the plan's, then of the later in the
-/// scene. Both arguments must outlive what is given back.
+/// scene. Both arguments must outlive the result.
 FillLabels label_painter(const Scene& scene, const std::vector<Structure>& structures);
 
 /// Adds the structures of protected tissues without a segment: the voxels of the bone that bear their label.

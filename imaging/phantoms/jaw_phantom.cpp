@@ -184,7 +184,7 @@ class Jaw {
     }
 
     /// Follows jaw and necks at 1.1 mm, up to its margin with the papillae between teeth, and is cut off
-    /// under the attached part. It overlaps what it lies on, so that there is no crack between.
+    /// under the attached part. It overlaps the parts under it, so that there is no crack between.
     static double gum_mm(const glm::dvec3& p, const Section& at, double outside, double tooth) {
         constexpr double overlap_mm = 0.3, lower_edge_mm = 10.0, far_mm = 1.5;
         const double above_cervix = p.z - at.cervix_z_mm;

@@ -25,7 +25,7 @@ struct BoneView {
     glm::dvec3 direction{0, 0, -1.0};  ///< unit, from the viewer
     glm::dvec3 up{0, -1.0, 0};         ///< unit, square to the direction
     double half_width_mm = 10.0;
-    bool is_section = false;  ///< what lies before the centre is cut away
+    bool is_section = false;  ///< all before the centre is cut away
     /// Colours beside the bone, sRGB from 0 to 255: at the picture's upper edge, and at its lower one.
     std::array<glm::dvec3, 2> background{glm::dvec3(255.0), glm::dvec3(255.0)};
 };
