@@ -81,7 +81,7 @@ py::object info(const SharedRecording& recording) {
     {
         const ReleasedLock released;
         const std::unique_lock<std::mutex> held(recording->busy());
-        // Names may be what a hostile file holds.
+        // Names may come from a hostile file.
         text = to_json(recording->summary())
                    .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     }

@@ -110,7 +110,7 @@ class PartWriter:
                 raise ValueError(f"{self.file}: holds cases of another {_difference(kept.header, header)}: "
                                  "give another folder or remove it")
             self.done = kept.outcomes
-        self._lines.truncate(len(whole.encode()))  # what a kill tore off
+        self._lines.truncate(len(whole.encode()))  # the torn end after a kill
         if not whole:
             self._write(header)
 

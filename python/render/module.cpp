@@ -42,7 +42,7 @@ py::dict arrays_of(CameraImages&& images, const DatasetImages& wanted) {
 }
 
 py::object from_json(const Json& json) {
-    // Names may be what a hostile file holds.
+    // Names may come from a hostile file.
     return py::module_::import("json").attr("loads")(
         json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }

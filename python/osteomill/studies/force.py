@@ -1,8 +1,8 @@
 """The milling force: the voxel model against the analytical reference.
 
 Without options the whole study: random motions, curves over depth, feed and spindle speed, convergence with the size
-of voxels, the older contact models, what a step costs and what a bone weighs, edges and speeds. Or random motions alone, or those of a
-file.
+of voxels, the older contact models, the cost of a step and the memory of a bone, edges and speeds. Or random motions alone, or
+those of a file.
 """
 
 import argparse

@@ -1,5 +1,5 @@
-"""Steady motions drawn at random, and the accuracy of the voxel model over them: the check of what the documents
-promise, on motions that nothing was tuned to.
+"""Steady motions drawn at random, and the accuracy of the voxel model over them: the check of the documents' promise, on
+motions to which nothing was tuned.
 
 A motion is of a burr of 1 to 5 mm, 4 to 12 edges, either sense of rotation, 5 000 to 80 000 rpm, its spindle leaning
 by up to 70 degrees, at 0.2 to 60 mm/s, one voxel to the equator deep, over a surface that lies anyhow. One in three

@@ -196,8 +196,8 @@ def table_of(setups: list[dict[str, Any]], found: list[dict[str, Any]]) -> pd.Da
 
 def windows_of(t_s: Array, depths_mm: Array, force_n: Array, window_s: float) -> pd.DataFrame:
     """The record in windows; the last, if shorter, is left out: their mean depth, and the rms of the force about its
-    own slow part. Samples are taken to be evenly spaced. Within half of SLOW_PART_S from either end the slow part is
-    the mean of what there is."""
+    own slow part. Samples are taken to be evenly spaced. Within half of SLOW_PART_S from either end the slow part is the mean of
+    the existing values."""
     length, width = samples_in(t_s, window_s), samples_in(t_s, SLOW_PART_S)
     count = len(t_s) // length
     fast = force_n - moving_mean(force_n, width)

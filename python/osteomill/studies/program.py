@@ -1,4 +1,4 @@
-"""The program osteomill_study: parses, runs a study, says in one line what is wrong."""
+"""The program osteomill_study: parses, runs a study, reports an error in one line."""
 
 import argparse
 import importlib
@@ -22,7 +22,7 @@ from osteomill.studies.text import line_of, one_line, printable
 PROGRAM = "osteomill_study"
 REPEAT = "repeat"
 
-# Name, module of osteomill.studies, what it is.
+# Name, module of osteomill.studies, description.
 STUDIES = (
     ("force", "force", "the milling force: voxel model against analytical reference"),
     ("tradeoff", "tradeoff", "speed against accuracy, on one page, for every choice that costs time"),

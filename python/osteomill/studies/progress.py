@@ -22,7 +22,7 @@ def time_left(left_s: float) -> str:
 
 
 class ProgressLine:
-    """Says the percentage of what is done and, after two seconds, the time left: by the pace since the first report."""
+    """Prints the percentage done and, after two seconds, the time left: by the pace since the first report."""
 
     def __init__(self, out: TextIO, title: str, now_s: Callable[[], float] = time.monotonic) -> None:
         self._out = out

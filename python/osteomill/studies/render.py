@@ -6,7 +6,7 @@ itself, from the default: distance of the samples, shading, empty space that is 
 the place of rays. A wall cut by a sphere is drawn and held against the analytic picture of the sphere. Bones: the tooth of the
 default scene, and, if OSTEOMILL_SCANS names the folder of trial scans, 40 mm of a skull.
 
---full-rate measures what a graphics card draws in a second instead: render_full_rate.py.
+--full-rate measures instead the frames that a graphics card draws in a second: render_full_rate.py.
 """
 
 import argparse
