@@ -1,5 +1,5 @@
-// A session at an instant, as image sets see it: what it is, its bone, its tool. One is recorded, another
-// live.
+// A session at an instant, as image sets see it: its description, its bone, its tool. One is recorded,
+// another live.
 #pragma once
 
 #include <optional>

@@ -51,7 +51,7 @@ vec3 density_gradient_at(vec3 point) {
     return gradient / (8.0 * corner_reach);
 }
 
-// Light within bone, where nothing faces it: what a surface aslant to the key light gets.
+// Light within bone, which has no facing surface: that on a surface aslant to the key light.
 const vec3 light_within = vec3(0.50, 0.49, 0.48);
 
 vec3 translucent_colour(vec3 point, vec3 colour) {

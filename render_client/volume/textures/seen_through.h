@@ -44,7 +44,7 @@ class SeenThrough {
     SeenThrough(const SeenLattice& lattice, double spacing_mm, const SeenTissues& tissues,
                 gl::Texture3D texture);
 
-    /// Computes all of it, once. Pass what changes meanwhile to update afterwards.
+    /// Computes all of it, once. Pass changes made meanwhile to update afterwards.
     Steps fill(const Bone& bone);
 
     /// Computes again the places that a change of the bone's labelled voxels can affect. Returns boxes of

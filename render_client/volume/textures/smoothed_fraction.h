@@ -54,7 +54,7 @@ class SmoothedTexture {
     SmoothedTexture(const TransferTable& table, gl::Texture3D texture)
         : smoother_(table), texture_(std::move(texture)) {}
 
-    /// Smooths all of the bone. Pass what changes meanwhile to update afterwards.
+    /// Smooths all of the bone. Pass changes made meanwhile to update afterwards.
     Steps fill(const Bone& bone, const AtlasLayout& places);
 
     /// Smooths again all that a change of these voxels affects. `places` are those of the constructor.

@@ -19,7 +19,7 @@ class SurfaceTexture {
     SurfaceTexture(const TransferTable& table, gl::Texture3D texture)
         : shader_(table), texture_(std::move(texture)) {}
 
-    /// Shades all of the bone. Pass what changes meanwhile to update afterwards.
+    /// Shades all of the bone. Pass changes made meanwhile to update afterwards.
     Steps fill(const Bone& bone, const AtlasLayout& places);
 
     /// Shades again the changed voxels and those near them. `places` are those of the constructor.

@@ -1,4 +1,4 @@
-// Plan of the 3D textures of a bone, within what the driver and the user allow.
+// Plan of the 3D textures of a bone, within the limits of the driver and the user.
 #pragma once
 
 #include <cstddef>

@@ -26,8 +26,8 @@ struct VoxelCodes {
     bool are_mostly_alike() const { return are_of_both() || channel == BoneChannel::tissue; }
 };
 
-/// Copies the codes within `box` (which may reach past the grid) into `voxels`, x fastest; zero where no
-/// brick is stored, and for a bone without codes. The bone must have the channels that the codes are of.
+/// Copies the codes within `box` (which may reach past the grid) into `voxels`, x fastest; zero if no brick
+/// is stored, and for a bone without codes. The bone must have the channels that the codes are of.
 void copy_codes(const Bone& bone, const VoxelCodes& codes, const VoxelBox& box,
                 std::span<std::uint8_t> voxels);
 
