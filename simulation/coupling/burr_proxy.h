@@ -10,17 +10,17 @@
 //         F(d) = - sum of k A_i n_i max(0, n_i . (p + d - p_map) - gap_i)
 //
 // C_i, n_i, gap_i and A_i as in engagement.h, with gaps counted from p in the first; cut_i is how far the
-// patch may advance in what the proxy has cut since the map was sampled, so no bone is felt twice. Gaps of
-// freshly carved bone scatter by about a tenth of a voxel, more than a burr advances in a tick: a patch whose
-// gap is near a fifth of a voxel may touch or not, and counts as touching by the weight w_i, which falls from
-// 1 to 0 between a tenth and three tenths. A threshold would let it come and go with the lattice. Piecewise
-// linear: Newton on the set of patches in contact (contact_solve.h). With a spring alone and in one
+// patch may advance in bone that the proxy has cut since the map was sampled, so no bone is felt twice. Gaps
+// of freshly carved bone scatter by about a tenth of a voxel, more than a burr advances in a tick: a patch
+// whose gap is near a fifth of a voxel may touch or not, and counts as touching by the weight w_i, which
+// falls from 1 to 0 between a tenth and three tenths. A threshold would let it come and go with the lattice.
+// Piecewise linear: Newton on the set of patches in contact (contact_solve.h). With a spring alone and in one
 // dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for any B.
 //
 // Edges that rub give a patch a force that does not go with its advance: it is there as soon as the patch
 // touches, and holds the burr until the pull overcomes it, as dry friction does. It is made elastic: each
 // patch gives way by edge_yields_mm before it cuts, and the burr that carves trails the proxy by up to
-// carving_trails_mm, so that what is pressed in is still there when the next map comes.
+// carving_trails_mm, so that the pressed-in depth is still there when the next map comes.
 //
 // The shank meets bone as a wall, with the spindle on and off, and so does the head at bone that no burr
 // cuts:

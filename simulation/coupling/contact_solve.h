@@ -57,7 +57,7 @@ struct ContactStep {
 /// is driven. Real-time safe.
 glm::dmat3 driving_part(const glm::dmat3& resistance_n_per_mm) noexcept;
 
-/// A residual below this is a balance: a hundredth of what a hand can tell.
+/// A residual below this is a balance: a hundredth of the force that a hand can tell.
 inline constexpr double balance_tolerance_n = 1e-3;
 
 /// Newton's method on the set of contacts that touch, from `first_mm`, halving a step that does not reduce

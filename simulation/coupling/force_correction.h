@@ -1,9 +1,9 @@
-// Correction of a predicted cutting force by what the carve then really removed. The engagement map's patches
-// are coarse for a shallow cut, and it sees a rim of bone as in contact a little early or late: the force
-// comes out a few per cent too long or too short and a degree off its direction, and a soft hand swings on
-// that. The milling model's force, which comes from the removed voxels themselves, does not have the error.
-// The gain G that makes the two agree is followed slowly. It knows no direction but the spindle a: a stretch
-// and a turn across it, a stretch along it,
+// Correction of a predicted cutting force by the bone that the carve then really removed. The engagement
+// map's patches are coarse for a shallow cut, and it sees a rim of bone as in contact a little early or late:
+// the force comes out a few per cent too long or too short and a degree off its direction, and a soft hand
+// swings on that. The milling model's force, which comes from the removed voxels themselves, does not have
+// the error. The gain G that makes the two agree is followed slowly. It knows no direction but the spindle a:
+// a stretch and a turn across it, a stretch along it,
 //
 //     G = re (1 - a a^T) + im [a]x + along a a^T
 //     re    = <m . p>_across / <p . p>_across      p the predicted force without G, m the model's,

@@ -10,7 +10,7 @@
 // would miss its deadline whenever a carve does not (a long sweep, a large burr, pages of bone first
 // touched), and a milling rate of 100 Hz would be out of the question. On the map a late or heavy carve costs
 // no haptic deadline, and the mean force differs from the model's by 0.1 to 0.6 %, since force_correction.h
-// feeds back what the carve really removed.
+// feeds back the bone that the carve really removed.
 #pragma once
 
 #include "simulation/coupling/burr_proxy.h"

@@ -50,8 +50,8 @@ struct CuttingStep {
     CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const glm::dvec3& middle_voxels,
                 double spacing_mm, double elapsed_s, const BurrProfile* head_profile = nullptr);
 
-    /// A step of the edges meanwhile: its bone is what the burr would cut on `path_voxels` (not zero) from
-    /// `from_voxels`.
+    /// A step of the edges meanwhile: its bone is the bone that the burr would cut on `path_voxels` (not
+    /// zero) from `from_voxels`.
     CuttingStep of_edges(const Burr& burr, const glm::dvec3& from_voxels,
                          const glm::dvec3& path_voxels) const;
 

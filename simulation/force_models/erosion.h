@@ -43,9 +43,9 @@ class Erosion {
     /// For balls of up to `largest_radius_voxels`. Allocates two bytes for each voxel of a cube around it.
     explicit Erosion(double largest_radius_voxels);
 
-    /// Erodes what `ball` (voxel coordinates) covers by `dose` = e dt, the share of a voxel of stiffness 1
-    /// that is fully covered. Pushes the change of each brick. Real-time safe.
-    /// Tissue of `uncut` stays.
+    /// Erodes the voxels that `ball` (voxel coordinates) covers by `dose` = e dt, the share of a voxel of
+    /// stiffness 1 that is fully covered. Pushes the change of each brick. Real-time safe. Tissue of `uncut`
+    /// stays.
     void erode(Bone& bone, const Ball& ball, double dose, ChangeSink& changes, ErosionSink& removed,
                const UncutTissues& uncut = {}) noexcept;
 

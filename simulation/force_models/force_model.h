@@ -23,7 +23,7 @@ class ForceModel {
     virtual void step(const BurrCommand& command, double time_s, ChangeSink& changes,
                       MillingResult& result) noexcept = 0;
 
-    /// Between steps: undoes what milling did to these voxels, or redoes it (restore_bone.h). Real-time safe.
+    /// Between steps: undoes milling of these voxels, or redoes it (restore_bone.h). Real-time safe.
     virtual void restore(const BrickChange& change, BrickFractions fractions,
                          ChangeSink& changes) noexcept = 0;
 

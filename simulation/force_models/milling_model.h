@@ -1,5 +1,5 @@
-// Milling model, the default force model: it owns the bone, carves it along the path of the burr and sums the
-// cutting force of what went, and samples the engagement. One thread at a time.
+// Milling model, the default force model: it owns the bone, carves it along the path of the burr, sums the
+// cutting force of the removed bone, and samples the engagement. One thread at a time.
 #pragma once
 
 #include <memory>
@@ -34,7 +34,7 @@ class MillingModel final : public ForceModel {
     MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
                  const MillingSettings& settings = {});
 
-    /// Moves the burr, carves what it passes through (only while the spindle is on), reports the changes and
+    /// Moves the burr, carves the bone on its path (only while the spindle is on), reports the changes and
     /// overwrites `result`. The first step, and the first with another burr, starts at the command's pose
     /// without a sweep. A command that is not finite, of no duration or of an unknown burr leaves bone and
     /// burr alone and makes the result invalid. Real-time safe.

@@ -17,7 +17,7 @@ enum class ForceSummation {
 
 /// How a step finds the bone that it removes.
 enum class VoxelSearch {
-    crescent,  ///< only what two positions of the burr do not share (carve.h)
+    crescent,  ///< only voxels that two positions of the burr do not share (carve.h)
     full_scan  ///< every voxel of the burr, as published (full_scan.h)
 };
 
