@@ -23,7 +23,7 @@ SceneAppearance look_with(std::string_view cue, bool is_on);
 struct CueCost {
     double without_ms = 0.0;     ///< of a frame, median
     double with_ms = 0.0;        ///< likewise
-    double part_of_frame = 0.0;  ///< what it takes of a frame without it: the median of pairs that follow
+    double part_of_frame = 0.0;  ///< its share of a frame without it: the median of pairs that follow
                                  ///< one another
     double part_of_cpu = 0.0;  ///< the same of all threads' time, which others on the machine do not lengthen
     double changed_pixels = 0.0;  ///< share of the picture
