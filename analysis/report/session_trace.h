@@ -53,7 +53,7 @@ struct TraceSample {
     std::vector<TissueLevels> levels{};          ///< only of tissues that changed; ascending labels
     std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
     std::optional<double> spindle_to_surface_deg{};  ///< where it cuts: 90 is square to it, 0 along it
-    std::optional<bool> burr_in_view{};  ///< where it cuts; nothing: the viewpoint is not known
+    std::optional<bool> burr_in_view{};              ///< where it cuts; nothing: the viewpoint is not known
 
     std::int64_t milled() const;
     std::int64_t restored() const;
