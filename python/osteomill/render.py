@@ -141,15 +141,17 @@ def render(
     """Draw frames of a recording, or the one of a session at present or of a case before anything is milled, without a display.
 
     case_or_recording: a Recording or its file, a Session, or a Case.
-    cameras: a file of cameras, or its contents, a mapping for each ("name", "eye_mm", "intrinsics", ...); "trainee": from the
-    trainee's viewpoint; None: one of 640 x 480 at the first view. fps: frames a recorded second, the first state at or behind
-    each; None: every recorded state. from_s: recorded time of the earliest frame. images: of "colour", "depth", "ray-depth",
-    "labels", "normals". randomise: the seed of domain randomisation; None: as in the window.
+    cameras: a file of cameras, or its contents, a mapping for each ("name", "eye_mm", "intrinsics", ...);
+        "trainee": from the trainee's viewpoint; None: one of 640 x 480 at the first view.
+    fps: frames a recorded second, the first state at or behind each; None: every recorded state.
+    from_s: recorded time of the earliest frame.
+    images: of "colour", "depth", "ray-depth", "labels", "normals".
+    randomise: the seed of domain randomisation; None: as in the window.
 
     Images are to the bit those of render_client --dataset: "colour" uint8 (height, width, 3), "depth" and "ray_depth" float32
-    (height, width) in mm, "labels" uint8 (height, width), "normals" float16 (height, width, 3). Raises BadInput for bad cameras
-    and images, and Fault for a recording that cannot be read, without OpenGL 3.3, and in a process that was forked from one that
-    has drawn.
+    (height, width) in mm, "labels" uint8 (height, width), "normals" float16 (height, width, 3).
+    Raises BadInput for bad cameras and images, and Fault for a recording that cannot be read, without OpenGL 3.3, and in a process
+    that was forked from one that has drawn.
     """
     drawing = _drawing()
     named, text = ("", "") if cameras is None else _cameras(cameras)

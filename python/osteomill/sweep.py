@@ -27,11 +27,12 @@ def sweep(
 ) -> list[Any]:
     """Return ``[function(case) for case in cases]``, worked out by several processes.
 
-    function: of one case; defined at the top of a module or script, so that other processes find it. cases: values of JSON
-    (numbers, texts, lists, dicts), each only once. jobs: number of processes; None: as many as this process may use
-    processors. shard, out: run part ``"I/N"`` only, keep its outcomes in ``OUT/sweep-I-of-N.jsonl`` and end the program
-    (``SystemExit``). A part that was killed goes on there when it is run again. merge: the folder of all parts; nothing is
-    run, their outcomes are returned.
+    function: of one case; defined at the top of a module or script, so that other processes find it.
+    cases: values of JSON (numbers, texts, lists, dicts), each only once.
+    jobs: number of processes; None: as many as this process may use processors.
+    shard, out: run part ``"I/N"`` only, keep its outcomes in ``OUT/sweep-I-of-N.jsonl`` and end the
+        program (``SystemExit``). A part that was killed goes on there when it is run again.
+    merge: the folder of all parts; nothing is run, their outcomes are returned.
 
     Left out, shard, out and merge are those of the environment (OSTEOMILL_SHARD, OSTEOMILL_OUT,
     OSTEOMILL_MERGE), so that a script runs under Slurm without change: scripts/array.sbatch.
