@@ -19,7 +19,7 @@ namespace osteomill::gl {
 class StorageThread {
   public:
     explicit StorageThread(std::unique_ptr<SecondContext> context);
-    /// Runs after all earlier requests.
+    /// Ends the thread after all that was requested is done.
     ~StorageThread();
     StorageThread(const StorageThread&) = delete;
     StorageThread& operator=(const StorageThread&) = delete;

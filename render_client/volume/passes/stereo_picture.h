@@ -32,7 +32,8 @@ class StereoPicture {
     void draw(const BoneTextures* bone, const DrawnTool* tool, const Camera& middle);
     std::span<const gl::Framebuffer* const> pictures() const { return pictures_; }
     void cover(std::span<const PixelBox> boxes);
-    /// Combines them into one picture, which is bound afterwards; with quad buffering, into the left eye's.
+    /// Combines them into one picture, which is bound afterwards. With quad buffering the left eye's picture
+    /// is bound.
     const gl::Framebuffer& compose();
     /// Copies the last picture that compose() made.
     void copy_to_window() const;
