@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs, builds and runs the tests: optimised, then under AddressSanitizer and UBSan; those of code with threads under
 # ThreadSanitizer, too. With AddressSanitizer, a minute of hostile input under libFuzzer.
-#   ./test.sh             what continuous integration runs: all of these, without the tests of the label `nightly`
+#   ./test.sh             as continuous integration: all of these, without the tests of the label `nightly`
 #   ./test.sh all         those, too, more programs under the sanitizers and longer fuzzing; the benchmarks are built, and demo, tests and
 #                         packages are tried in a bare root of the other Debian, where one can be made
 #   ./test.sh release     one (or several) of: release debug asan tsan; `all` before them as above

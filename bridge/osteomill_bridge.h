@@ -82,7 +82,7 @@ typedef struct omb_arm {
     double position_step_mm;         /* resolution of a reading; 0: negligible */
     double workspace_min_mm[3];
     double workspace_max_mm[3];
-    double tool_from_handle_mm[3];   /* the burr's centre seen from what omb_pose places, in the handle's frame */
+    double tool_from_handle_mm[3];   /* the burr's centre from omb_pose's point, in the handle's frame */
     double max_slew_n_per_s;         /* kept here, not sent; 0: 1000 */
 } omb_arm;
 
@@ -108,7 +108,7 @@ typedef struct omb_pose {
 
 typedef struct omb_force {
     double force_n[3];
-    double torque_n_mm[3]; /* on the hand, about what omb_pose places; zero where the arm gives none */
+    double torque_n_mm[3]; /* on the hand, about the point of omb_pose; zero if the arm gives none */
     uint32_t is_off;       /* the "hold" flag: the server renders nothing now (paused, or a fault); force is zero */
     uint64_t echo_sequence; /* of the pose that this answers */
     uint64_t echo_clock_ns;
@@ -395,7 +395,7 @@ static inline void omb_get_force(const uint8_t message[OMB_MESSAGE_BYTES], omb_f
 #define OMB_RELEASE_S 0.012 /* what is still given then, after this process itself stood still, goes in so long */
 #define OMB_RETURN_S 0.1 /* a force that was off comes back over so long */
 
-/* Without libm. 0 for what is no positive number. */
+/* Without libm. 0 for anything but a positive number. */
 static inline double omb_sqrt(double x) {
     double root = x > 1.0 ? x : 1.0;
     int i;
@@ -480,7 +480,7 @@ typedef struct omb_link {
     uint64_t newest_sequence;    /* of that message */
     uint64_t newest_clock_ns;
     uint64_t arrived_ns;
-    double trust;                /* 0 to 1: what of the server's force the arm was given last */
+    double trust;                /* 0 to 1: the share of the server's force given last */
     double given_n[3];           /* to the arm, last */
     double given_n_mm[3];
     uint64_t given_ns;
@@ -714,7 +714,7 @@ static inline void omb_hear(omb_link* link, const uint8_t* message, size_t bytes
 
 /* For tests with a clock of their own; else omb_exchange(). */
 static inline omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, omb_force* force, uint64_t now_ns) {
-    uint8_t message[OMB_MESSAGE_BYTES + 1]; /* one more, so that what is too long is seen to be */
+    uint8_t message[OMB_MESSAGE_BYTES + 1]; /* one more, so that too long a message is noticed */
     double trust = 0.0, step_s, n_per_s, n_mm_per_s;
     uint64_t silent_ns, age_ns;
     int i, left;
@@ -729,7 +729,7 @@ static inline omb_state omb_exchange_at(omb_link* link, const omb_pose* pose, om
         link->session = 0;
         if (fresh != 0) link->nonce = fresh;
     }
-    /* Counted from the pose that it answers, so that what is under way for long is as bad as silence. */
+    /* Counted from the pose that it answers, so that a long way is as bad as silence. */
     age_ns = now_ns - link->newest.echo_clock_ns;
     if (link->session == 0) {
         omb_say_hello(link, now_ns);

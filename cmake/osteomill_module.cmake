@@ -27,8 +27,8 @@ function(osteomill_program name)
 endfunction()
 
 # osteomill_vector_loops(SOURCES...): sources of this folder whose inner loops the compiler shall turn into vectors. Square roots
-# without errno and comparisons without traps are what lets it; no fused multiply-add, so that every instruction set gives the same
-# bits. Vectors are passed only to what is inlined, so that how they would be passed (-Wpsabi) does not matter.
+# without errno and comparisons without traps make that possible; no fused multiply-add, so that every instruction set gives the
+# same bits. Vectors are passed only to what is inlined, so that how they would be passed (-Wpsabi) does not matter.
 function(osteomill_vector_loops)
     set_source_files_properties(${ARGN} PROPERTIES
         COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math;-ffp-contract=off;-Wno-psabi")

@@ -1,5 +1,5 @@
 #!/bin/sh
-# A manual page of what a program says with --help: debian/man_page.sh build/package/bin/PROGRAM >PROGRAM.1
+# A manual page of a program's output for --help: debian/man_page.sh build/package/bin/PROGRAM >PROGRAM.1
 set -eu
 case ${1##*/} in
 haptic_server) what='bone, forces and the haptic arm of the Osteomill simulator' ;;

@@ -1,4 +1,4 @@
-// The haptic server: parse, run, say in one line what went wrong.
+// The haptic server: parses, runs, reports an error in one line.
 #include "common/program/run_program.h"
 #include "haptic_server/program/server.h"
 #include "haptic_server/program/server_options.h"

@@ -61,7 +61,7 @@ class HuLayer {
     std::uint8_t label(const glm::ivec3& voxel) const { return label_[index(voxel)]; }
 
     /// To be called for each row of bricks before its bricks are requested: the extremes over y and z, for
-    /// each x. Whole rows, since that is what a compiler makes fast.
+    /// each x. Whole rows, since compilers make these fast.
     void look_at_row(int brick_y, int brick_z) {
         const glm::ivec2 first =
             glm::max(glm::ivec2(brick_y, brick_z) * brick_edge_voxels - 1, glm::ivec2(0));
@@ -186,7 +186,7 @@ std::uint8_t label_from_inside(const HuLayer& field, const glm::ivec3& voxel, do
     return field.hu(inner) >= threshold_hu ? field.label(inner) : std::uint8_t{0};
 }
 
-/// A voxel on the surface is a mixture with what lies outside: its HU are those of the bone beside it.
+/// A voxel on the surface is a mixture with its surroundings: its HU are those of the bone beside it.
 void fill_voxel(const HuLayer& field, const CodeTable& codes, bool labelled, const glm::ivec3& voxel,
                 double covered, double threshold_hu, BrickChannels& out) {
     const std::size_t offset = offset_in_brick(voxel);

@@ -16,12 +16,12 @@ inline constexpr std::int16_t air_hu = -1000;
 /// in part: fraction = clamp(1/2 + (HU - threshold) / (|grad HU| h), 0, 1), the same cover as the burr's, so
 /// that the surface is smooth and its volume right to a fraction of a voxel; if the slices know the distance
 /// from their surface, fraction = clamp(1/2 - distance, 0, 1). Stiffness comes from the relation; a voxel on
-/// the surface, whose HU is a mixture with what lies outside, has the stiffness that the highest HU of its
-/// six neighbours give, and, if it has no label itself, the label of the bone beside it on the side where the
-/// HU rise most. No other voxel takes a label from a neighbour: unlabelled bone stays unlabelled. The bone is
+/// the surface, whose HU is a mixture with its surroundings, has the stiffness that the highest HU of its six
+/// neighbours give, and, if it has no label itself, the label of the bone beside it on the side where the HU
+/// rise most. No other voxel takes a label from a neighbour: unlabelled bone stays unlabelled. The bone is
 /// stored homogeneous (no stiffness channel) if every code is the same, and unlabelled if the slices are.
 /// Holds 18 slices at a time beside the bone. Throws std::invalid_argument for a bad grid, threshold or
-/// relation, and what reading the slices throws.
+/// relation, and any exception of reading the slices.
 Bone bone_from_hu(const HuSlices& slices, double threshold_hu, const StiffnessRelation& relation);
 
 }  // namespace osteomill

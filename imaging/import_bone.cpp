@@ -119,7 +119,7 @@ std::uint64_t floats_of_field(const ImportPlan& work) {
     return voxel_count(work.needed) / 32 + 1;
 }
 
-/// Values of the region, which of them were measured, and what is known of the shapes in its slices.
+/// Values of the region, which of them were measured, and the known shapes in its slices.
 std::uint64_t scratch_floats(const ImportPlan& work) {
     return voxel_count(work.needed) * (work.axis_of_shapes ? 1 + SliceShapes::floats_per_voxel : 1) +
            floats_of_field(work);
@@ -198,7 +198,7 @@ bool read_part(const ImportOptions& options, const OpenedImage& opened, const Im
             pause();
         }
     }
-    // Values that a window made shall not be taken for HU of a scan.
+    // Values that a window made must not count as HU of a scan.
     const bool is_windowed = std::holds_alternative<IntensityWindow>(options.to_hu);
     const std::string doubt = is_windowed ? std::string() : histogram.doubt();
     if (!doubt.empty())
@@ -227,7 +227,7 @@ class SliceRing {
     std::vector<std::int16_t> hu_;
 };
 
-/// What makes the slices of the result.
+/// Makes the slices of the result.
 struct SliceSource {
     const Refiner& refiner;
     const FieldOfView* field;
@@ -282,9 +282,9 @@ void say_specks(const ImportOptions& options, const SpeckSearch& search, const G
                                 specks_in_words(specks, grid), specks.count == 1 ? "it" : "them");
 }
 
-/// Refines, clears what is far from bone if there is a threshold and soft tissue is not kept, writes: a few
-/// slices at a time, on all cores. `search`, where there is one, sees every slice.
-/// Returns how many voxels are bone; 0 without a threshold.
+/// Refines, clears voxels far from bone if there is a threshold and soft tissue is not kept, writes: a few
+/// slices at a time, on all cores. `search`, where there is one, sees every slice. Returns how many voxels
+/// are bone; 0 without a threshold.
 std::uint64_t write_refined(const ImportOptions& options, const SliceSource& source, const Specks& left_out,
                             SpeckSearch* search, const std::function<void()>& pause, BoneFileWriter& writer,
                             const ReportProgress& report) {
@@ -315,7 +315,7 @@ std::uint64_t write_refined(const ImportOptions& options, const SliceSource& sou
         });
         pause();
         refined += now;
-        // The last ones wait for what comes above them.
+        // The last ones wait for the slices above them.
         const int ready = (refined == slices ? slices : refined - reach) - written;
         if (clears) in_parallel(ready, [&](int i) { near->clear_far(written + i, ring.slice(written + i)); });
         for (const int end = written + std::max(ready, 0); written < end; ++written) {

@@ -48,9 +48,9 @@ struct ImportSurroundings {
 };
 
 /// Reads the scan, cuts the region, refines it, writes the bone file. Throws ImagingError in one line: for
-/// what image_reader.h refuses, a region outside the image, more memory than there is, a
-/// threshold that no voxel reaches, an output that cannot be written. Then, and where it is made to end,
-/// nothing is written.
+/// anything that image_reader.h refuses, a region outside the image, more memory than there is, a threshold
+/// that no voxel reaches, an output that cannot be written. Then, and where it is made to end, nothing is
+/// written.
 void import_bone(const ImportOptions& options, const ImportSurroundings& surroundings);
 
 /// The same of an image that is open already; `options.input` is for messages.

@@ -1,4 +1,4 @@
-// render_client: shows what is left of the bone that haptic_server mills.
+// render_client: shows the bone that haptic_server mills.
 #include <fmt/format.h>
 
 #include <cstdio>

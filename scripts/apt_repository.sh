@@ -2,7 +2,7 @@
 # Puts the project's packages into a signed apt repository, a folder that any web server can serve: each under the suite that it is for.
 #   scripts/apt_repository.sh REPOSITORY KEY [PACKAGES...]      PACKAGES as of scripts/package.sh: all of out/packages/*
 # KEY: fingerprint or address of a secret key in GnuPG's keyring; one is made by: gpg --quick-generate-key "Osteomill <me@my.lab>"
-# Earlier versions of a suite are replaced. Says in the end what a machine needs that is to install from it.
+# Earlier versions of a suite are replaced. Prints in the end the setup of a machine that installs from it.
 set -euo pipefail
 [ $# -ge 2 ] || { sed -n '2,/^set/{/^#/p}' "$0" >&2; exit 2; }
 repository=$(realpath -m "$1")

@@ -1,6 +1,6 @@
-# Sourced by what tries the project's packages, as root: a bare Debian by debootstrap in a temporary folder, `root`, that is gone in the
-# end, and a signed repository of the packages in it. Like try_debian.sh, it makes bare roots once and keeps them in OSTEOMILL_ROOTS
-# (/var/tmp/osteomill-roots), of OSTEOMILL_MIRROR (http://deb.debian.org/debian).
+# Sourced by scripts that try the project's packages, as root: a bare Debian by debootstrap in a temporary folder, `root`, that is gone
+# in the end, and a signed repository of the packages in it. Like try_debian.sh, it makes bare roots once and keeps them in
+# OSTEOMILL_ROOTS (/var/tmp/osteomill-roots), of OSTEOMILL_MIRROR (http://deb.debian.org/debian).
 
 named=(osteomill-server osteomill-client osteomill-tools osteomill-study python3-osteomill osteomill-bridge-dev osteomill-doc)
 

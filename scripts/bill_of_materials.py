@@ -48,7 +48,7 @@ def packages_of(libraries):
 
 
 def licences_of(package):
-    """The short names of all licences in the package's copyright file (DEP-5), sorted; none where it is prose."""
+    """The short names of all licences in the package's copyright file (DEP-5), sorted; none if it is prose."""
     name = package.split(":")[0]
     folder = pathlib.Path("/usr/share/doc") / name
     for file in (folder / "copyright", folder / "copyright.gz"):

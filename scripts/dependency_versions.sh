@@ -17,7 +17,7 @@ for suite; do
           -o Dir::State::status=/dev/null -o Dir::Cache="$apt/$suite/cache" -o Debug::NoLocking=1 -o APT::Sandbox::User=)
     apt-get "${here[@]}" update -qq
     while read -r package full; do
-        # Without epoch, Debian's revision, and what Debian left out of the sources: 1:2.2.4+ds-1 is 2.2.4.
+        # Without epoch, Debian's revision, and its mark of omitted sources: 1:2.2.4+ds-1 is 2.2.4.
         version[$suite $package]=$(sed -E 's/^[0-9]+://; s/-[^-]*$//; s/[+~](dfsg|ds|deb|b[0-9]).*//' <<<"$full")
     done < <(apt-cache "${here[@]}" show --no-all-versions "${packages[@]}" | awk '/^Package:/ { name = $2 } /^Version:/ { print name, $2 }')
 done

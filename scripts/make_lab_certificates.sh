@@ -7,7 +7,7 @@
 #   make_lab_certificates.sh FOLDER revoke [NAME]             when a key is lost or someone leaves: makes FOLDER/crl.pem
 #
 # ca.pem goes to every machine. NAME.pem and NAME.key go to the machine they are for, over a channel that is trusted already (scp),
-# and nowhere else. ca.key signs new certificates: whoever has it is the lab, so it belongs on no server and on no client.
+# and nowhere else. ca.key signs new certificates: its owner is the lab, so it belongs on no server and on no client.
 #
 # Keys are ECDSA P-256, readable by their owner alone. The CA holds for ten years, a certificate for 825 days, unless --days N
 # before FOLDER says otherwise; after that it is refused, and a new one is to be made. No key and no certificate is ever

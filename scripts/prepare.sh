@@ -1,12 +1,12 @@
-# Sourced by demo.sh and test.sh: installs what is missing, then configures and builds a preset. Works offline once the packages
-# are there.
+# Sourced by demo.sh and test.sh: installs missing packages, then configures and builds a preset. Works offline once the packages are
+# there.
 
 # While ninja builds: how far it is, and since when.
 export NINJA_STATUS="[%p after %e s] "
 
 say() { printf '\n== %s\n' "$*"; }
 
-# install_packages LIST...: installs what the lists name and is not there yet; asks for root only then.
+# install_packages LIST...: installs the listed packages that are missing; asks for root only then.
 install_packages() {
     local wanted missing=() package
     mapfile -t wanted < <(grep -hv '^#' "$@")

@@ -1,7 +1,7 @@
-// OpenIGTLink messages (protocol 2, header version 1: Debian's libopenigtlink) as 3D Slicer takes them.
+// OpenIGTLink messages (protocol 2, header version 1: Debian's libopenigtlink) as 3D Slicer reads them.
 //
-// Osteomill's patient LPS becomes RAS here and nowhere else, x and y negated: OpenIGTLinkIF does not look at
-// the header's own flag of the space. Names are at most 20 bytes; a longer one is cut.
+// Only here Osteomill's patient LPS becomes RAS, x and y negated: OpenIGTLinkIF ignores the header's own flag
+// of the space. Names are at most 20 bytes; a longer one is cut.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,7 @@ void stamp(IgtlMessage& message, std::chrono::system_clock::time_point sent);
 inline glm::dvec3 lps_to_ras(const glm::dvec3& v) {
     return {-v.x, -v.y, v.z};
 }
-/// The same: it is its own inverse.
+/// RAS to LPS: the negation is its own inverse.
 inline glm::dvec3 ras_to_lps(const glm::dvec3& v) {
     return lps_to_ras(v);
 }
@@ -44,7 +44,7 @@ IgtlMessage image_message(const std::string& name, const Grid& grid, const Reduc
 /// Text of at most 65 535 bytes; a longer one is cut.
 IgtlMessage string_message(const std::string& name, const std::string& text);
 
-/// Whether all is well, and words.
+/// Whether all is well, and a text.
 IgtlMessage status_message(const std::string& name, bool is_well, const std::string& text);
 
 }  // namespace osteomill

@@ -10,7 +10,7 @@ void ImageSchedule::restart(const ReducedBox& whole) {
 void ImageSchedule::changed(const ReducedBox& box, double now_s) {
     last_change_s_ = now_s;
     has_changed_since_whole_ = true;
-    // Those that were not sent yet are one.
+    // Changes that were not sent yet become one part.
     if (!changes_.empty() && !changes_.back().first_sent_s)
         changes_.back().box = around(changes_.back().box, box);
     else
@@ -20,7 +20,7 @@ void ImageSchedule::changed(const ReducedBox& box, double now_s) {
 ReducedBox ImageSchedule::send_whole(double now_s) {
     whole_sent_s_ = last_sent_s_ = now_s;
     has_changed_since_whole_ = false;
-    // A part that follows may take the place of the whole before that is imported.
+    // A part that follows may replace the whole before the whole is imported.
     for (Change& change : changes_)
         if (!change.first_sent_s) change.first_sent_s = now_s;
     return *whole_;
@@ -40,7 +40,7 @@ std::optional<ReducedBox> ImageSchedule::next(double now_s) {
         changes_.pop_front();
     const bool has_news = !changes_.empty() && !changes_.back().first_sent_s;
     if (!has_news || now_s - last_sent_s_ < between_parts_s) return std::nullopt;
-    // A part that took the place of the first whole would leave the receiver's image without the rest.
+    // A part that replaced the first whole would leave the receiver's image incomplete.
     if (now_s - begun_s_ < covered_s) return send_whole(now_s);
     last_sent_s_ = now_s;
     ReducedBox box = changes_.front().box;

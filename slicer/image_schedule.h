@@ -1,8 +1,8 @@
-// Choice of which part of an image to send when, to a receiver that drops messages without a word.
+// Schedule of an image's parts, for a receiver that drops messages silently.
 //
 // OpenIGTLinkIF of 3D Slicer keeps only the newest message of a type and name between two imports, and
-// imports when its window has time. So a part covers all that has changed since 5 s, is sent 5 times a second
-// at most, and the whole is sent in the first 5 s, at rest, and every 10 s while something changes: a
+// imports when its window has time. So a part covers all changes of the last 5 s, and is sent 5 times a
+// second at most. The whole is sent in the first 5 s, at rest, and every 10 s while something changes. A
 // receiver that imports every 3 s ends with the same image as one that imports each message.
 #pragma once
 
@@ -20,11 +20,11 @@ class ImageSchedule {
     static constexpr double rests_after_s = 1.0;    ///< without a change
     static constexpr double between_wholes_s = 10.0;
 
-    /// Somebody else receives, or the image is another one: what was sent is forgotten.
+    /// Somebody else receives, or the image is another one: the record of sent parts is cleared.
     void restart(const ReducedBox& whole);
     void changed(const ReducedBox& box, double now_s);
 
-    /// What to send now; nothing where nothing is due. It counts as sent. Times ascend.
+    /// The part to send now; nothing if none is due. It counts as sent. Times ascend.
     std::optional<ReducedBox> next(double now_s);
 
   private:

@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Until a signal asks for the end.
+/// Runs until a signal asks for the end.
 void run(const osteomill::SlicerOptions& options, const osteomill::ProgramOutput& output) {
     constexpr std::chrono::milliseconds frame{33};
     const std::atomic<bool>& is_stopped = osteomill::stop_on_signals();

@@ -33,7 +33,7 @@ void for_each_voxel(const ReducedBox& box, const Visit& visit) {
             for (int x = box.first.x; x < box.end.x; ++x) visit(glm::ivec3(x, y, z));
 }
 
-/// Of `factor`^3 voxels; those beyond the grid are empty.
+/// Mean of `factor`^3 voxels; those beyond the grid are empty.
 std::uint8_t mean_fraction(const Bone& bone, const glm::ivec3& first, int factor) {
     int sum = 0;
     for_each_voxel({first, first + factor}, [&](const glm::ivec3& voxel) { sum += bone.fraction_at(voxel); });

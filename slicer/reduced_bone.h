@@ -1,7 +1,7 @@
-// A copy of the bone in 256^3 voxels at most, as programs take it that upload a whole volume at each change.
+// A copy of the bone in 256^3 voxels at most, for programs that upload a whole volume at each change.
 //
-// A voxel of it is the mean of n^3 voxels of the bone, n the same along each axis and as small as can be; the
-// bone itself where n is 1.
+// A voxel of it is the mean of n^3 voxels of the bone, n the same along each axis and as small as can be;
+// with n = 1 it is the bone itself.
 #pragma once
 
 #include <cstdint>
@@ -33,16 +33,16 @@ class ReducedBone {
 
     explicit ReducedBone(const Bone& bone);
 
-    /// Of the reduced voxels.
+    /// Grid of the reduced voxels.
     const Grid& grid() const { return grid_; }
     int voxels_a_voxel() const { return factor_; }
     ReducedBox whole() const { return {glm::ivec3(0), grid_.size_voxels}; }
-    /// What is left, 0 to 255; x runs fastest, then y, then z.
+    /// Fractions left, 0 to 255; x runs fastest, then y, then z.
     std::span<const std::uint8_t> values() const { return values_; }
     /// Those of a box within the grid, in the same order.
     std::vector<std::uint8_t> values(const ReducedBox& box) const;
 
-    /// Takes over what has changed of the same bone, and returns where; nothing where `changes` is empty.
+    /// Takes over changes of the same bone, and returns their box; nothing if `changes` is empty.
     std::optional<ReducedBox> update(const Bone& bone, std::span<const BrickChange> changes);
 
   private:

@@ -1,9 +1,9 @@
-// The port that 3D Slicer connects to: a TCP server on loopback for one receiver. OpenIGTLink has no
-// authentication and no encryption, so that no other machine can reach it.
+// The port that 3D Slicer connects to: a TCP server on loopback for one receiver. OpenIGTLink has neither
+// authentication nor encryption, so no other machine can reach the port.
 //
-// Who is there keeps the place: a newer connection is closed at once, or any process of this machine could
-// put 3D Slicer out. A receiver that takes nothing for 10 s is dropped. The log says who comes and goes, a
-// line every two seconds at most (limited_log.h).
+// The connected receiver keeps its place: a newer connection is closed at once, or else any process of this
+// machine could displace 3D Slicer. A receiver that reads nothing for 10 s is dropped. The log has a line for
+// each connection and its end, one every two seconds at most (limited_log.h).
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -29,7 +29,7 @@ class SlicerPort {
         std::function<void(const std::string& name, const std::string& text)> said;  ///< a STRING message
     };
 
-    /// Listens on 127.0.0.1; 0: a free port. Throws std::runtime_error in one line where it cannot.
+    /// Listens on 127.0.0.1; 0: a free port. Throws std::runtime_error in one line if it cannot.
     SlicerPort(std::uint16_t port, Sinks sinks);
     ~SlicerPort();
     SlicerPort(const SlicerPort&) = delete;
@@ -40,9 +40,10 @@ class SlicerPort {
     /// Takes connections, reads and writes, for at most `time`; calls the sinks.
     void run_for(std::chrono::milliseconds time);
 
-    /// Whether somebody receives and all that was sent is on its way: what is sent now is not late.
+    /// Whether somebody receives and nothing sent before is still waiting, so that a message sent now is not
+    /// late.
     bool takes_more() const;
-    /// Dropped where nobody receives.
+    /// Drops the message if nobody receives.
     void send(IgtlMessage message);
 
   private:

@@ -123,7 +123,7 @@ void SlicerSession::take_in(double now_s) {
 }
 
 void SlicerSession::send_what_is_due(double now_s) {
-    // While the receiver is held up nothing queues: what is sent later is then as of later.
+    // While the receiver is held up nothing queues: a later message has later values.
     if (!port_.takes_more() || !bone_) return;
     if (const auto box = schedule_.next(now_s))
         port_.send(image_message("Bone", bone_->grid(), *box, bone_->values(*box)));

@@ -5,7 +5,7 @@
 // "Patient" (the identity: all is in the patient's space); STRING "Session", a JSON object; STATUS
 // "BurrStatus", the fault that keeps the force off. Transforms, text and status 10 times a second, also at
 // rest. In: STRING "Mark" (a note), "Pause" ("1" or "0"), "Place" ("x y z" or "x y z ax ay az" in RAS, mm).
-// What the server does not take from this client is said in the log.
+// The log says what the server refuses from this client.
 #pragma once
 
 #include <chrono>
@@ -27,8 +27,8 @@ namespace osteomill {
 std::string session_text(const SessionInfo& session, const ToolState& tool, const SessionStatus& status,
                          const std::vector<StructureDistance>& distances);
 
-/// What a STRING asks for; a place without an axis keeps `axis` (patient LPS). std::invalid_argument says in
-/// one line what would be right.
+/// The control that a STRING asks for; a place without an axis keeps `axis` (patient LPS). Throws
+/// std::invalid_argument with one line that says what would be right.
 SessionControl control_of(const std::string& name, const std::string& text, const glm::dvec3& axis);
 
 class SlicerSession {
@@ -39,7 +39,7 @@ class SlicerSession {
     SlicerSession(BoneLink& link, std::uint16_t port);
 
     std::uint16_t port() const { return port_.port(); }
-    /// Takes in what the server sent, then sends and receives for `time`.
+    /// Reads the server's messages, then sends and receives for `time`.
     void run_for(std::chrono::milliseconds time);
 
   private:

@@ -1,4 +1,4 @@
-// A bone in an HDF5 file, as arrays indexed [i, j, k]. Chunks are bricks; those without bone take no room.
+// A bone in an HDF5 file, as arrays indexed [i, j, k]. Chunks are bricks; those without bone take no space.
 #pragma once
 
 #include <string>

@@ -25,7 +25,7 @@ constexpr const char* readme =
     "is not among them. Force in N, on the hand, and torque in N m, of bone on the shank about the burr's "
     "centre, both in the world's axes. There are no images.";
 
-/// The colour that their programs take for bone.
+/// The colour of bone in their programs.
 constexpr std::array<std::uint8_t, 3> bone_rgb{255, 249, 219};
 
 using Pose = std::array<double, 7>;

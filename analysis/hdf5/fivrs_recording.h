@@ -1,5 +1,5 @@
 // The layout of FIVRS's recordings (Munawar et al., volumetric_drilling), old and v3, for the analysis
-// programs that were written for them. docs/hdf5.md says what differs from theirs.
+// programs that were written for them. docs/hdf5.md lists the differences from theirs.
 #pragma once
 
 #include <cstddef>

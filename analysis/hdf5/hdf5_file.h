@@ -70,7 +70,7 @@ class Hdf5File {
 
     const std::filesystem::path& path() const { return file_.path(); }
     hid_t id() const { return file_id_.get(); }
-    /// Passes what the library says, unless that is a failure.
+    /// Passes the library's result on, unless that is a failure.
     template <typename Result>
     Result check(Result result) const {
         if (result < 0) fail();
@@ -109,7 +109,7 @@ class Hdf5Series {
     /// A row, or several in a row.
     void add(std::span<const Number> numbers);
     std::uint64_t rows() const { return rows_ + waiting_.size() / row_numbers_; }
-    /// Writes what still waits.
+    /// Writes the rows that still wait.
     void close();
 
   private:

@@ -60,13 +60,13 @@ class CsvLog final : public SampleLog<Sample> {
   public:
     static constexpr std::size_t capacity = Sample::capacity;
 
-    /// Throws what CsvFile throws.
+    /// Throws as CsvFile does.
     explicit CsvLog(const std::filesystem::path& file, const std::string& header_line = Sample::header_line())
         : file_(file, header_line) {}
 
     /// See SampleQueue.
     void push(const Sample& sample) noexcept override { queue_.push(sample); }
-    /// Any one other thread: hands on what is queued, unless the disk still has the last to write; then the
+    /// Any one other thread: passes the queue on, unless the disk is still writing the last part; then the
     /// queue has to last.
     void drain() override {
         if (file_.is_idle()) hand_on();
@@ -76,7 +76,7 @@ class CsvLog final : public SampleLog<Sample> {
         file_.wait_until_idle();
         hand_on();
     }
-    /// Writes what is left and closes the file.
+    /// Writes the rest and closes the file.
     void close() {
         hand_on();
         file_.close();

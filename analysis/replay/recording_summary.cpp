@@ -10,7 +10,7 @@ namespace osteomill {
 
 namespace {
 
-/// In whole levels of fraction, so nothing is lost to rounding. Index: tissue label; 0 holds what has none.
+/// In whole levels of fraction, so nothing is lost to rounding. Index: tissue label; 0 for bone without one.
 using Levels = std::array<std::int64_t, 256>;
 
 Levels levels_of(const Bone& bone) {

@@ -34,7 +34,7 @@ RecordingSummary summarise(const std::filesystem::path& file,
                            const std::function<void(const Playhead&)>& on_state);
 
 /// Keys: duration_s, frames, protocol, bone_checksum (16 hex digits), removed_mm3 {total, and one per tissue
-/// name}, and what else is known.
+/// name}, and other known values.
 nlohmann::ordered_json to_json(const RecordingSummary& summary);
 
 /// The same for people, in lines.

@@ -1,9 +1,9 @@
-// Whether the burr is in view: its centre lies in the picture, and no bone hides it.
+// Test whether the burr is in view: its centre lies in the picture, and no bone hides it.
 //
-// The straight way from the eye to the burr's centre is free of bone, whose surface is where half a voxel is
-// left (bone_ray.h). A tissue that is drawn with less than half of its colour (opacity) hides nothing, and
-// neither does the handpiece, which is not recorded. The picture's height is the viewpoint's field of view;
-// its width is not recorded and is taken for 16 / 9 of the height.
+// No bone hides it if the straight line from the eye to the burr's centre meets no bone surface, which is
+// where half a voxel is left (bone_ray.h). A tissue drawn with less than half of its colour (opacity) hides
+// nothing. Neither does the handpiece, which is not recorded. The picture's height is the viewpoint's field
+// of view; its width is not recorded and is assumed to be 16 / 9 of the height.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double leaves_within_voxels = 2.0;
 
-/// The cavity with what is asked of it, in a box beyond which it exposes nothing.
+/// The cavity and the questions asked of it, in a box beyond which it exposes nothing.
 class Opening {
   public:
     explicit Opening(const SessionTrace& trace)
@@ -31,7 +31,8 @@ class Opening {
         low_ -= reach_mm, high_ += reach_mm;
     }
 
-    /// Of bone over a voxel of a structure's surface; nothing: none that matters, or none on this side.
+    /// Thickness of the bone over a voxel of a structure's surface; nothing: none that matters, or none on
+    /// this side.
     std::optional<double> thickness_mm(const StructureMask& structure, const glm::ivec3& voxel) const {
         if (cavity_.contains(voxel)) return 0.0;
         const glm::dvec3 place_mm = centre_of_voxel_mm(grid_, voxel);
@@ -59,7 +60,7 @@ class Opening {
     glm::dvec3 high_{0.0};
 };
 
-/// In faces of a voxel; 0: it is not of the surface. There is none where the grid ends.
+/// In faces of a voxel; 0: the voxel is not of the surface. The surface has no face where the grid ends.
 double area(const StructureMask& structure, const glm::ivec3& voxel) {
     const auto goes_on = [&](const glm::ivec3& beside) {
         return structure.contains(beside) || !contains(structure.grid(), beside);

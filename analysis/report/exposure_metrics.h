@@ -1,13 +1,15 @@
-// How much of each protected structure's surface lies bare, or under thin bone, where bone was removed.
+// Exposure of each protected structure: the shares of its surface that lie bare, or under thin bone, after
+// bone was removed.
 //
-// The surface are the structure's voxels that share a face with a voxel that is not of it. What is over such
-// a voxel is the straight distance from it to the nearest voxel of the cavity (cavity.h), from face to face:
-// the distance of their centres less one voxel. It counts where this way leads out of the structure within
-// two voxels, not through it: on its far side nothing was exposed. Air that was there before counts neither
-// as bone nor as an opening. A voxel of the surface that is cavity itself is bare.
+// The surface consists of the structure's voxels that share a face with a voxel outside of it. The bone over
+// such a voxel is as thick as the straight distance from it to the nearest voxel of the cavity (cavity.h),
+// from face to face: the distance of their centres less one voxel. It counts only if this line leaves the
+// structure within two voxels; a line through the structure leads to its far side, where nothing was exposed.
+// Air that was there before counts neither as bone nor as an opening. A voxel of the surface that is cavity
+// itself is bare.
 //
-// Shares are of area. A voxel's is that of its faces as a slanted surface has it: the square root of the
-// number of axes along which it has one, in faces; 8 % too large at worst, where the surface leans by 27
+// Shares are of area. A voxel's area, in faces, is the square root of the number of axes along which it has a
+// free face, as a slanted surface has it; it is 8 % too large at worst, on a surface that leans by 27
 // degrees.
 #pragma once
 
@@ -27,7 +29,7 @@ struct ExposureMetrics {
     std::array<double, thin_mm.size()> thin_share{};  ///< over which there is less than thin_mm
 };
 
-/// Of each structure that is somewhere, as the scene lists them, at the end of the session.
+/// The exposure of each structure that is somewhere, in the scene's order, at the end of the session.
 std::vector<ExposureMetrics> exposure_metrics(const SessionTrace& trace);
 
 }  // namespace osteomill

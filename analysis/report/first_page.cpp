@@ -39,7 +39,7 @@ std::string heading(const SessionTrace& trace) {
     return html;
 }
 
-/// What was done to protected structures, whether or not there are marks: nobody may overlook it.
+/// The harm to protected structures, shown whether or not there are marks: nobody may overlook it.
 std::string harm(const std::vector<StructureMetrics>& structures) {
     std::string html;
     for (const StructureMetrics& one : structures) {
@@ -102,7 +102,7 @@ std::string gauge(double value, const std::optional<ValueBand>& band, const Judg
     return svg + fmt::format("<circle cx='{:.1f}' cy='7' r='4' fill='#222'/></svg>", x(value));
 }
 
-/// Without a mark, too, a touch is no neutral number.
+/// Even without a mark, a touch is no neutral number.
 bool is_harm(std::string_view key, double value) {
     return key == "structure_touches" && value > 0.0;
 }

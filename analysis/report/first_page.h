@@ -1,5 +1,5 @@
 // The first page of a report, which stands alone on paper: whose session, the verdict, six numbers, two
-// pictures, room for comment and signature.
+// pictures, space for comment and signature.
 #pragma once
 
 #include <string>

@@ -11,12 +11,12 @@
 
 namespace osteomill {
 
-/// A line a metric: metric,of,value,unit. No value where there is nothing to measure.
+/// A line a metric: metric,of,value,unit. The value is empty if there is nothing to measure.
 std::string metrics_csv(const std::vector<MetricRow>& rows);
 
 /// Keys: session {trainee, case, scene, began, version, protocol, bone_checksum, settings}, metrics {key:
-/// value, or, where there is one for each tissue, burr or structure, KEY_of: {name: value}}, rating
-/// (rating_json; only where there is one), events, is_complete (the recording has the session's end), error
+/// value, or, if there is one for each tissue, burr or structure, KEY_of: {name: value}}, rating
+/// (rating_json; only if there is one), events, is_complete (the recording has the session's end), error
 /// (null: it could be read as far as it goes). Bytes that are no UTF-8 are replaced.
 std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>& rows,
                          const RatingResult& rating = {});
@@ -25,7 +25,7 @@ std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>
 /// decided), when, source, values {what is asked for: value}, why_not (null: the condition can be read)}].
 nlohmann::ordered_json rating_json(const RatingResult& rating);
 
-/// "2026-11-23 21:40 UTC"; empty where the recording does not say.
+/// "2026-11-23 21:40 UTC"; empty if the recording holds no time.
 std::string began_text(std::int64_t unix_ns);
 
 }  // namespace osteomill

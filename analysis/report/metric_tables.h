@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// Those of the session in two columns; below them those of which there is one for each tissue, burr or
+/// Metrics of the session in two columns; below them the metrics that exist for each tissue, burr or
 /// structure, a line each.
 std::string metric_tables(const std::vector<MetricRow>& rows, const SessionInfo& session);
 

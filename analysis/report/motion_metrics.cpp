@@ -19,8 +19,8 @@ MotionMetrics motion_metrics(const SessionTrace& trace) {
     double angle_s = 0.0;
     double in_view_s = 0.0;
     double looked_s = 0.0;
-    // Of all placements: the hand did not make them. In between it is taken to go on as it went before, since
-    // to stop and start again would be a jerk.
+    // The sum of all placements, which the hand did not make. During one the hand is assumed to go on as
+    // before: a stop and a new start would count as a jerk.
     glm::dvec3 leaps_mm(0.0);
     glm::dvec3 hand_mm_per_s(0.0);
     hand.reserve(samples.size());

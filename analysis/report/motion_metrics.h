@@ -19,10 +19,10 @@ struct MotionMetrics {
     std::optional<double> smoothness{};       ///< log dimensionless jerk of the hand, the whole session
     double cutting_s = 0.0;                   ///< in which bone was taken
     double cutting_speed_mm_per_s = 0.0;      ///< of the burr, mean while it takes bone
-    double cutting_speed_p95_mm_per_s = 0.0;  ///< likewise, 95th percentile
+    double cutting_speed_p95_mm_per_s = 0.0;  ///< of the burr while it takes bone, 95th percentile
     double depth_mm = 0.0;                    ///< largest while the spindle turns
     double cutting_depth_mm = 0.0;            ///< mean while bone is taken
-    /// Of the time in which bone is taken, as far as it is known from where the trainee looked.
+    /// Share of the time in which bone is taken, as far as the trainee's viewpoint is known.
     std::optional<double> burr_in_view_share{};
     std::optional<double> cutting_angle_deg{};  ///< of the spindle to the surface, mean while bone is taken
 };

@@ -15,7 +15,7 @@ class NearestPlace {
     NearestPlace(NearestPlace&&) noexcept;
     NearestPlace& operator=(NearestPlace&&) noexcept;
 
-    /// Nothing where there is no place.
+    /// Nothing if there is no place.
     std::optional<glm::dvec3> nearest_mm(const glm::dvec3& from_mm) const;
     std::optional<double> distance_mm(const glm::dvec3& from_mm) const;
 

@@ -84,7 +84,7 @@ void add_frame(const SessionTrace& trace, std::size_t i, std::size_t tissue,
         sums.piece.reset();
         return;
     }
-    // The frame's way begins at the one before, which need not have cut.
+    // The frame's path begins at the frame before, which need not have cut.
     if (const auto was_at_mm = distance_mm(trace.samples[i - 1], tissue, near_mm.back());
         was_at_mm && !sums.piece)
         sums.piece = Piece{trace.samples[i - 1].burr_mm, *was_at_mm};

@@ -1,11 +1,11 @@
-// How a trainee cuts near each protected structure, against the same trainee elsewhere: force, feed, and
-// where the strokes lead.
+// Cutting near each protected structure, compared with the same trainee elsewhere: force, feed, and where the
+// strokes lead.
 //
-// Near is what the distance from the burr's head to the structure says (structure_watch.h), state by state;
-// elsewhere is further than 3 mm from every protected structure. A stroke's way through the 3 mm is taken in
-// pieces: consecutive frames that cut, until the burr is 0.5 mm from where the piece began; what is left over
-// is left out. A piece leads toward the structure where the distance falls by more than cos 45 degrees of the
-// piece's length, away where it rises by as much, else along.
+// The distance from the burr's head to the structure (structure_watch.h) decides what is near, state by
+// state; elsewhere is further than 3 mm from every protected structure. A stroke's path within the 3 mm is
+// divided into pieces: consecutive frames that cut, until the burr is 0.5 mm from where the piece began. A
+// shorter remainder is left out. A piece leads toward the structure if the distance falls by more than cos 45
+// degrees of the piece's length, away if it rises by as much, else along.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct NearStructure {
     double along_mm = 0.0;
     double away_mm = 0.0;
 
-    /// Of all pieces; nothing where there are none.
+    /// A share of all pieces; nothing if there are none.
     std::optional<double> toward_share() const;
 };
 

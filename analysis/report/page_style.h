@@ -23,7 +23,7 @@ struct ShownValue {
 };
 ShownValue shown_value(std::string_view key, double value, std::string_view unit = {});
 
-/// By the clock of this machine: "2026-11-23 22:40 CET"; empty where the recording does not say.
+/// By the clock of this machine: "2026-11-23 22:40 CET"; empty if the recording holds no time.
 std::string local_time_text(std::int64_t unix_ns);
 
 }  // namespace osteomill

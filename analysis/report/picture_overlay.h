@@ -9,7 +9,8 @@
 
 namespace osteomill {
 
-/// Of a direction in patient LPS, the largest part first: "R", "LA". A part below 0.35 has none.
+/// Letters of a direction in patient LPS, the largest component first: "R", "LA". A component below 0.35 has
+/// none.
 std::string direction_letters(const glm::dvec3& direction);
 
 struct SeenBurr {

@@ -29,7 +29,7 @@ struct Box {
     }
 };
 
-/// Of the voxels of stored bricks that `is_wanted(slot, offset)`.
+/// Box of the voxels of stored bricks that `is_wanted(slot, offset)`.
 Box box_of(const Bone& bone, auto&& is_wanted) {
     Box box;
     const BoneContent& content = bone.content();
@@ -92,7 +92,7 @@ NamedView section_from_below(const glm::dvec3& centre_mm, double half_width_mm) 
     return {"section, from below", {centre_mm, {0, 0, 1.0}, {0, -1.0, 0}, half_width_mm, true}};
 }
 
-/// Of the three, the one whose plane the direction leaves least.
+/// The anatomical section whose plane the direction leaves least.
 NamedView section_along(const glm::dvec3& direction, const glm::dvec3& centre_mm, double half_width_mm) {
     const glm::dvec3 size = glm::abs(direction);
     if (size.y <= size.x && size.y <= size.z) return section_from_front(centre_mm, half_width_mm);

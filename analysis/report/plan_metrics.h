@@ -1,11 +1,11 @@
 // Metrics of a plan: bone removed against bone planned.
 //
-// The planned region is the bone at the start of the plan's tissue, or with its voxel's centre in the plan's
-// sphere or cylinder; the cavity is the bone of which more than half a voxel went. Their
-// boundaries are the voxels that share a face with bone outside of them, so that what lies at air bounds
-// neither. Surface distances are from each boundary's voxels to the nearest of the other's, both ways pooled
-// (Heimann et al., IEEE Transactions on Medical Imaging 28 (2009); Taha and Hanbury, BMC Medical Imaging
-// 15:29 (2015)).
+// The planned region is the bone that at the start was of the plan's tissue, or had its voxel's centre in the
+// plan's sphere or cylinder; the cavity is the bone of which more than half a voxel went. The boundary of
+// each consists of its voxels that share a face with bone outside of it, so a voxel that borders only on air
+// bounds neither. Surface distances lead from each boundary's voxels to the nearest of the other's; both
+// directions are pooled (Heimann et al., IEEE Transactions on Medical Imaging 28 (2009); Taha and Hanbury,
+// BMC Medical Imaging 15:29 (2015)).
 #pragma once
 
 #include <optional>
@@ -28,10 +28,10 @@ struct PlanMetrics {
     double outside_mm3 = 0.0;    ///< removed outside the region
     double excess_mm3 = 0.0;     ///< of these, further from it than the margin
     double margin_mm = 0.0;
-    std::optional<SurfaceDistance> surface{};  ///< nothing where there is no cavity or no region
+    std::optional<SurfaceDistance> surface{};  ///< nothing if there is no cavity or no region
 };
 
-/// Nothing where the session has no plan.
+/// Nothing if the session has no plan.
 std::optional<PlanMetrics> plan_metrics(const SessionTrace& trace);
 
 /// "carious lesion", "sphere of 4 mm radius", ...

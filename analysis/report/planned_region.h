@@ -11,16 +11,16 @@ namespace osteomill {
 
 class PlannedRegion {
   public:
-    /// Of the bone as it was. `bone` and `session` outlive it; the session has a plan.
+    /// The region in the bone as it was. `bone` and `session` outlive it; the session has a plan.
     PlannedRegion(const Bone& bone, const SessionInfo& session);
 
     const VoxelSet& voxels() const { return voxels_; }
-    /// Of the region itself, whether or not it is bone there.
+    /// Whether the region holds a voxel, be it bone or not.
     bool holds(std::int32_t slot, std::size_t offset, const glm::ivec3& voxel) const;
-    /// Likewise of a place in patient LPS, of a tissue between its voxels.
+    /// Whether the region holds a place in patient LPS, in a tissue also between the centres of voxels.
     bool holds(const glm::dvec3& place_mm) const;
     /// From a place outside of it: to the sphere or cylinder, or to the centre of the tissue's nearest voxel.
-    /// Infinite where the bone has none of the tissue.
+    /// Infinite if the bone has none of the tissue.
     double distance_mm(const glm::dvec3& place_mm) const;
 
   private:

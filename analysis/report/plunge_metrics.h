@@ -1,4 +1,4 @@
-// How often the burr broke through bone, and how far it plunged (plunge_watch.h).
+// Number of times that the burr broke through bone, and how far it plunged (plunge_watch.h).
 #pragma once
 
 #include <cstddef>

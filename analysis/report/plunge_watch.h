@@ -1,10 +1,10 @@
-// Watch for breakthroughs: the burr's tip leaves bone through its far side, and plunges into what is behind.
+// Watch for breakthroughs: the burr's tip leaves bone through its far side, and plunges beyond.
 //
-// In each state with the spindle on, the bone ahead of the tip along the spindle is looked for, up to 3 mm
-// from it. Where it ends, with no bone for 1 mm behind, is a far wall (to half a voxel). The burr breaks
-// through where its tip passes the far wall's plane, square to the spindle, within a radius of that place and
-// at most 0.25 s after bone was ahead, while bone is cut. The plunge is the farthest that the tip is beyond
-// the plane in the 100 ms from then on. Who mills sideways breaks through nothing: the tip does not lead.
+// At each state with the spindle on, the watch looks for bone ahead of the tip, along the spindle, up to 3
+// mm. Bone with 1 mm free behind it ends in a far wall, found to half a voxel. The burr breaks through when
+// its tip passes the far wall's plane, square to the spindle, within a radius of that place and at most 0.25
+// s after bone was ahead, while bone is cut. The plunge is the farthest that the tip is beyond the plane in
+// the next 100 ms. Sideways milling breaks through nothing: the tip does not lead.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -24,7 +24,7 @@ struct Breakthrough {
 
 inline constexpr double plunge_window_s = 0.1;
 
-/// Where the tool was at a tick, or at a state where a recording has no ticks. Patient LPS.
+/// The tool's place at a tick, or at a state if a recording has no ticks. Patient LPS.
 struct ToolMoment {
     double time_s = 0.0;
     glm::dvec3 burr_mm{0.0};
@@ -38,10 +38,10 @@ class PlungeWatch {
     /// The next state. `bone`: as it is there. `moments`: since the state before, the last of them this
     /// one's. `cuts`: bone was milled in between.
     void update(const Bone& bone, std::span<const ToolMoment> moments, bool cuts);
-    /// The tool was put elsewhere, or the session stood still: what was ahead is no more.
+    /// The tool was put elsewhere, or the session stood still: the wall ahead is forgotten.
     void forget();
 
-    /// In the order of their time. That of the last 100 ms may be the plunge so far.
+    /// In the order of their time. A plunge of the last 100 ms may not be at its end.
     const std::vector<Breakthrough>& breakthroughs() const { return breakthroughs_; }
 
   private:

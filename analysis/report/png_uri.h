@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-/// Throws std::runtime_error where libpng cannot.
+/// Throws std::runtime_error if libpng fails.
 std::string png_data_uri(const RgbPicture& picture);
 
 }  // namespace osteomill

@@ -1,4 +1,5 @@
-// A rating as people read it on a report: the score with what was undone for it, and the table of its items.
+// A rating as people read it on a report: the score with the amount undone for it, and the table of its
+// items.
 #pragma once
 
 #include <string>
@@ -8,12 +9,12 @@
 
 namespace osteomill {
 
-/// "14 of 20 points", which items are missed, and how often and how much was undone. Empty where the session
-/// has no rating; says so where it has one and the recording is not complete.
+/// "14 of 20 points", which items are missed, and how often and how much was undone. Empty if the session has
+/// no rating; if it has one and the recording is not complete, it says so.
 std::string rating_summary(const SessionTrace& trace, const RatingResult& rating);
 
-/// A heading, and a line for each item: whether it is reached, its condition, what was measured, its source.
-/// Empty without items.
+/// A heading, and a line for each item: whether it is reached, its condition, the measured values, its
+/// source. Empty without items.
 std::string rating_table(const RatingResult& rating);
 
 }  // namespace osteomill

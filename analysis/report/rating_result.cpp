@@ -27,7 +27,7 @@ RegionVolumes volumes_of(const SessionTrace& trace, const PlanRegion& region) {
     return {trace.mm3(bone), trace.mm3(removed)};
 }
 
-/// What is known of the quantities that one item asks for.
+/// The known values of the quantities that one item asks for.
 class Answers {
   public:
     Answers(std::span<const MetricRow> rows, const std::optional<RegionVolumes>& region,

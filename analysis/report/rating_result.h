@@ -1,8 +1,8 @@
-// What a rating says of a session: which of its items are reached, and for how many points.
+// Result of a rating: which of its items a session reached, and for how many points.
 //
 // Conditions are decided over the session's metrics (common/scene/rating_condition.h). A structure that the
-// burr never came near is further than is looked at (watched_mm); what is not done at all is zero where
-// rating_quantities.h says so; what else was not measured is unknown. An item that stays unknown, or that
+// burr never came near is further away than watched_mm. Some quantities are zero if the thing was not done at
+// all (rating_quantities.h); any other that was not measured is unknown. An item that stays unknown, or that
 // this version cannot read, earns nothing and says so.
 #pragma once
 
@@ -24,7 +24,7 @@ struct RegionVolumes {
     double removed_mm3 = 0.0;
 };
 
-/// Of each item of the session's rating, in its order; nothing: it has no region.
+/// Volumes of each item of the session's rating, in its order; nothing: the item has no region.
 std::vector<std::optional<RegionVolumes>> rated_regions(const SessionTrace& trace);
 
 /// A quantity that a condition asks for, as people read it: "structure touches of Facial_Nerve".

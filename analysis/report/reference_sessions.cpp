@@ -30,7 +30,7 @@ std::map<std::string, std::string> settings_felt_in(const nlohmann::json& sessio
     return felt_settings(session.at("settings").get<std::map<std::string, std::string>>());
 }
 
-/// The trainee's group; nothing where this session is no reference for the other.
+/// The trainee's group; nothing if this session is no reference for the other.
 std::optional<std::string> add(const std::filesystem::path& file, const nlohmann::json& own,
                                const std::map<std::string, TraineeGroup>& groups,
                                std::map<std::string, double>& values) {
@@ -44,7 +44,7 @@ std::optional<std::string> add(const std::filesystem::path& file, const nlohmann
                              session.at("bone_checksum") == own.at("bone_checksum");
     if (!is_of_the_case || is_the_same || json.at("is_complete") != true) return std::nullopt;
     if (settings_felt_in(session) != settings_felt_in(own)) return std::nullopt;
-    // Reports of versions that did not say what bone it was are taken for the case's.
+    // Reports of versions that did not name the bone count as reports on the case's bone.
     if (session.value("bone_at_start", own.at("bone_at_start")) != own.at("bone_at_start"))
         return std::nullopt;
     for (const Headline& one : headlines)

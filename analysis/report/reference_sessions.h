@@ -1,9 +1,10 @@
-// Other sessions of the same case, begun alike (start_conditions.h), that a report's numbers are shown
-// against: those whose reports lie in folders beside its own.
+// Reference sessions: others of the same case, begun alike (start_conditions.h), against which a report shows
+// its numbers. Their reports lie in folders beside its own.
 //
-// Of experts, where at least four sessions are of trainees that groups.csv beside them puts into the group
-// "expert"; else of all, where there are at least four. Read from their metrics.json; incomplete ones are
-// left out, and so is the same session, reported elsewhere. What cannot be read is no reference.
+// They are the experts' sessions if at least four are of trainees whom groups.csv beside them puts into the
+// group "expert"; else all sessions, if there are at least four. Their numbers are read from metrics.json.
+// Incomplete sessions are left out, and so is the same session, reported elsewhere. A report that cannot be
+// read is no reference.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@ struct ValueBand {
     double high = 0.0;
 };
 
-/// Where the middle half of some values lies: from the first quartile to the third (percentile.h). Nothing
+/// The band of the middle half of some values: from the first quartile to the third (percentile.h). Nothing
 /// for fewer than fewest_references.
 std::optional<ValueBand> middle_half(std::span<const double> values);
 

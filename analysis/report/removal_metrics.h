@@ -1,4 +1,4 @@
-// Bone removed, of which tissue and by which burr; what was undone is not counted as removed.
+// Bone removed, of which tissue and by which burr; undone bone does not count as removed.
 #pragma once
 
 #include <cstddef>
@@ -20,13 +20,13 @@ struct RemovalMetrics {
     double removed_mm3 = 0.0;              ///< of the bone as it was, at the end
     double undone_mm3 = 0.0;               ///< milled and given back
     std::size_t undos = 0;                 ///< undo and reset that were carried out, whatever was redone
-    std::vector<NamedVolume> by_tissue{};  ///< every tissue of the scene; what has no label, if there is any
+    std::vector<NamedVolume> by_tissue{};  ///< every tissue of the scene; bone without a label, if any
     std::vector<NamedVolume> by_burr{};    ///< the burrs that took any
 };
 
 RemovalMetrics removal_metrics(const SessionTrace& trace, std::span<const Stroke> strokes);
 
-/// "bone" for 0 ("other bone" where a tissue has that name), "tissue 7" for what the scene has no name for.
+/// "bone" for 0 ("other bone" if a tissue has that name), "tissue 7" for a label without a name in the scene.
 std::string tissue_name(const SessionInfo& session, std::uint8_t label);
 
 }  // namespace osteomill

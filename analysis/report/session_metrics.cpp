@@ -81,7 +81,7 @@ void add_burrs(Rows& rows, const SessionMetrics& metrics) {
     }
 }
 
-/// Its peak is that of every haptic tick; those of frames would be others.
+/// Its peak is over all haptic ticks; a peak over frames would differ.
 void add_force(Rows& rows, const ForceMetrics& force) {
     rows.begin("Force on the hand");
     rows.add("peak_force_n", "peak", force.peak_n, "N");

@@ -29,8 +29,8 @@ struct SessionMetrics {
     NearnessMetrics near;
     std::vector<ExposureMetrics> exposures;
     std::optional<PlanMetrics> plan;
-    PassMarks pass;       ///< empty where the recording is incomplete: half a session reaches no mark
-    RatingResult rating;  ///< likewise
+    PassMarks pass;       ///< empty if the recording is incomplete: half a session reaches no mark
+    RatingResult rating;  ///< empty if the recording is incomplete
 };
 
 SessionMetrics session_metrics(const SessionTrace& trace);
@@ -47,7 +47,8 @@ struct MetricRow {
 
 std::vector<MetricRow> metric_rows(const SessionMetrics& metrics);
 
-/// Of the metric with this key, added up over tissues, burrs or structures; nothing where none has a value.
+/// Value of the metric with this key, added up over tissues, burrs or structures; nothing if none has a
+/// value.
 std::optional<double> sum_of(std::span<const MetricRow> rows, std::string_view key);
 
 }  // namespace osteomill

@@ -32,7 +32,7 @@ class Pictures {
         return {view.title, png_data_uri(picture_of(bone, trace_.session.tissues, view.view, size_px, marks)),
                 picture_overlay(view.view, burr)};
     }
-    /// At once: a session's end waits for them. The bone outlives it.
+    /// All at the same time: a session's end waits for them. The bone outlives it.
     std::future<ReportPicture> begin(const Bone& bone, const NamedView& view, int size_px,
                                      const std::optional<SeenBurr>& burr = {}) const {
         return std::async(std::launch::async, [=, this, &bone] { return of(bone, view, size_px, burr); });
@@ -43,12 +43,12 @@ class Pictures {
     const PlannedRegion* region_;
 };
 
-/// As read_trace, the last session only.
+/// Only the last session, as in read_trace.
 void add_marks(const std::filesystem::path& file, const Pictures& make, const NamedView& view,
                const ReportProgress& on_frame, SessionPictures& pictures) {
     Playhead playhead(file);
     std::size_t number = 0;
-    // Why a torn recording ends there, the trace says.
+    // The trace says why a torn recording ends there.
     (void)play_to_end(playhead, on_frame, [&](Playhead::Step step) {
         if (step == Playhead::Step::new_bone) pictures.marks.clear(), pictures.marks_left_out = 0, number = 0;
         if (step != Playhead::Step::state) return;
@@ -66,8 +66,8 @@ void add_marks(const std::filesystem::path& file, const Pictures& make, const Na
     });
 }
 
-/// Through the target, and through the nearest approach; through the work from two sides where the burr came
-/// near nothing.
+/// Through the target and the nearest approach; if the burr came near nothing, through the work from two
+/// sides.
 std::vector<std::future<ReportPicture>> begin_first(const SessionTrace& trace, const Pictures& make,
                                                     const PlannedRegion* region, const NamedView& otherwise) {
     std::vector<std::future<ReportPicture>> pictures;

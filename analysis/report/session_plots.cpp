@@ -12,7 +12,7 @@ namespace osteomill {
 
 namespace {
 
-/// Those worth a line of its own over every plot, by their number in the list of events, which has them all.
+/// Events worth a line of their own over every plot, by their number in the list, which has all events.
 std::vector<PlotMoment> moments_of(const SessionTrace& trace) {
     std::vector<PlotMoment> moments;
     for (std::size_t i = 0; i < trace.events.size(); ++i)
@@ -44,7 +44,8 @@ std::vector<PlotLine> removed_lines(const SessionTrace& trace) {
     return all;
 }
 
-/// Of those that were ever near. Where a structure is further than is looked at, the line stays there.
+/// Distances of the structures that were ever near. While one is further than the watched distance, its line
+/// stays there.
 std::vector<PlotLine> distance_lines(const SessionTrace& trace) {
     std::vector<PlotLine> lines;
     for (const StructureAccount& account : trace.structures) {

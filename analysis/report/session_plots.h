@@ -1,4 +1,4 @@
-// Force, depth, removed volume and speed of a session against time, with what was done to it.
+// Force, depth, removed volume and speed of a session against time, with its events.
 #pragma once
 
 #include <vector>

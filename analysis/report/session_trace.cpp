@@ -18,7 +18,7 @@ namespace osteomill {
 
 namespace {
 
-/// Sums what changed since `kept`, and makes that as it is `now`.
+/// Sums the changes since `kept`, and then makes `kept` equal to `now`.
 std::vector<TissueLevels> take_over(const std::vector<BrickChange>& changes, const Bone& now, Bone& kept,
                                     StructureWatch& structures) {
     std::array<TissueLevels, 256> sums{};
@@ -56,7 +56,7 @@ std::optional<double> spindle_to_surface_deg(const Bone& bone, const SessionTrac
     return glm::degrees(std::asin(std::clamp(glm::dot(*normal, tool.spindle_axis) / length, -1.0, 1.0)));
 }
 
-/// Of the frame that is to follow the trace's samples.
+/// Moments of the frame that is to follow the trace's samples.
 std::vector<TraceMoment> moments_of(const Playhead& playhead, const SessionTrace& trace) {
     const ToolState& tool = *playhead.tool();
     std::vector<TraceMoment> moments;
@@ -73,7 +73,7 @@ std::vector<TraceMoment> moments_of(const Playhead& playhead, const SessionTrace
     return moments;
 }
 
-/// Where the tool was in the frame, by its ticks if there are any.
+/// The tool's places in the frame, by its ticks if there are any.
 std::vector<ToolMoment> tool_moments_of(const Playhead& playhead) {
     const std::vector<Burr>& burrs = playhead.session().burrs;
     std::vector<ToolMoment> moments;
@@ -88,13 +88,13 @@ std::vector<ToolMoment> tool_moments_of(const Playhead& playhead) {
     return moments;
 }
 
-/// What is kept of the frames before.
+/// State kept from the frames before.
 struct Watches {
     StructureWatch structures;
     PlungeWatch plunges{};
 };
 
-/// The trace's bone at the end is that of the frame before until then.
+/// Until the end is reached, the trace's bone is that of the frame before.
 void add_sample(SessionTrace& trace, Playhead& playhead, Watches& watches) {
     StructureWatch& structures = watches.structures;
     const ToolState& tool = *playhead.tool();
@@ -132,13 +132,14 @@ void add_sample(SessionTrace& trace, Playhead& playhead, Watches& watches) {
     trace.events.insert(trace.events.end(), playhead.state().events.begin(), playhead.state().events.end());
 }
 
-/// Of a session on the virtual clock, whose frames do not say when they were.
+/// Start of a session on the virtual clock, whose frames do not hold the time of day.
 std::int64_t recorded_unix_ns(const std::filesystem::path& file) {
     const auto first = PacketReader(file).next();
     return first ? std::chrono::nanoseconds(first->stamp.time_since_epoch()).count() : 0;
 }
 
-/// Of all protected tissues: where the recording says nothing, they are where the bone bears their label.
+/// Watches all protected tissues. A tissue of which the recording holds no structure is where the bone bears
+/// its label.
 StructureWatch watch(SessionTrace& trace, std::vector<Structure> structures) {
     const SessionInfo& session = trace.session;
     for (std::size_t tissue = 0; tissue < session.tissues.size(); ++tissue) {
@@ -173,7 +174,7 @@ std::int64_t TraceSample::restored() const {
 SessionTrace read_trace(const std::filesystem::path& file, const ReportProgress& on_frame) {
     Playhead playhead(file);
     SessionTrace trace = begin(playhead);
-    std::optional<Watches> watches;  // from the first state on: what is where has been said by then
+    std::optional<Watches> watches;  // from the first state on: the structures are known by then
     trace.error = play_to_end(playhead, on_frame, [&](Playhead::Step step) {
         if (step == Playhead::Step::state) {
             if (!watches) watches = Watches{watch(trace, playhead.structures())};

@@ -1,8 +1,8 @@
-// Trace of a session, sample by sample, from its recording: tool, force, and what each frame took of which
-// tissue.
+// Trace of a session, sample by sample, from its recording: tool, force, and the bone of each tissue that
+// each frame removed.
 //
 // Sample i stands for the interval from sample i - 1 to itself, dt = t_i - t_(i-1); the first has none. Times
-// are session time. Where recordings were joined, it is the last session.
+// are session time. If recordings were joined, the trace is of the last session.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ namespace osteomill {
 struct TissueLevels {
     std::uint8_t tissue = 0;    ///< label; 0: none
     std::int64_t milled = 0;    ///< taken by the burr
-    std::int64_t restored = 0;  ///< given back by undo and reset, less what redo took again
+    std::int64_t restored = 0;  ///< given back by undo and reset, less the volume that redo took again
 };
 
-/// A tick within a frame, or, where the recording holds no ticks, the frame itself.
+/// A tick within a frame, or the frame itself if the recording holds no ticks.
 struct TraceMoment {
     double time_s = 0.0;
     double dt_s = 0.0;     ///< since the one before
@@ -53,7 +53,7 @@ struct TraceSample {
     std::vector<TissueLevels> levels{};          ///< only of tissues that changed; ascending labels
     std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
     std::optional<double> spindle_to_surface_deg{};  ///< where it cuts: 90 is square to it, 0 along it
-    std::optional<bool> burr_in_view{};  ///< where it cuts; nothing: nobody said from where one looked
+    std::optional<bool> burr_in_view{};              ///< where it cuts; nothing: the viewpoint is not known
 
     std::int64_t milled() const;
     std::int64_t restored() const;
@@ -75,20 +75,20 @@ struct SessionTrace {
     bool ends = false;                     ///< with a goodbye, in the recording
     std::string error{};                   ///< why it is not read further; empty at the end
 
-    /// Of the frame as a whole.
+    /// Duration of the frame as a whole.
     double dt_s(std::size_t i) const {
         return i == 0 ? 0.0 : std::max(0.0, samples[i].time_s - samples[i - 1].time_s);
     }
-    /// The tool was put elsewhere in this interval, so that no hand has moved that far. A placement is told
-    /// of in the first frame after it, whose tool may be of the tick before.
+    /// The tool was put elsewhere in this interval, so no hand moved that far. The first frame after a
+    /// placement reports it; its tool may be that of the tick before.
     bool leaps(std::size_t i) const { return i > 0 && (samples[i].is_placed || samples[i - 1].is_placed); }
     double mm3(std::int64_t levels) const {
         return static_cast<double>(levels) / 255.0 * voxel_volume_mm3(at_start.grid());
     }
 };
 
-/// Reads a recording through; `on_frame` is called before each frame. Throws RecordingError where there is no
-/// bone in it; what is wrong later is said in `error`.
+/// Reads a recording through; `on_frame` is called before each frame. Throws RecordingError if it holds no
+/// bone; `error` says what is wrong later.
 SessionTrace read_trace(const std::filesystem::path& file, const ReportProgress& on_frame);
 
 }  // namespace osteomill

@@ -11,7 +11,7 @@ namespace {
 
 using Samples = std::vector<TimedPosition>;
 
-/// Closer than a haptic tick are only two frames of one tick.
+/// Only two frames of one tick are closer than a haptic tick.
 constexpr double least_interval_s = 0.9e-3;
 
 Samples in_order(std::span<const TimedPosition> motion) {

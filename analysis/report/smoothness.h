@@ -8,9 +8,9 @@
 // Balasubramanian, Melendez-Calderon and Burdet, IEEE Transactions on Biomedical Engineering 59 (2012), and
 // Balasubramanian et al., Journal of NeuroEngineering and Rehabilitation 12:112 (2015).
 //
-// The jerk between four samples in a row is six times their third divided difference, exact for any spacing
-// of a cubic; it holds from the second to the third of them, and at either end of the motion to the end. Peak
-// speed is that between two samples in a row.
+// The jerk between four samples in a row is six times their third divided difference, which is exact for a
+// cubic at any spacing. It holds from the second to the third of them; the first and the last of a motion
+// hold to its ends. Peak speed is that between two samples in a row.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -24,12 +24,13 @@ struct TimedPosition {
     glm::dvec3 position_mm{0.0};
 };
 
-/// Times ascend; one that does not is left out. Nothing of fewer than five samples, and where nothing moves
-/// or nothing changes the acceleration.
+/// Times ascend; a sample whose time does not is left out. Nothing for fewer than five samples, and if
+/// nothing moves or the acceleration never changes.
 std::optional<double> log_dimensionless_jerk(std::span<const TimedPosition> motion);
 
-/// The same as a person sees it: of how many equal reaches, each from rest to rest, a motion as jerky is
-/// made. N of them in a row have N^4 times the dimensionless jerk of one: N = (exp(-LDLJ) / 204.8)^(1/4).
+/// Smoothness as a person sees it: the number N of equal reaches in a row, each from rest to rest, that are
+/// as jerky as the motion. N reaches have N^4 times the dimensionless jerk of one: N = (exp(-LDLJ) /
+/// 204.8)^(1/4).
 double reaches_in_a_row(double log_dimensionless_jerk);
 
 /// "flowing" up to 1.5 of them a second, "smooth" up to 3, "uneven" up to 6, "jerky": hands correct a motion

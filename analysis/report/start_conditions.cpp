@@ -11,7 +11,8 @@ namespace osteomill {
 
 namespace {
 
-/// Of the session's settings (session_settings.h). The burr at the start is none: a trainee changes it.
+/// Settings of the session (session_settings.h) that are felt. The burr at the start is not one of them: a
+/// trainee changes it.
 constexpr std::array<std::string_view, 8> felt{"coupling", "device",          "force_model", "force_scale",
                                                "grip",     "milling_rate_hz", "rpm",         "vibration"};
 

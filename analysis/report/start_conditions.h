@@ -1,5 +1,5 @@
-// What a session began with, as far as a trainee feels it: only sessions that began alike are attempts at the
-// same task, and only they are shown against each other.
+// Start conditions of a session, as far as a trainee feels them: only sessions that began alike are attempts
+// at the same task, and only they are compared.
 #pragma once
 
 #include <map>
@@ -10,13 +10,13 @@
 namespace osteomill {
 
 struct StartConditions {
-    std::string bone;                             ///< digest of what was there, of which tissue and how hard
-    std::map<std::string, std::string> settings;  ///< those that are felt; what is off is left out
+    std::string bone;                             ///< digest of the bone, its tissues and its stiffness
+    std::map<std::string, std::string> settings;  ///< those that are felt; settings that are off are left out
 
     bool operator==(const StartConditions&) const = default;
 };
 
-/// Those of a session's settings that a trainee feels.
+/// The settings of a session that a trainee feels.
 std::map<std::string, std::string> felt_settings(const std::map<std::string, std::string>& settings);
 
 StartConditions start_conditions(const SessionTrace& trace);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double shortest_smooth_s = 0.5;
 
-/// What was undone, as the server's journal keeps it.
+/// Undone slices, as the server's journal keeps them.
 class UndoneSlices {
   public:
     explicit UndoneSlices(std::vector<Stroke>& strokes) : strokes_(strokes) {}
@@ -67,7 +67,7 @@ std::vector<Stroke> strokes_of(const SessionTrace& trace) {
     StrokeSpan span;
     UndoSlice slice;
     bool is_slice_open = false;
-    Stroke so_far;  // with what may turn out to be air behind the last touch
+    Stroke so_far;  // with time that may turn out to be air after the last touch
     std::vector<TimedPosition> hand;
     std::size_t touched_hand = 0;  // so many of these are the stroke's
     bool is_open = false;

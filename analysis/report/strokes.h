@@ -1,7 +1,7 @@
 // The strokes of a session, and which of them were undone.
 //
-// Undo takes a stroke (common/scene/stroke_span.h) back slice by slice (undo_slice.h). It is measured from
-// the first touch of the turning burr to the last: what follows in air is none of it.
+// Undo takes a stroke (common/scene/stroke_span.h) back slice by slice (undo_slice.h). A stroke is measured
+// from the first touch of the turning burr to the last; motion in air after that does not belong to it.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,14 @@ struct Stroke {
     double length_mm = 0.0;   ///< of the burr's path in that time
     double force_n_s = 0.0;   ///< integral of the force on the hand over it
     std::optional<double> smoothness{};
-    /// Of those that took bone.
+    /// A slice that took bone.
     struct Slice {
         std::map<std::size_t, std::int64_t> levels_by_burr{};
         bool is_undone = false;
     };
     std::vector<Slice> slices{};
 
-    /// Nothing is left of what it took.
+    /// All that it took was given back.
     bool is_undone() const { return !slices.empty() && std::ranges::all_of(slices, &Slice::is_undone); }
 };
 
@@ -41,7 +41,7 @@ struct StrokeMetrics {
     std::optional<double> median_smoothness{};     ///< of the hand in strokes of half a second and more
     std::optional<double> median_reaches_per_s{};  ///< of the same strokes (smoothness.h)
     /// Standard deviation over mean, of the strokes' lengths and mean forces: nearer to 0 is more consistent.
-    /// Nothing for fewer than three strokes, or where all are zero.
+    /// Nothing for fewer than three strokes, or if all are zero.
     std::optional<double> length_variation{};
     std::optional<double> force_variation{};
 };

@@ -1,5 +1,5 @@
-// Nearness of the burr to each protected structure, when it touched it, for how long, and how much of it
-// went.
+// Nearness of the burr to each protected structure: the least distance, when and how long the burr touched
+// it, and how much of it is gone.
 //
 // A structure is where the recording says it is, or else where the bone has its tissue's label. Distances
 // are from the burr's head, whatever its shape, to the structure, at the states of the recording
@@ -25,7 +25,7 @@ struct StructureMetrics {
     double entered_mm3 = 0.0;      ///< of it, bone or not, where the burr's head was
 };
 
-/// Of every protected tissue of the scene.
+/// Metrics of every protected tissue of the scene.
 std::vector<StructureMetrics> structure_metrics(const SessionTrace& trace);
 
 }  // namespace osteomill

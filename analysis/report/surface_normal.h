@@ -1,7 +1,8 @@
-// Normal of a bone's surface about a burr: away from where bone lies on a sphere round the burr.
+// Normal of a bone's surface at a burr: it points away from the bone on a sphere round the burr.
 //
-// Minus the mean direction to bone on the sphere, of 256 directions spread evenly (Fibonacci's lattice): a
-// plane's own normal, whatever crater the burr made under itself, and in a hole the direction out of it.
+// It is minus the mean of those of 256 evenly spread directions (Fibonacci's lattice) that meet bone on the
+// sphere. At a plane it is the plane's own normal, whatever crater the burr made under itself; in a hole it
+// leads out.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,7 +12,7 @@
 
 namespace osteomill {
 
-/// Unit, patient LPS. Nothing where no bone is on the sphere, or as much on every side.
+/// Unit, patient LPS. Nothing if the sphere meets no bone, or as much on every side.
 std::optional<glm::dvec3> normal_about(const Bone& bone, const glm::dvec3& centre_mm, double radius_mm);
 
 }  // namespace osteomill

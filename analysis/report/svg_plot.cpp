@@ -19,7 +19,7 @@ constexpr double left = 62.0;
 constexpr double right = 14.0;
 constexpr double top = 30.0;
 constexpr double bottom = 40.0;
-/// Told apart by the colour-blind, too (Okabe and Ito, 2008).
+/// Colours that the colour-blind can tell apart, too (Okabe and Ito, 2008).
 constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#333333"};
 
@@ -29,7 +29,7 @@ const char* colour_of(std::size_t line) {
     return colours[line % colours.size()];
 }
 
-/// Where the colours begin anew.
+/// Dashes tell lines apart once the colours begin anew.
 const char* dashes_of(std::size_t line) {
     constexpr std::array<const char*, 3> dashes{"", " stroke-dasharray='7 3'", " stroke-dasharray='2 3'"};
     return dashes[line / colours.size() % dashes.size()];
@@ -50,7 +50,7 @@ struct Range {
     }
 };
 
-/// 1, 2 or 5 times a power of ten, so that there are four to ten.
+/// 1, 2 or 5 times a power of ten, for four to ten steps.
 double tick_step(const Range& range) {
     const double rough = (range.high - range.low) / 5.0;
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -150,7 +150,7 @@ void add_moment(std::string& svg, const PlotMoment& moment, double x) {
         html_text(moment.text));
 }
 
-/// Of the name's dash and text; an estimate, since nobody measures text here.
+/// Width of the name's dash and text; an estimate, since no font is measured here.
 double legend_width(const PlotLine& line) {
     return 7.0 * static_cast<double>(line.name.size()) + 24.0;
 }
@@ -162,7 +162,7 @@ void add_legend_entry(std::string& svg, const SvgPlot& plot, std::size_t i, doub
         x, y - 4.0, colour_of(i), dashes_of(i), x + 18.0, y, html_text(plot.lines[i].name));
 }
 
-/// Beside the title where there is room, else in rows below the plot. Returns the height of these.
+/// Beside the title if it fits there, else in rows below the plot. Returns the height of these rows.
 double add_legend(std::string& svg, const SvgPlot& plot) {
     if (plot.lines.size() < 2) return 0.0;
     double all = 0.0;

@@ -26,8 +26,8 @@ struct SvgPlot {
     bool y_from_zero = true;
 };
 
-/// Values that are not finite are left out. However many points there are, no more are written than can be
-/// seen: for each column of pixels the least and the greatest.
+/// Values that are not finite are left out. Only points that can be seen are written: the least and the
+/// greatest of each column of pixels.
 std::string to_svg(const SvgPlot& plot);
 
 }  // namespace osteomill

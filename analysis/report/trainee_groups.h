@@ -20,8 +20,8 @@ struct TraineeGroup {
     bool operator==(const TraineeGroup&) const = default;
 };
 
-/// By the trainee's name. Throws std::runtime_error, with file and line, where it cannot be read, a line is
-/// not of two names, its heading has other columns, or a trainee is in two groups.
+/// By the trainee's name. Throws std::runtime_error, with file and line, if the file cannot be read, a line
+/// is not of two names, its heading has other columns, or a trainee is in two groups.
 std::map<std::string, TraineeGroup> trainee_groups(const std::filesystem::path& file);
 
 }  // namespace osteomill

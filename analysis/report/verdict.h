@@ -22,7 +22,7 @@ struct JudgedMark {
 /// In the order of pass_mark_kinds.
 std::vector<JudgedMark> judged_marks(const PassMarks& marks, std::span<const MetricRow> rows);
 
-/// Nothing where there are no marks.
+/// Nothing if there are no marks.
 std::optional<bool> has_passed(std::span<const JudgedMark> marks);
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-// Some of the voxels of a bone, and its boundary within what was bone.
+// A set of a bone's voxels, and its boundary within the original bone.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class VoxelSet {
     std::size_t count() const;
 
     /// Centres of its voxels that share a face with a voxel that is bone (half of it or more) and not of the
-    /// set. Where the set ends at air there is no boundary: nothing was cut there.
+    /// set. The set has no boundary at air: nothing was cut there.
     std::vector<glm::dvec3> boundary_mm() const;
     /// Centres of its voxels that share a face with any voxel that is not of the set.
     std::vector<glm::dvec3> surface_mm() const;

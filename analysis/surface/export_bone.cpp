@@ -27,7 +27,7 @@ BoneOfFile read(const std::filesystem::path& path, std::optional<double> thresho
     return bone_of_file(path, threshold_hu, default_stiffness_relation());
 }
 
-/// Such a bone is not what was left of the original, and a difference would say nothing.
+/// Such a bone is no remainder of the original, and a difference would be meaningless.
 void require_carved_from(const ExportOptions& options, const Bone& before, const Bone& after) {
     const Grid& from = before.grid();
     const Grid& to = after.grid();

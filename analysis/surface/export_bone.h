@@ -24,7 +24,7 @@ struct ExportOptions {
 ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const* argv,
                                                      const std::string& version);
 
-/// Writes the file and says in a line (`say`) what is in it. `progress` is called before each part of the
+/// Writes the file and gives a line about its contents to `say`. `progress` is called before each part of the
 /// work; if it throws, the work ends and nothing is written. Throws std::exception with one line for a file
 /// that holds no bone, bones of two grids, a bone that was not carved from the original, an output that
 /// cannot be written.

@@ -27,9 +27,9 @@ struct SurfaceMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of points, anticlockwise from outside
 };
 
-/// Empty if nothing is left. `voxels_a_cell` along each axis are taken for one, with the mean of their
-/// fractions: fewer triangles, 1 / n^2 of them, and walls thinner than half a cell are lost. Throws
-/// std::runtime_error for more points than 32 bits can number.
+/// Empty if nothing is left. `voxels_a_cell` along each axis become one, with the mean of their fractions:
+/// fewer triangles, 1 / n^2 of them, and walls thinner than half a cell are lost. Throws std::runtime_error
+/// for more points than 32 bits can number.
 SurfaceMesh surface_of(const Bone& bone, int voxels_a_cell = 1);
 
 /// Outward and of unit length, one for each point: the mean of the triangles around it, by area.

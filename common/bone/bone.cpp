@@ -114,7 +114,7 @@ std::uint64_t digest(const Bone& bone) {
                                         content.homogeneous_stiffness,
                                         content.stiffness_per_code};
     add(numbers.data(), sizeof(numbers), 0);
-    // Which empty bricks are stored is nobody's business, as in checksum().
+    // It does not depend on which empty bricks are stored, nor does checksum().
     for (const auto* channel : {&content.stiffness, &content.tissue}) {
         std::uint64_t sum = 0;
         for (std::size_t slot = 0; slot < channel->size(); ++slot) {

@@ -1,5 +1,5 @@
-// The bone: which bricks hold bone, what the CT gave (stiffness, tissue; shared, immutable) and what milling
-// has left of each voxel (fraction; owned). Nothing is stored for a brick without bone, no stiffness for a
+// The bone: which bricks hold bone, stiffness and tissue from the CT (shared, immutable), and the fraction of
+// each voxel that milling has left (owned). Nothing is stored for a brick without bone, no stiffness for a
 // homogeneous scene, no tissue for an unlabelled one. No I/O, no threads.
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace osteomill {
 
-/// What nothing changes after the bone has been built. Shared between copies of the bone (milling loop,
-/// streaming mirror), so it is stored once.
+/// The part of a bone that never changes once it is built. Copies of the bone (milling loop, streaming
+/// mirror) share it, so it is stored once.
 struct BoneContent {
     static constexpr std::int32_t no_slot = BrickTable::no_slot;
 
@@ -45,11 +45,11 @@ struct BoneContent {
     }
 };
 
-/// A bone that can be milled. Copies share content and own their fractions; those of a bone that is shared
-/// own only what changes in them.
+/// A bone that can be milled. Copies share content and own their fractions; copies of a shared bone own only
+/// the bricks that change in them.
 class Bone {
   public:
-    /// Takes over content and initial fractions (one brick a slot). Throws std::invalid_argument where their
+    /// Takes over content and initial fractions (one brick a slot). Throws std::invalid_argument if their
     /// sizes do not agree.
     Bone(std::shared_ptr<const BoneContent> content, std::vector<ByteBrick> fraction_by_slot);
 
@@ -58,20 +58,20 @@ class Bone {
     std::shared_ptr<const BoneContent> shared_content() const { return content_; }
     std::size_t stored_bricks() const { return fraction_.size(); }
 
-    /// For a bone that many begin with, none of them in real time (fraction_bricks.h): a copy is of the
-    /// bricks that were milled since, and the first milling in a brick allocates.
+    /// For a bone with which many sessions begin, none of them in real time (fraction_bricks.h): a copy
+    /// copies only the bricks that were milled since, and the first milling in a brick allocates.
     void share() { fraction_.share(); }
-    /// Whose fractions it holds for itself: all, but of a shared bone.
+    /// Number of bricks whose fractions it holds for itself: all, unless the bone is shared.
     std::size_t own_bricks() const { return fraction_.own_bricks(); }
 
     /// Slot of a brick, or BoneContent::no_slot. `brick` must lie within size_bricks.
     std::int32_t slot(const glm::ivec3& brick) const {
         return slot(brick_index(content_->size_bricks, brick));
     }
-    /// Likewise; any number that is no stored brick's has no_slot.
+    /// Slot of a brick by its number; no_slot for any number that is no stored brick's.
     std::int32_t slot(BrickIndex brick) const { return content_->slot_of_brick.find(brick); }
 
-    /// What is left of each voxel of a stored brick, 0 (none) to 255 (all).
+    /// Fraction left of each voxel of a stored brick, 0 (none) to 255 (all).
     BrickFractions fractions(std::int32_t slot) const { return fraction_[static_cast<std::size_t>(slot)]; }
     std::span<std::uint8_t, brick_voxel_count> fractions(std::int32_t slot) {
         return fraction_.to_write(static_cast<std::size_t>(slot));
@@ -79,9 +79,9 @@ class Bone {
 
     /// Fraction of any voxel; 0 outside the grid and in bricks without bone.
     std::uint8_t fraction_at(const glm::ivec3& voxel) const;
-    /// Relative stiffness of the bone of a voxel; 0 where no brick is stored.
+    /// Relative stiffness of the bone of a voxel; 0 if no brick is stored.
     double stiffness_at(const glm::ivec3& voxel) const;
-    /// Tissue label of a voxel; 0 (unlabelled) where no label is stored.
+    /// Tissue label of a voxel; 0 (unlabelled) if no label is stored.
     std::uint8_t tissue_at(const glm::ivec3& voxel) const;
 
   private:
@@ -95,18 +95,18 @@ double bone_volume_mm3(const Bone& bone);
 /// Volume left per tissue label, mm^3, index = label. One entry (label 0) for an unlabelled bone.
 std::vector<double> bone_volume_by_tissue_mm3(const Bone& bone);
 
-/// Checksum of what is left: the sum (mod 2^64) over bricks of XXH3-64 of the 4096 fractions, seeded with the
-/// brick's index; a brick that is all zero adds nothing. So it does not depend on which empty bricks are
-/// stored, and it can be kept up to date brick by brick: subtract a brick's old term, add its new one.
+/// Checksum of the fractions left: the sum (mod 2^64) over bricks of XXH3-64 of the 4096 fractions, seeded
+/// with the brick's index; a brick that is all zero adds nothing. So it does not depend on which empty bricks
+/// are stored, and it can be kept up to date brick by brick: subtract a brick's old term, add its new one.
 std::uint64_t checksum(const Bone& bone);
 std::uint64_t checksum_of_brick(BrickIndex brick, BrickFractions fractions);
 
-/// Digest of all that a bone is, its stiffness and tissues, too: two of one digest are milled alike.
+/// Digest of the whole bone, including stiffness and tissues: two bones of one digest are milled alike.
 std::uint64_t digest(const Bone& bone);
 
-/// Bytes that this bone holds: brick table, stiffness, tissue and the fractions of its own. They follow the
-/// bricks that hold bone; the grid round them costs nothing. Room that a builder reserved and did not need is
-/// not counted: at a page a brick, the system never backs it.
+/// Bytes that this bone holds: brick table, stiffness, tissue and the fractions of its own. They grow with
+/// the bricks that hold bone; the grid round them costs nothing. Addresses that a builder reserved and did
+/// not need are not counted: at a page a brick, the system never backs them.
 std::size_t memory_bytes(const Bone& bone);
 
 }  // namespace osteomill

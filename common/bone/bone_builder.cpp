@@ -51,7 +51,7 @@ bool reaches_past_grid(const Grid& grid, const glm::ivec3& brick, const ByteBric
     return false;
 }
 
-/// 64 MiB: malloc asks the system for so much at once and gives it back when it is freed.
+/// 64 MiB: malloc asks the system for such a piece by itself and gives it back when it is freed.
 constexpr std::size_t bricks_of_piece = 16384;
 
 }  // namespace

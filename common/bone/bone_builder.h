@@ -1,6 +1,6 @@
-// Builder of a bone, brick by brick, so that no dense copy of the grid is ever needed, and what is built
-// costs no more memory on the way than the bone that comes out: bricks are kept in pieces, which never move
-// while they grow in number, and are let go one by one as the bone is put together.
+// Builder of a bone, brick by brick, so that no dense copy of the grid is ever needed, and building takes no
+// more memory than the finished bone: bricks are kept in pieces, which never move while they grow in number,
+// and are freed one by one as the bone is put together.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace osteomill {
 
-/// Bricks of one channel in the order in which they came.
+/// Bricks of one channel in the order in which they were added.
 class BrickPieces {
   public:
-    /// Room for that many in one piece, which then becomes the channel itself.
+    /// Reserves so many bricks in one piece, which then becomes the channel itself.
     void reserve(std::size_t count);
     void push_back(const ByteBrick& brick);
     /// All of them, in one; nothing stays behind.
@@ -38,20 +38,20 @@ class BoneBuilder {
     /// A bone with a stiffness code for each voxel: relative stiffness = code * stiffness_per_code.
     static BoneBuilder heterogeneous(const Grid& grid, double stiffness_per_code, bool labelled);
 
-    /// Makes room for that many bricks in all. An upper bound will do: room that stays unused costs
-    /// addresses, not memory. Throws std::bad_alloc where even those are short.
+    /// Reserves so many bricks in all. An upper bound will do: unused places cost addresses, not memory.
+    /// Throws std::bad_alloc if even addresses are short.
     void reserve_bricks(std::size_t count);
 
     /// Adds a brick. Bricks may come in any order, each once; in ascending order build() need not sort them.
-    /// One whose fractions are all zero is not stored. `stiffness` and `tissue` are read only where the bone
-    /// has such a channel, and must then not be null. Throws std::invalid_argument for a brick outside the
-    /// grid, a missing channel, or a nonzero fraction past the grid's edge.
+    /// One whose fractions are all zero is not stored. `stiffness` and `tissue` are read only if the bone has
+    /// such a channel, and must then not be null. Throws std::invalid_argument for a brick outside the grid,
+    /// a missing channel, or a nonzero fraction past the grid's edge.
     void add_brick(const glm::ivec3& brick, const ByteBrick& fraction, const ByteBrick* stiffness,
                    const ByteBrick* tissue);
 
-    /// From now on each voxel has a code of its own; so far all bone had `code`, which is what a homogeneous
-    /// builder's relative stiffness must have been: code * stiffness_per_code. Throws std::invalid_argument
-    /// for a bad stiffness per code, std::logic_error where the bone is heterogeneous already.
+    /// From now on each voxel has a code of its own; all bone so far had `code`. The homogeneous builder's
+    /// relative stiffness must have been code * stiffness_per_code. Throws std::invalid_argument for a bad
+    /// stiffness per code, std::logic_error if the bone is heterogeneous already.
     void make_heterogeneous(double stiffness_per_code, std::uint8_t code);
 
     /// The finished bone; the builder is spent. Throws std::invalid_argument for a brick that came twice.
@@ -67,14 +67,14 @@ class BoneBuilder {
     BrickPieces tissue_;
 };
 
-/// What one voxel holds; stiffness and tissue count where the bone has such a channel.
+/// Values of one voxel; stiffness and tissue count if the bone has such a channel.
 struct VoxelValues {
     std::uint8_t fraction = 0;
     std::uint8_t stiffness = 0;  ///< its code
     std::uint8_t tissue = 0;
 };
 
-/// The bone of which `values_of(voxel)` says each voxel of the builder's grid: a VoxelValues.
+/// The bone whose voxels have the values `values_of(voxel)`, a VoxelValues, all over the builder's grid.
 template <typename ValuesOf>
 Bone filled(BoneBuilder builder, const Grid& grid, ValuesOf&& values_of) {
     const glm::ivec3 size = size_in_bricks(grid);

@@ -1,5 +1,5 @@
-// Rays through a bone on the CPU, in voxel coordinates: where they meet its surface, which is where half a
-// voxel is left, trilinear between the centres of voxels, as a picture has it.
+// Rays through a bone on the CPU, in voxel coordinates. They meet the bone's surface where half a voxel is
+// left, trilinear between the centres of voxels, as in a picture.
 #pragma once
 
 #include <algorithm>
@@ -27,26 +27,26 @@ struct RaySpan {
     bool is_empty() const { return !(from < to); }
 };
 
-/// Where a ray, forward and backward, is within a box; empty where it passes.
+/// Span of a ray, forward and backward, within a box; empty if it misses the box.
 RaySpan span_within(const BoneRay& ray, const glm::dvec3& low, const glm::dvec3& high);
-/// Likewise of all voxels of a grid.
+/// Span of a ray within all voxels of a grid.
 RaySpan span_within(const BoneRay& ray, const Grid& grid);
 
-/// Fractions, 0 to 255, along rays; the bone outlives it. For one thread: it remembers the brick that it
-/// looked at last.
+/// Fractions, 0 to 255, along rays; the bone outlives it. For one thread: it remembers the brick that it read
+/// last.
 class BoneSampler {
   public:
     static constexpr double surface_fraction = 127.5;
 
     explicit BoneSampler(const Bone& bone) : bone_(bone) {}
 
-    /// Of a voxel anywhere.
+    /// Fraction of any voxel.
     double at(const glm::ivec3& voxel);
-    /// Of a place anywhere, trilinear.
+    /// Fraction at any place, trilinear.
     double between(const glm::dvec3& place);
 
-    /// The first `t` of a span at which the ray is in bone, to a sixtieth of a voxel; what `is_shown(t)`
-    /// denies is passed over. Looks every half voxel, and steps over bricks without bone.
+    /// The first `t` of a span at which the ray is in bone, to a sixtieth of a voxel; places where
+    /// `is_shown(t)` is false are skipped. It samples every half voxel, and skips bricks without bone.
     template <typename IsShown>
     std::optional<double> first_surface(const BoneRay& ray, const RaySpan& span, IsShown&& is_shown) {
         constexpr double step = 0.5;

@@ -17,7 +17,7 @@ inline constexpr std::size_t brick_voxel_count = 4096;
 /// One byte a voxel; x runs fastest, then y, then z.
 using ByteBrick = std::array<std::uint8_t, brick_voxel_count>;
 
-/// What is left of each voxel of a brick, 0 (none) to 255 (all): a view.
+/// View of the fractions left of a brick's voxels, 0 (none) to 255 (all).
 using BrickFractions = std::span<const std::uint8_t, brick_voxel_count>;
 
 /// Place of a brick in its grid, counted in bricks: x + nx (y + ny z).

@@ -6,7 +6,7 @@ namespace osteomill {
 
 namespace {
 
-/// Of those voxels that would rise: whether any does, and whether any lies beyond the grid's edge.
+/// Voxels that would rise: whether there is any, and whether any lies beyond the grid's edge.
 struct Rise {
     bool any = false;
     bool outside_grid = false;

@@ -2,7 +2,7 @@
 // changed.
 //
 // The new values are in a brick of fractions that goes with the change: the voxels of the mask hold the
-// fraction that is left, all others anything. Values are absolute, so a later change overrides an earlier
+// fraction that is left, all others any value. Values are absolute, so a later change overrides an earlier
 // one, and a change may be applied twice.
 //
 // Milling only lowers fractions. Undo returns bone, and redo removes it again; such a change is marked as
@@ -29,13 +29,13 @@ struct BrickChange {
     bool operator==(const BrickChange&) const = default;
 };
 
-/// A change together with what is left of its voxels, on its way to another copy of the bone.
+/// A change with the fractions left of its voxels, on its way to another copy of the bone.
 struct ChangedBrick {
     BrickChange change;
     ByteBrick fractions{};
 };
 
-/// Where a milling step reports what it changed. Real-time safe: never blocks, allocates or throws.
+/// Receiver of a milling step's changes. Real-time safe: never blocks, allocates or throws.
 class ChangeSink {
   public:
     virtual ~ChangeSink() = default;
@@ -53,7 +53,7 @@ class ForgottenChanges final : public ChangeSink {
 /// is not stored, if milling would raise a voxel, or if a voxel beyond the grid's edge would rise.
 [[nodiscard]] bool apply(const BrickChange& change, BrickFractions fractions, Bone& bone);
 
-/// What came of a change in a copy of the bone that may be wrong.
+/// Outcome of a change in a copy of the bone that may be wrong.
 enum class Correction {
     lowers,        ///< no voxel rose
     raises,        ///< some voxel rose

@@ -1,5 +1,5 @@
-// The CT for people to look at: HU of the original scan on a grid that is as coarse as it must be to be sent.
-// Nothing changes it, and no force comes of it.
+// The CT for display: HU of the original scan on a grid coarse enough to be sent. It never changes, and no
+// force depends on it.
 #pragma once
 
 #include <cstdint>

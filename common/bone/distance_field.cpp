@@ -13,13 +13,15 @@ namespace osteomill {
 namespace {
 
 constexpr std::uint16_t far = std::numeric_limits<std::uint16_t>::max();
-/// The cell about a point within reach has its corners no further than this beyond it (a cube's diagonal).
+/// Farthest that a corner of the cell about a point within reach may lie beyond the reach (a cube's
+/// diagonal).
 constexpr double cell_voxels = 1.75;
-/// Where the list of bricks has grown by so many, what came twice is taken out.
+/// Once the list of bricks has grown by so many, duplicates are removed.
 constexpr std::size_t bricks_before_sorting = 1u << 20;
 
-/// Lower envelope of parabolas, in half voxels: what every voxel of a line has from the faces between voxels.
-/// A face lies at 2j + 1 between voxels j and j + 1, with the lesser of their values; a voxel is at 2j.
+/// Lower envelope of parabolas, in half voxels: the value that every voxel of a line gets from the faces
+/// between voxels. A face lies at 2j + 1 between voxels j and j + 1, with the lesser of their values; a voxel
+/// is at 2j.
 class LineTransform {
   public:
     void operator()(std::vector<std::uint16_t>& line, std::uint32_t most_square) {
@@ -148,8 +150,8 @@ void DistanceField::find_bricks(const StructureMask& structure) {
     }
 }
 
-// What lies between two voxels of a line that are within reach of one another is itself within reach, so a
-// line may end where no brick is.
+// Voxels between two voxels of a line that are within reach of one another are within reach, too, so a line
+// may end where no brick is.
 void DistanceField::transform_along(int axis, std::uint32_t most_square) {
     constexpr std::array<std::size_t, 3> stride{1, 16, 256};
     const std::size_t step = stride[static_cast<std::size_t>(axis)];

@@ -3,9 +3,9 @@
 // The structure is the union of its voxels' cubes: zero inside them, and distances are to their faces. At
 // every voxel centre within reach the squared distance is exact, by a transform along one axis after the
 // other (Felzenszwalb and Huttenlocher 2012, Distance Transforms of Sampled Functions, Theory of Computing
-// 8). Between centres it is interpolated (trilinear), where a structure's own voxels count as half a voxel
-// inside; that is off by less than half a voxel, except midway between parts of a structure that are two or
-// three voxels apart. Points outside the grid have a distance like all others.
+// 8). Between centres it is interpolated (trilinear), with a structure's own voxels half a voxel inside; the
+// error is less than half a voxel, except midway between parts of a structure that are two or three voxels
+// apart. Points outside the grid have a distance like all others.
 #pragma once
 
 #include <cstddef>
@@ -21,13 +21,13 @@ namespace osteomill {
 
 class DistanceField {
   public:
-    /// A reach of more than this many voxels is cut down to it: squares are kept in 16 bits.
+    /// Longest reach, voxels; a longer one is cut down to it, since squares are kept in 16 bits.
     static constexpr double most_reach_voxels = 125.0;
 
-    /// Bricks of a table: 1 GiB.
+    /// Most bricks of a table: 1 GiB.
     static constexpr std::size_t most_bricks = std::size_t{1} << 17U;
 
-    /// Of nothing: everything is further than reach.
+    /// A field of no structure: everything is further than its reach.
     DistanceField() = default;
     /// Allocates. Throws std::invalid_argument for a reach that is no number above 0, or that spans more
     /// bricks than a 32-bit index can number, and std::length_error for a table of more than most_bricks.

@@ -1,9 +1,8 @@
-// What is left of a bone's voxels, brick by brick: plain, or shared.
+// Fractions left of a bone's voxels, brick by brick: plain, or shared.
 //
-// Plain bricks are in one block of their own, and a copy copies all of it. Shared bricks are those of the
-// bone that was shared until one of them is written to: it is copied then, once. So a copy of shared bricks
-// copies only those that were written to since. The first writing to a shared brick allocates: loops in real
-// time have plain ones.
+// Plain bricks are in one block of their own, and a copy copies all of it. Shared bricks stay those of the
+// bone that was shared; a brick is copied when it is first written to. So a copy of shared bricks copies only
+// those written to since. The first write to a shared brick allocates, so real-time loops have plain ones.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +26,8 @@ class FractionBricks {
     FractionBricks& operator=(FractionBricks other) noexcept;
     ~FractionBricks() = default;
 
-    /// From now on shared, and so are its copies. Those bricks that it has then are copied no more.
+    /// Shares the bricks from now on; copies share them, too. Copies no longer copy the bricks that it has by
+    /// then.
     void share();
 
     std::size_t size() const { return places_.size(); }
@@ -37,7 +37,7 @@ class FractionBricks {
         return *places_[slot];
     }
 
-    /// That this has for itself.
+    /// Bricks that this object has for itself.
     std::size_t own_bricks() const { return is_shared_ ? own_.size() : places_.size(); }
 
   private:

@@ -11,19 +11,19 @@ namespace osteomill {
 /// metres of their centre. A larger coordinate is a wrong unit, or an attempt to break the arithmetic.
 inline constexpr double farthest_place_mm = 10'000.0;
 
-/// Within farthest_place_mm of the origin; false for what is not a number.
+/// Within farthest_place_mm of the origin; false if one is not a number.
 inline bool is_place(const glm::dvec3& position_mm) {
     return glm::length(position_mm) <= farthest_place_mm;
 }
 
-/// As far as nine decimals of each component tell.
+/// As far as nine decimals of each component can show.
 inline bool is_of_unit_length(double length) {
     return length > 1.0 - 1e-9 && length < 1.0 + 1e-9;
 }
 
 /// The vector scaled to unit length; nothing if it has no length, is not finite, or is so long that its
-/// digits would be lost. A vector of unit length is returned bit for bit, and so is one that was written with
-/// nine decimals, as recordings write it.
+/// digits would be lost. A vector of unit length is returned bit for bit, and so is one written with nine
+/// decimals, as in recordings.
 inline std::optional<glm::dvec3> unit_direction(const glm::dvec3& v) {
     const double length = glm::length(v);
     if (!(length >= 1e-6 && length <= 1e6)) return std::nullopt;

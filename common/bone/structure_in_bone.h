@@ -11,8 +11,8 @@ namespace osteomill {
 /// All voxels of the bone's bricks with this label, whatever fraction is left; empty if there are none.
 StructureMask structure_in_bone(const Bone& bone, std::uint8_t label);
 
-/// Whether any bone that is left in the brick of that slot has the label. Brick by brick: a large bone takes
-/// long.
+/// Whether any bone left in the brick of that slot has the label. For one brick at a time: a whole large bone
+/// takes long.
 bool brick_has_label(const Bone& bone, std::size_t slot, std::uint8_t label);
 
 }  // namespace osteomill

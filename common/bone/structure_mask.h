@@ -1,7 +1,7 @@
 // A structure in the patient, such as a nerve: a set of voxels of the bone's grid, whether bone is there or
 // not.
 //
-// Kept by brick, so it costs memory for the bricks it lies in and for nothing round them.
+// It is kept by brick, so it costs memory only for the bricks in which it lies.
 #pragma once
 
 #include <cstddef>

@@ -56,8 +56,8 @@ class AtomicFile {
     const std::filesystem::path& part() const { return part_; }
     /// The path as requested.
     const std::filesystem::path& path() const { return path_; }
-    /// Writes behind what was written so, or over it from the beginning on. Throw std::runtime_error with one
-    /// line that names the file and the reason.
+    /// Writes behind earlier data written so, or over it from the beginning on. Throw std::runtime_error with
+    /// one line that names the file and the reason.
     void write(std::span<const std::byte> bytes);
     void rewind();
 

@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// A file of a run, as what `option` named it.
+/// A file of a run, and the option that named it.
 struct NamedFile {
     std::string option;
     std::filesystem::path path;    ///< where it is read, a folder stands for all that is in it

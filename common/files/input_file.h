@@ -35,8 +35,8 @@ inline constexpr InputKind bridge_key_kind{"a key of the bridge", 4095};
 class InputFile {
   public:
     /// Follows links. It stays the one that was opened, although another takes its name. Throws
-    /// std::runtime_error, "PATH: cannot be read: ...", for what is not there, cannot be opened, or is no
-    /// regular file.
+    /// std::runtime_error, "PATH: cannot be read: ...", for a path that does not exist, cannot be opened, or
+    /// is no regular file.
     explicit InputFile(const std::filesystem::path& path, const InputKind& kind = {});
     ~InputFile();
     InputFile(const InputFile&) = delete;

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Opens and locks; -1 and errno EWOULDBLOCK if another has it, -1 and another one if no lock can be made.
-/// Whoever ends removes the file that is locked: a lock of a file without a name is none.
+/// A process that ends removes the file that is locked: a lock of a file without a name is none.
 int locked(const fs::path& file) {
     for (;;) {
         const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);

@@ -14,8 +14,8 @@
 
 namespace osteomill {
 
-/// Takes off what stands around a line: a carriage return, and of the file's first line the mark of UTF-8.
-/// Throws std::runtime_error, in words, if the mark is UTF-16's.
+/// Removes a carriage return at a line's end and, from the file's first line, the mark of UTF-8. Throws
+/// std::runtime_error with a reason if the mark is UTF-16's.
 inline void strip_line(std::string& line, bool is_first) {
     constexpr std::string_view utf8_mark = "\xef\xbb\xbf";
     if (is_first && begins_as_utf16(line)) throw std::runtime_error("is text in UTF-16; save it as UTF-8");

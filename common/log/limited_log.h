@@ -28,8 +28,8 @@ class LimitedLog {
         spdlog::log(level, "{}{}", line, count_left_out());
     }
 
-    /// Call regularly: when there is room, writes a line with the number of lines left out, even if no more
-    /// come.
+    /// Call regularly: when the limit allows, writes a line with the number of lines left out, even if no
+    /// more come.
     void tell_left_out(Time now) {
         if (left_out_ > 0 && lines_.take(now)) spdlog::warn("clients came and went{}", count_left_out());
     }

@@ -1,8 +1,8 @@
 // Lines for people, on a terminal or in a file, from threads that must not wait for it.
 //
-// Lines that find no room are dropped and counted, and the count is reported as soon as there is room again.
-// A stream that fails (a full disk, a closed pipe, a terminal that is gone) is given up quietly: a failing
-// log must not end the program.
+// Lines that do not fit the queue are dropped and counted, and the count is reported as soon as lines fit
+// again. A stream that fails (a full disk, a closed pipe, a terminal that is gone) is given up quietly: a
+// failing log must not end the program.
 #pragma once
 
 #include <cstddef>

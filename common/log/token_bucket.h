@@ -10,7 +10,7 @@ class TokenBucket {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// Full at first. `most` is what it holds, at least 1.
+    /// Full at first. `most` is its capacity, at least 1.
     TokenBucket(double per_s, double most) : per_s_(per_s), most_(most), tokens_(most) {}
 
     /// False if there is none left.

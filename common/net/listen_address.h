@@ -20,7 +20,7 @@ inline std::string text_of_address(const std::string& address, std::uint16_t por
 /// HOST:PORT apart, where the last colon is; an IPv6 address without its brackets.
 struct AddressParts {
     std::string host;
-    std::string port;          ///< empty where there is no colon
+    std::string port;          ///< empty if there is no colon
     bool is_plain_v6 = false;  ///< colons in the host, and no brackets
 };
 AddressParts parts_of_address(const std::string& text);

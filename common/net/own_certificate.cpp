@@ -11,7 +11,7 @@
 namespace osteomill {
 
 bool may_act_as(const X509& certificate, TlsContext::Role role) {
-    // It keeps what it finds out.
+    // It caches its result.
     auto* const uses_of = const_cast<X509*>(&certificate);
     const std::uint32_t uses = X509_get_extended_key_usage(uses_of);
     const bool has_uses = (X509_get_extension_flags(uses_of) & EXFLAG_XKUSAGE) != 0;

@@ -31,10 +31,10 @@ class Stream {
     virtual void handshake(HandshakeHandler handler) = 0;
     /// One at a time.
     virtual void read(ReadHandler handler) = 0;
-    /// All of it; one at a time. The system takes bytes whole as soon as it has room for a part of them.
+    /// All of it; one at a time. The system accepts all bytes as soon as it has space for a part of them.
     virtual void write(std::string bytes, WriteHandler handler) = 0;
-    /// When most of what was written is on its way (see TCP_NOTSENT_LOWAT), or there is an error, which the
-    /// next write reports. Not while a write is under way.
+    /// When most of the written bytes are on their way (see TCP_NOTSENT_LOWAT), or there is an error, which
+    /// the next write reports. Not while a write is under way.
     virtual void wait_until_taken(std::function<void()> handler) = 0;
     /// Nothing more will be written. Says so to TCP alone: a session ends with a goodbye of its own, which
     /// TLS protects as it does all else.

@@ -15,7 +15,7 @@ std::string describe_handshake_failure(const SSL* tls, const boost::system::erro
 /// only in place of the first data.
 bool is_refusal(const boost::system::error_code& error);
 
-/// Whether it would end the same way again as long as the certificates of both ends stay what they are.
+/// Whether it would end the same way again with the same certificates at both ends.
 bool is_about_certificates(const boost::system::error_code& error);
 
 /// A description of any error of a stream.

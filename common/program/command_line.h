@@ -31,7 +31,7 @@ auto said_of_option(const char* option, Read&& read) {
     }
 }
 
-/// Fills in what `app` has declared; returns the text where help or the version is requested. Throws
+/// Fills in what `app` has declared; returns the text if help or the version is requested. Throws
 /// std::invalid_argument with one line for wrong usage.
 std::optional<std::string> parse_or_text(CLI::App& app, int argc, const char* const* argv);
 

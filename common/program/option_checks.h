@@ -35,7 +35,7 @@ class HelpFormatter : public CLI::Formatter {
         for (const CLI::Option* other : option->get_excludes()) names.push_back(other->get_name());
         if (names.empty()) return text;
         std::ranges::sort(names);
-        const std::string label = " Excludes:";  // the last of what there is to say
+        const std::string label = " Excludes:";  // the last part of the message
         return fmt::format("{}{} {}", text.substr(0, text.find(label)), label, fmt::join(names, " "));
     }
 };

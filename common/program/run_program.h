@@ -29,8 +29,8 @@ inline int exit_code_of_prints(const char* name) {
 }
 
 /// Returns the exit code. `parse()` gives a ParseResult (command_line.h) and throws std::invalid_argument for
-/// wrong usage; `run(options, output)` throws for a failure. Ends also if a terminal holds up what is
-/// said, at most a moment later.
+/// wrong usage; `run(options, output)` throws for a failure. Ends even if a terminal blocks its output, at
+/// most a moment later.
 template <typename Parse, typename Run>
 int run_program(const char* name, const Parse& parse, const Run& run) {
     ignore_signals_of_streams();

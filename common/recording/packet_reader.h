@@ -1,4 +1,5 @@
-// Reader of the packets of a recording (see packet.h), or of what editcap and mergecap made of recordings.
+// Reader of the packets of a recording (see packet.h), or of files that editcap and mergecap made of
+// recordings.
 #pragma once
 
 #include <cstdint>

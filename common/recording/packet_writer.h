@@ -19,7 +19,7 @@ class PacketWriter {
     explicit PacketWriter(std::filesystem::path file);
 
     /// `message`: at most largest_frame_bytes. Throws RecordingError, such as for a full disk; the file then
-    /// ends with the last whole packet, and the next one goes behind that if there is room by then.
+    /// ends with the last whole packet, and the next one goes behind that if the disk has space by then.
     void write(Stamp stamp, std::string_view message);
 
     const std::filesystem::path& file() const { return file_; }

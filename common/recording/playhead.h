@@ -39,7 +39,7 @@ class Playhead {
         end,
     };
     /// Takes the next frame (a snapshot whole) unless it is later than `until_s`. Every checksum that is
-    /// stated is verified. Throws RecordingError, with packet and byte, for what cannot be right.
+    /// stated is verified. Throws RecordingError, with packet and byte, for bad contents.
     Step step(double until_s);
 
     /// The last frame's time, since the first; never goes back within a recording.

@@ -38,7 +38,7 @@ class RecordingReader {
     Mark mark() const { return {packets_.place(), receiver_.last_sequence()}; }
     void go_back_to(const Mark& mark);
 
-    /// For what a frame says and the bone contradicts.
+    /// For a frame that the bone contradicts.
     RecordingError error_at(const PacketPlace& place, const std::string& what) const {
         return RecordingError(packets_.where(place) + what);
     }

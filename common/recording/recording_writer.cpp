@@ -86,7 +86,7 @@ struct RecordingWriter::Shared {
     bool is_syncing = false;
     bool has_thread = true;
     bool is_worth_keeping = true;
-    bool is_given_up = false;  // the thread may be there, but what it does is nobody's business any more
+    bool is_given_up = false;  // the thread may be there, but its work no longer matters
     RecordingReport report;
 };
 

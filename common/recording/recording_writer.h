@@ -1,9 +1,9 @@
 // Writer of a recording on a thread of its own, for loops that must not wait for a disk.
 //
-// A full disk may have room later. A recorder that can send its news later treats it as a slow disk: the
+// A full disk may have space later. A recorder that can send its news later treats it as a slow disk: the
 // frame that did not fit is tried again at intervals, later frames wait, and once the buffer is full no more
-// is taken until there is room. So no frame is missing, and the file continues where it stopped. A recorder
-// that cannot wait, because its frames come from elsewhere, ends the recording.
+// is accepted until there is space. So no frame is missing, and the file continues where it stopped. A
+// recorder that cannot wait, because its frames come from elsewhere, ends the recording.
 //
 // A disk that does not answer at all (a pulled drive, a lost server, a pipe whose reader has stopped) holds
 // up only that thread: callers wait a bounded time, then the recording is given up. The thread cannot be
@@ -58,7 +58,7 @@ class RecordingWriter {
     static constexpr std::chrono::milliseconds retry_period{500};
     /// How long the end waits for a disk that takes nothing,
     static constexpr std::chrono::seconds longest_standstill{2};
-    /// and how long before the end, and for what is in the system's memory to reach the disk.
+    /// and how long before the end, and until data in the system's memory reach the disk.
     static constexpr std::chrono::seconds longest_wait{30};
 
     /// Limit of the data that wait for the disk: a second of the fastest loopback snapshot. A caller that
@@ -78,17 +78,17 @@ class RecordingWriter {
     /// Whether push() would take a frame. After the end of the recording it accepts every frame, and drops
     /// it.
     bool has_room() const;
-    /// Waits until there is room, or the disk is full: for callers that may wait for a disk. Gives the
+    /// Waits until there is space, or the disk is full: for callers that may wait for a disk. Gives the
     /// recording up once the disk has accepted nothing for so long.
     void wait_for_room(std::chrono::milliseconds longest = longest_wait);
     /// Waits until all that was pushed is in the file, or the disk is full; gives up alike.
     void wait_until_written(std::chrono::milliseconds longest = longest_wait);
-    /// Never waits for the disk. Call only with room.
+    /// Never waits for the disk. Call only if has_room().
     void push(Stamp stamp, std::string message);
     /// Whether the last attempt to write has failed.
     bool has_failed() const;
 
-    /// Writes what still waits, with one last attempt if the disk is full, and ends the thread; gives the
+    /// Writes the waiting frames, with one last attempt if the disk is full, and ends the thread; gives the
     /// recording up if the disk stands still. Later pushes are discarded.
     void close();
     /// Closes first, and makes the part the file, unless frames are missing. Failures show in the report.

@@ -1,4 +1,4 @@
-// A change of a scene (scene_change.h), made in its table before that is read.
+// Application of a change (scene_change.h) to a scene's table before the table is read.
 #pragma once
 
 #include <toml++/toml.h>
@@ -7,8 +7,8 @@
 
 namespace osteomill {
 
-/// Whether the key exists is checked by the table's reader. Throws SceneError, without file and line, if the
-/// path to the key leads through a value, or through a list without an entry of that name.
+/// The table's reader checks whether the key exists. Throws SceneError, without file and line, if the path to
+/// the key leads through a value, or through a list without an entry of that name.
 void apply(const SceneChange& change, toml::table& scene);
 
 }  // namespace osteomill

@@ -15,12 +15,12 @@ namespace osteomill {
 
 class BoundedLine {
   public:
-    /// More than any fault needs.
+    /// Longer than any fault's text.
     static constexpr std::size_t most_bytes = 207;
 
     constexpr BoundedLine() = default;
-    /// Whatever is longer than most_bytes is cut between characters; each control character, and each byte
-    /// that is no UTF-8, becomes '?'. Real-time safe.
+    /// A text longer than most_bytes is cut between characters; each control character, and each byte that is
+    /// no UTF-8, becomes '?'. Real-time safe.
     template <std::convertible_to<std::string_view> Text>
     constexpr BoundedLine(const Text& text) noexcept {
         std::size_t size = 0;

@@ -14,7 +14,7 @@ namespace osteomill {
 /// Which way the burr turns, seen from the handpiece (from the shank towards the tip).
 enum class SpindleSense { clockwise, counter_clockwise };
 inline constexpr std::array spindle_sense_names{"clockwise", "counter-clockwise"};
-/// Of a burr of which a scene does not say its speed.
+/// Speed of a burr for which a scene gives none.
 inline constexpr double default_spindle_rpm = 10'000.0;
 
 struct Burr {
@@ -26,11 +26,11 @@ struct Burr {
     /// K_t, K_r, K_a for bone of relative stiffness 1.
     glm::dvec3 cutting_coefficients_n_per_mm2{230.0, 40.0, 20.0};
     /// K_te, K_re, K_ae for the same bone: force of each mm of edge that cuts, however thin its chip. The
-    /// published law has none.
+    /// published law has no such force.
     glm::dvec3 edge_coefficients_n_per_mm{0.0};
     SpindleSense sense = SpindleSense::clockwise;
     ShankProfile shank{};
-    /// Of the edges in the handpiece, as a dial gauge reads it over a turn: twice the eccentricity.
+    /// Run-out of the edges in the handpiece, as a dial gauge reads it over a turn: twice the eccentricity.
     double run_out_mm = 0.02;
 
     double radius_mm() const { return 0.5 * diameter_mm; }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double step_per_diameter = 0.1;
 constexpr double longest_step_mm = 0.25;
-/// Along an outline; a hundred times thinner than long is no burr.
+/// Along an outline; no burr is a hundred times thinner than long.
 constexpr double most_steps = 1000.0;
 
 }  // namespace
@@ -47,8 +47,8 @@ BurrClearance::BurrClearance(const Burr& burr) : largest_radius_mm_(burr.radius_
         }
 }
 
-// A distance changes by no more than what one walks: where the middle of a ring is far enough, none of its
-// balls need be looked at.
+// A distance changes by no more than the way between two places: if the middle of a ring is far enough, its
+// balls need no check.
 std::optional<double> BurrClearance::clearance_mm(const DistanceField& field,
                                                   const ToolPose& pose) const noexcept {
     const glm::dmat3 frame = burr_frame(pose.spindle_axis);

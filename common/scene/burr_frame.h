@@ -9,8 +9,8 @@
 namespace osteomill {
 
 /// Columns are the burr's x, y, z axes in patient LPS; right-handed, orthonormal. `spindle_axis` is a unit
-/// vector. Which way x points is immaterial (the burr turns), but it varies continuously except where the
-/// spindle points near -z (Duff et al. 2017, Building an Orthonormal Basis, Revisited).
+/// vector. The direction of x is immaterial (the burr turns), but it varies continuously except near a
+/// spindle along -z (Duff et al. 2017, Building an Orthonormal Basis, Revisited).
 inline glm::dmat3 burr_frame(const glm::dvec3& spindle_axis) {
     const glm::dvec3& n = spindle_axis;
     const double sign = std::copysign(1.0, n.z);

@@ -13,7 +13,7 @@ enum class HeadShape { ball, cylinder, cone, barrel, pear };
 inline constexpr std::array<std::string_view, 5> head_shape_names{"ball", "cylinder", "cone", "barrel",
                                                                   "pear"};
 
-/// Beside the burr's diameter, which is the largest of the head. A ball has no more than its shape.
+/// The head's sizes besides the burr's diameter, which is the largest of the head. A ball has none.
 struct BurrHead {
     HeadShape shape = HeadShape::ball;
     double length_mm = 0.0;         ///< from the tip to the neck's end, along the spindle

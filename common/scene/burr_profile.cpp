@@ -83,7 +83,8 @@ void BurrProfile::build_outline() {
 }
 
 NearestSurface BurrProfile::nearest(double radius, double height) const noexcept {
-    // Inside the chain the nearest side counts, outside the nearest point of the sides seen from there.
+    // Inside the chain the nearest side counts, outside it the nearest point of the sides that face the
+    // place.
     double deepest = -std::numeric_limits<double>::infinity();
     const Side* deepest_side = nullptr;
     double least_squared = std::numeric_limits<double>::infinity();

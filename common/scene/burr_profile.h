@@ -14,7 +14,7 @@
 
 namespace osteomill {
 
-/// What a burr's surface is like nearest to a point. All in the profile's unit of length.
+/// A burr's surface where it is nearest to a point, in the profile's unit of length.
 struct NearestSurface {
     double distance = 0.0;  ///< from the surface, negative inside
     double out = 0.0;       ///< the outward normal: away from the spindle
@@ -34,17 +34,17 @@ class BurrProfile {
     /// In mm times `scale`. Throws std::invalid_argument as require_valid(BurrHead). Allocates.
     BurrProfile(const BurrHead& head, double diameter_mm, double scale = 1.0);
 
-    /// At a distance `radius` >= 0 from the spindle and a height above the origin. Real-time safe, and so is
-    /// all the rest.
+    /// At a distance `radius` >= 0 from the spindle and a height above the origin. Real-time safe, as are all
+    /// functions below.
     NearestSurface nearest(double radius, double height) const noexcept;
 
     double tip_height() const { return chain_.front().height - rounding_; }
     double top_height() const { return chain_.back().height + rounding_; }
     double largest_radius() const { return largest_radius_; }
-    /// Of a ball about the point half-way up the spindle that holds all of the head.
+    /// Radius of a ball about the point half-way up the spindle that holds all of the head.
     double bounding_radius() const;
 
-    /// How far the head reaches from the origin along a direction in burr axes (unit).
+    /// Reach of the head from the origin along a direction in burr axes (unit).
     double reach_along(const glm::dvec3& direction) const noexcept;
 
     /// Length of the outline from the tip, on the spindle, to the other end, on the spindle.

@@ -79,7 +79,7 @@ ConditionParser::Kind ConditionParser::opposite() {
 }
 
 ConditionParser::Kind ConditionParser::comparison() {
-    // The longer signs first.
+    // Longer signs come first.
     static constexpr std::array<std::pair<const char*, Op>, 6> signs{{{"<=", Op::at_most},
                                                                       {">=", Op::at_least},
                                                                       {"==", Op::equal},

@@ -20,7 +20,7 @@ struct EdgeShares {
                     static_cast<float>(tissue.strength->relative_edge / tissue.strength->relative_stiffness);
     }
 
-    /// Every tissue's edges rub as its stiffness says.
+    /// In every tissue edges rub as its stiffness implies.
     bool are_all_one() const {
         return std::all_of(of_label.begin(), of_label.end(), [](float share) { return share == 1.0f; });
     }

@@ -1,5 +1,5 @@
-// Limits on the targets of an operator's hand. The server enforces them for every client, in its haptic tick;
-// a client also keeps its own target within reach, so that a returning mouse moves the tool at once.
+// Limits on the targets of an operator's hand. The server enforces them for every client, in its haptic tick.
+// A client also keeps its own target within reach, so that a mouse that turns back moves the tool at once.
 #pragma once
 
 namespace osteomill {

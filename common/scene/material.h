@@ -1,5 +1,5 @@
-// Presets of materials: what cutting bone, tooth or a test block takes, from scenes/materials.toml, which
-// says for each how the numbers were got and from what sources.
+// Presets of materials: the coefficients for cutting bone, tooth or a test block, from scenes/materials.toml,
+// which names the method and the sources of each.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// How the numbers of a material were got.
+/// Origin of a material's numbers.
 enum class MaterialQuality {
     measured,  ///< with this kind of tool
     inferred,  ///< from another tool, or from a property of the material
@@ -29,18 +29,18 @@ struct Material {
     double relative_edge = 1.0;
 };
 
-/// What a segment is said to be made of where it is no bone.
+/// Material of a segment that is no bone.
 inline constexpr const char* soft_material = "soft";
 
-/// Those of scenes/materials.toml, built in.
+/// The materials of scenes/materials.toml, built in.
 const std::vector<Material>& shipped_materials();
 
-/// What a tissue's strength is where its material alone is said; of a strength without material, where its
-/// relative_stiffness alone is. An unknown material says nothing.
+/// Strength of a tissue of which only the material is given, or, without material, only the
+/// relative_stiffness. An unknown material gives no values.
 TissueStrength usual_strength(const TissueStrength& strength);
 
-/// What a segment is made of by its name ("vertebrae_L1", "Lower Teeth"); nullptr where that is no bone, or
-/// says nothing.
+/// Material that a segment's name ("vertebrae_L1", "Lower Teeth") implies; nullptr if it is no bone, or the
+/// name implies none.
 const Material* material_of_segment(const std::string& name);
 
 }  // namespace osteomill

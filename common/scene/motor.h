@@ -1,5 +1,5 @@
-// The spindle's motor: how much of its speed a load takes. It is heard (docs/sound.md) and not felt: what the
-// burr cuts, and with what force, is computed as if the spindle kept its speed.
+// The spindle's motor, whose speed falls under load. The fall is heard (docs/sound.md) and not felt: cut and
+// force are computed as if the spindle kept its speed.
 #pragma once
 
 #include <algorithm>

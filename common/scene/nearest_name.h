@@ -15,8 +15,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// "speed" for "speed_mm_per_s"), or no more than half of the longer one's letters differ.
 std::optional<std::string> nearest_name(std::string_view written, const std::vector<std::string>& names);
 
-/// The name that is written, or, where none is, the only one that differs in nothing but blanks and
-/// underscores, which tables of colours put for one another.
+/// The name as written, or else the only one that differs merely in blanks and underscores, which tables of
+/// colours exchange for one another.
 std::optional<std::string> same_name(std::string_view written, const std::vector<std::string>& names);
 
 }  // namespace osteomill

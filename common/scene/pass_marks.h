@@ -8,7 +8,7 @@
 
 namespace osteomill {
 
-/// A metric that a mark may be set for, and which numbers make sense.
+/// A metric for which a mark may be set, and the range of sensible marks.
 struct PassMarkKind {
     const char* metric;
     bool is_least;  ///< the mark is the least that passes; else the most
@@ -26,7 +26,7 @@ inline constexpr std::array<PassMarkKind, 6> pass_mark_kinds{{{"rating_share", t
 /// By the metric's key.
 using PassMarks = std::map<std::string, double>;
 
-/// Nullptr where no mark can be set for it.
+/// Null if no mark can be set for it.
 constexpr const PassMarkKind* pass_mark_kind(std::string_view metric) {
     for (const PassMarkKind& kind : pass_mark_kinds)
         if (metric == kind.metric) return &kind;

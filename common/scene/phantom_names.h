@@ -1,4 +1,4 @@
-// Names of the bones made by code, in the order in which people are shown them.
+// Names of the bones made by code, in the order in which people see them.
 #pragma once
 
 #include <array>

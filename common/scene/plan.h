@@ -1,5 +1,4 @@
-// A plan: which region of the bone is to be removed, and how far beyond it may be cut. Plain data, patient
-// LPS.
+// A plan: the region of bone to be removed, and how far beyond it a cut may go. Plain data, patient LPS.
 #pragma once
 
 #include <glm/vec3.hpp>

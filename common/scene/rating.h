@@ -1,7 +1,7 @@
-// A rating of a session, item by item: points that it earns where a condition holds. Plain data.
+// A rating of a session, item by item: points that it earns if a condition holds. Plain data.
 //
-// It is a department's scale as data: what a rater would look for on the finished bone, written over the
-// metrics of docs/metrics.md (rating_condition.h).
+// It is a department's scale as data: the checks of a rater on the finished bone, written over the metrics of
+// docs/metrics.md (rating_condition.h).
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct RatingItem {
 
 using Rating = std::vector<RatingItem>;
 
-/// Bounds on what a file or a recording may hold.
+/// Bounds on ratings in files and recordings.
 inline constexpr std::size_t most_rating_items = 100;
 inline constexpr std::size_t longest_rating_name = 100;       ///< bytes
 inline constexpr std::size_t longest_rating_condition = 500;  ///< bytes

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What is no number, as infinity less infinity, says nothing.
+/// A result that is no number, as infinity less infinity, gives no bound.
 ValueRange range_of(std::initializer_list<double> ends) {
     ValueRange range{infinity, -infinity};
     for (const double end : ends) {
@@ -23,7 +23,7 @@ ValueRange range_of(std::initializer_list<double> ends) {
 }
 
 ValueRange product(const ValueRange& a, const ValueRange& b) {
-    // 0 of whatever it is are 0.
+    // 0 times anything is 0.
     const auto times = [](double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : x * y; };
     return range_of({times(a.low, b.low), times(a.low, b.high), times(a.high, b.low), times(a.high, b.high)});
 }
@@ -52,7 +52,7 @@ std::optional<bool> either_of(const std::optional<bool>& a, const std::optional<
     return a && b ? std::optional(false) : std::nullopt;
 }
 
-/// A number or a truth, as the parser has seen to it.
+/// A number or a truth; the parser has checked which.
 struct Result {
     ValueRange number{};
     std::optional<bool> truth{};

@@ -9,9 +9,9 @@
 //     factor      "-" factor | number | quantity | "(" any ")"
 //     quantity    key [ "(" 'name' ")" ]  key of rating_quantities.h; a name in single or double quotes
 //
-// A quantity has a range: one number where it was measured, more where only a bound is known, and all numbers
-// where nothing is. A comparison of ranges is decided where all their numbers agree, and unknown else; and,
-// or, not follow Kleene's logic: what does not depend on the unknown is decided. Arithmetic is that of
+// A quantity has a range: one number if it was measured, more if only a bound is known, all numbers if
+// nothing is. A comparison of ranges is decided if all their numbers agree, else it is unknown. And, or, not
+// follow Kleene's logic: a result that does not depend on the unknown is decided. Arithmetic is that of
 // intervals.
 #pragma once
 
@@ -52,7 +52,7 @@ class RatingCondition {
     /// Parentheses, not and - within one another.
     static constexpr int deepest = 16;
 
-    /// Throws ConditionError, also for more than longest_rating_condition bytes, and for keys that are none.
+    /// Throws ConditionError, also for more than longest_rating_condition bytes, and for unknown keys.
     explicit RatingCondition(std::string_view text);
 
     /// Each once, in the order in which they first come.
@@ -87,7 +87,7 @@ class RatingCondition {
         std::size_t quantity = 0;
     };
 
-    std::vector<Step> steps_;  // a value, or what takes those before it (reverse Polish)
+    std::vector<Step> steps_;  // a value, or an operation on those before it (reverse Polish)
     std::vector<AskedQuantity> quantities_;
 };
 

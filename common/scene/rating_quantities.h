@@ -1,5 +1,5 @@
 // The quantities that a rating's condition may ask for: metrics of docs/metrics.md by their key, and the
-// region's. A test holds the table to the metrics that a session has.
+// region's. A test compares the table with the metrics of a session.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace osteomill {
 
-/// Which name a quantity takes in parentheses.
+/// Kind of the name that a quantity takes in parentheses.
 enum class RatedThing : std::uint8_t {
     session,            ///< none
     plan,               ///< none, of a scene with a [plan]
@@ -17,7 +17,7 @@ enum class RatedThing : std::uint8_t {
     tissue,             ///< a tissue's
     burr,               ///< a burr's
     structure,          ///< a protected tissue's
-    any_structure,      ///< likewise; without: of all together
+    any_structure,      ///< its name is optional; without: of all together
 };
 
 struct RatedQuantity {
@@ -111,7 +111,7 @@ inline constexpr std::array<RatedQuantity, 82> rated_quantities{{
     {"region_removed_share", RatedThing::region},
 }};
 
-/// Null where there is none of that key.
+/// Null if no quantity has that key.
 constexpr const RatedQuantity* rated_quantity(std::string_view key) {
     for (const RatedQuantity& one : rated_quantities)
         if (key == one.key) return &one;

@@ -14,7 +14,7 @@ namespace osteomill {
 
 namespace {
 
-/// What a quantity's name may be, and how that is called.
+/// Names that a quantity may have, and the word for them.
 struct Names {
     const char* what;
     std::vector<std::string> all{};
@@ -33,7 +33,7 @@ Names names_for(RatedThing of, const Scene& scene) {
     return names;
 }
 
-/// Nothing: the scene answers it.
+/// Nothing: the scene can answer it.
 std::optional<std::string> why_not_answered(const AskedQuantity& asked, const Scene& scene, bool has_region) {
     const RatedThing of = rated_quantity(asked.key)->of;
     const bool takes_none = of == RatedThing::session || of == RatedThing::plan || of == RatedThing::region;

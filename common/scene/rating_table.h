@@ -10,8 +10,8 @@
 namespace osteomill {
 
 /// Takes `name`, `points`, `when`, `source` and one of `tissue`, `sphere` and `cylinder`, the item's region.
-/// Throws SceneError, with the item's name, also for a condition that cannot be read, and for one that asks
-/// for what the scene has not: a plan, a tissue, a burr, a structure.
+/// Throws SceneError, with the item's name, also for a condition that cannot be read, and for one that needs
+/// a plan, tissue, burr or structure that the scene does not have.
 Rating read_rating(std::vector<TomlReader> readers, const Scene& scene);
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-// A scene: what the simulation is a function of, besides the motion of the device. Plain data; read from TOML
+// A scene: all that determines the simulation, besides the motion of the device. Plain data; read from TOML
 // by scene_file.h.
 #pragma once
 
@@ -38,24 +38,24 @@ struct FileSource {
     bool operator==(const FileSource&) const = default;
 };
 
-/// What cutting a tissue takes, beside the bone for which the burrs' coefficients hold.
+/// Strength of a tissue against cutting, relative to the bone for which the burrs' coefficients hold.
 struct TissueStrength {
     std::string material{};           ///< preset that both are from (material.h); empty: the scene's own
-    double relative_stiffness = 1.0;  ///< of the chips, in place of what follows from CT numbers
+    double relative_stiffness = 1.0;  ///< of the chips, in place of the value from CT numbers
     double relative_edge = 1.0;       ///< of edges that rub
 
     bool operator==(const TissueStrength&) const = default;
 };
 
-/// Whether reports call a sum so: no tissue may have the name.
+/// Whether reports use this name for a sum, so that no tissue may have it.
 inline bool is_name_of_sum(std::string_view name) {
     return name == "total" || name == "unlabelled";
 }
 
-/// How thick bone may be at most that shows what is behind it.
+/// Greatest thickness of bone that shows what is behind it.
 inline constexpr double most_shows_through_mm = 3.0;
 
-/// Where a scene does not say how thin bone must be to show a tissue: as surgeons see sinus and nerves.
+/// Thickness of bone below which a tissue shows, if the scene gives none: as surgeons see sinus and nerves.
 inline double usual_shows_through_mm(bool is_protected) {
     return is_protected ? 1.5 : 0.0;
 }
@@ -66,14 +66,14 @@ struct Tissue {
     std::array<std::uint8_t, 3> colour_rgb{};
     bool is_protected = false;                 ///< touching it with a turning burr raises a warning
     std::optional<TissueStrength> strength{};  ///< absent: as its CT numbers say
-    double stiffness_factor = 1.0;             ///< times what its strength or its CT numbers say
+    double stiffness_factor = 1.0;             ///< factor of the stiffness by its strength or CT numbers
     bool is_cuttable = true;                   ///< false: no burr takes it, it is a wall
     std::string segment{};                     ///< of the segmentation that it is; empty: none
     double opacity = 1.0;                      ///< of its picture, 0 (not drawn) to 1
     double warn_mm = 0.0;                      ///< a burr nearer than this is warned of; 0: none is
     double shows_through_mm = 0.0;             ///< bone thinner than this shows its colour; 0: none does
     double shows_through_strength = 0.8;       ///< share of its colour under hardly any bone, 0 to 1
-    /// By which files of other programs know it (FIVRS); absent: its colour.
+    /// Colour by which files of other programs identify it (FIVRS); absent: its own colour.
     std::optional<std::array<std::uint8_t, 3>> identifier_rgb{};
 
     bool operator==(const Tissue&) const = default;
@@ -93,7 +93,7 @@ struct DeviceMapping {
     bool operator==(const DeviceMapping&) const = default;
 };
 
-/// Where the burr's centre is and how the spindle points (unit vector from tip to shank), patient LPS.
+/// Position of the burr's centre and direction of the spindle (unit vector from tip to shank), patient LPS.
 struct ToolPose {
     glm::dvec3 position_mm{0.0};
     glm::dvec3 spindle_axis{0.0, 0.0, 1.0};
@@ -128,19 +128,19 @@ struct Scene {
     std::vector<Burr> burrs;  ///< never empty
     std::size_t start_burr = 0;
     double wall_friction = 0.2;    ///< Coulomb's, of a burr at rest on bone
-    double force_scale = 1.0;      ///< times what cutting takes: for arms whose friction hides it
+    double force_scale = 1.0;      ///< factor of cutting forces: for arms whose friction hides them
     std::optional<Motor> motor{};  ///< whose speed falls under load, as it is heard
     DeviceMapping device;
     ToolPose start_pose;
     TrajectorySpec trajectory;
-    std::optional<Plan> plan{};  ///< what a session is measured against
-    PassMarks pass{};            ///< what it has to reach
-    Rating rating{};             ///< what earns it points
+    std::optional<Plan> plan{};  ///< the goal of a session
+    PassMarks pass{};            ///< marks that it has to reach
+    Rating rating{};             ///< items that earn it points
 
     bool operator==(const Scene&) const = default;
 };
 
-/// The scene's burrs as they are felt: their coefficients times its force_scale.
+/// The scene's burrs as the hand feels them: their coefficients times its force_scale.
 std::vector<Burr> felt_burrs(const Scene& scene);
 
 /// The scene's relation of stiffness to CT numbers, with the tissues that have a stiffness of their own.

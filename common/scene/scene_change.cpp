@@ -17,7 +17,7 @@ namespace osteomill {
 
 namespace {
 
-/// What stands before the first dot.
+/// Splits off the part before the first dot.
 std::string_view take_part(std::string_view& key) {
     const std::size_t dot = key.find('.');
     const std::string_view part = key.substr(0, dot);
@@ -53,7 +53,7 @@ toml::table& take_named(toml::array& list, std::string_view& key, std::string_vi
     return *found;
 }
 
-/// As the value of a TOML file; what is none is a text.
+/// Read as the value of a TOML file; anything else is a text.
 void set(toml::table& table, std::string_view key, const std::string& value, bool is_text) {
     if (is_text) {
         table.insert_or_assign(key, value);

@@ -26,7 +26,7 @@ struct SceneChanges {
     std::string option{};  ///< that they come from, for messages: "--set"
 };
 
-/// "KEY=VALUE". Throws std::invalid_argument with one line where it is none.
+/// "KEY=VALUE". Throws std::invalid_argument with one line for anything else.
 SceneChange parse_scene_change(std::string_view text);
 
 }  // namespace osteomill

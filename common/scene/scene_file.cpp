@@ -140,8 +140,8 @@ Motor read_motor(TomlReader reader) {
     return motor;
 }
 
-/// A matrix of seven digits is a rotation to seven digits alone, and a pose that goes there and back is
-/// another. Two steps of Newton's method make it one to the last bit; what is one stays.
+/// A matrix of seven digits is a rotation only to seven digits, and a pose mapped there and back would
+/// differ. Two steps of Newton's method make it a rotation to the last bit; an exact rotation stays as it is.
 glm::dmat3 orthonormal(const glm::dmat3& rotation, double defect) {
     if (defect < 1e-14) return rotation;
     glm::dmat3 better = rotation;
@@ -240,14 +240,14 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     return scene;
 }
 
-/// The file is known to be right.
+/// The file was read without an error before.
 Scene read_changed(toml::table root, const SceneChanges& changes, const std::filesystem::path& folder) {
     constexpr const char* no_file = "changed";
     try {
         for (const SceneChange& change : changes.changes) apply(change, root);
         return read_all(TomlReader(root, no_file, "the scene"), folder);
     } catch (const SceneError& error) {
-        // What was changed has no line.
+        // A changed value has no line.
         const std::string line = error.what();
         const bool has_place = line.starts_with(std::string(no_file) + ":");
         throw SceneError(changes.option + ": " + (has_place ? line.substr(line.find(": ") + 2) : line));

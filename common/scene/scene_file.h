@@ -1,6 +1,6 @@
 // Scene files: scenes read and written as TOML (scenes/*.toml are examples). Strict: an unknown, missing or
-// ill-typed key and a value out of range are errors with file, line and the valid choices; nothing is
-// silently defaulted that was written down.
+// ill-typed key and a value out of range are errors with file, line and the valid choices; a default never
+// silently replaces a written value.
 //
 //     name = "jaw"
 //     start_burr = "1.5 mm"
@@ -22,8 +22,8 @@
 //                      cylinder = { from_mm, to_mm, radius_mm }; margin_mm
 //     [pass]           time_s, plan_removed_share, plan_excess_mm3, structure_touches, peak_force_n
 //
-// Paths are relative to the scene file. Only name and [bone] are required; what is left out takes the
-// defaults of scene.h and the usual burr set at 10 000 rpm.
+// Paths are relative to the scene file. Only name and [bone] are required; all else has the defaults of
+// scene.h and the usual burr set at 10 000 rpm.
 #pragma once
 
 #include <filesystem>
@@ -42,8 +42,7 @@ class SceneError : public std::runtime_error {
     explicit SceneError(const std::string& message);
 };
 
-/// Throws SceneError for an unreadable file or a bad scene; where a change is to blame, "OPTION: what is
-/// wrong".
+/// Throws SceneError for an unreadable file or a bad scene; if a change is to blame, "OPTION: what is wrong".
 Scene read_scene(const std::filesystem::path& path, const SceneChanges& changes = {});
 
 /// As read_scene, from text. `name_for_messages` stands in messages; relative paths are resolved against
@@ -51,11 +50,11 @@ Scene read_scene(const std::filesystem::path& path, const SceneChanges& changes 
 Scene parse_scene(std::string_view text, const std::string& name_for_messages,
                   const std::filesystem::path& folder = {}, const SceneChanges& changes = {});
 
-/// How much of a scene is written: what differs from the defaults, or every key that has a value.
+/// Extent of a written scene: the keys that differ from the defaults, or every key that has a value.
 enum class SceneText { concise, complete };
 
 /// The scene as TOML for people: a line of comment before each block, every number in the fewest digits that
-/// are it. parse_scene gives the same scene back.
+/// read back as it. parse_scene gives the same scene back.
 std::string write_scene(const Scene& scene, SceneText extent = SceneText::concise);
 
 }  // namespace osteomill

@@ -63,12 +63,12 @@ class Keys {
         text_ += fmt::format("{} = {}\n", key, toml_text(value));
         return *this;
     }
-    /// Nothing where the value is what the key's absence means, unless all is written.
+    /// Nothing if the value is that of an absent key, unless all is written.
     template <typename Value>
     Keys& add(const char* key, const Value& value, const Value& usual) {
         return value == usual && !is_complete_ ? *this : add(key, value);
     }
-    /// Nothing where there is none.
+    /// Nothing if there is none.
     template <typename Value>
     Keys& add_if_any(const char* key, const Value& value) {
         return value.empty() ? *this : add(key, value);
@@ -77,7 +77,7 @@ class Keys {
         text_ += text;
         return *this;
     }
-    /// Empty where there are no keys.
+    /// Empty if there are no keys.
     std::string below(const char* heading) const { return text_.empty() ? "" : heading + text_; }
     const std::string& text() const { return text_; }
 

@@ -1,9 +1,9 @@
-// The milling steps whose result a tick was the first to see, as one whole number: with it the order in which
-// the loops of the real clock took turns is known, and a session can be computed again as it was.
+// The milling steps whose result a tick was the first to see, as one whole number. It records the order in
+// which the loops of the real clock took turns, so that a session can be computed again as it was.
 //
-// A digit of 65536 for each run of steps to one command, the oldest in the lowest: count + 32 * lag + 512 *
-// missed. So many steps (1 to 31) went to the command of the tick so many before (1 to 15), the first of them
-// after so many periods of its loop that were skipped (0 to 127).
+// A digit to base 65536 for each run of steps to one command, the oldest in the lowest: count + 32 * lag +
+// 512 * missed. `count` steps (1 to 31) went to the command of the tick `lag` before (1 to 15), the first of
+// them after `missed` skipped periods of its loop (0 to 127).
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,7 @@
 
 namespace osteomill {
 
-/// Steps of the milling loop to the command of one tick, of which periods were skipped before the first
-/// alone.
+/// Steps of the milling loop to the command of one tick. Only before the first of them were periods skipped.
 struct StepRun {
     std::uint64_t command = 0;
     std::uint64_t missed = 0;
@@ -32,10 +31,10 @@ struct StepTrace {
     bool operator==(const StepTrace&) const = default;
 };
 
-/// That a milling loop remembers; a number tells of one less.
+/// Runs that a milling loop remembers; a number holds one less.
 inline constexpr std::size_t newest_step_runs = 4;
 inline constexpr std::uint64_t step_run_digit = 65536;
-/// There were more, or they were too late to tell.
+/// There were more, or they were too late for a number to hold.
 inline constexpr std::uint64_t steps_not_told = step_run_digit * step_run_digit * step_run_digit;
 
 /// `runs` are those that `tick` is the first to see, in order. Real-time safe.
@@ -60,7 +59,7 @@ inline std::uint64_t code_of_steps(std::span<const StepRun> runs, std::uint64_t 
     return code;
 }
 
-/// Nothing where the number tells of none, or cannot be one.
+/// Nothing if the number holds no steps, or cannot be valid.
 inline std::optional<std::vector<StepTrace>> steps_of_code(std::uint64_t code, std::uint64_t tick) {
     if (code >= steps_not_told) return std::nullopt;
     std::vector<StepTrace> steps;

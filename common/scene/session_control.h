@@ -1,5 +1,5 @@
-// Controls of a session besides moving the tool, what came of it, and what can be done now. Plain
-// data; on the wire these are the messages SessionControl, SessionEvent and SessionStatus.
+// Controls of a session besides moving the tool, their outcomes, and what can be done now. Plain data; on the
+// wire these are the messages SessionControl, SessionEvent and SessionStatus.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ enum class SessionAction : std::uint8_t {
     speed,   ///< of the spindle, in place of the burrs' own
 };
 
-/// As a person says it: "undo".
+/// In people's words: "undo".
 const char* name_of(SessionAction action);
 
 struct SessionControl {
@@ -37,7 +37,7 @@ struct SessionControl {
     bool operator==(const SessionControl&) const = default;
 };
 
-/// Ten days: what is timed later in a session is a slip.
+/// Ten days: a later time in a session is a slip.
 inline constexpr double longest_session_s = 864'000.0;
 
 /// Speeds that can be set on a spindle, rev/min, as a scene's burrs have them.
@@ -51,7 +51,7 @@ inline bool is_spindle_speed(double rpm) {
 struct ControlEvent {
     double time_s = 0.0;  ///< session time
     SessionAction action = SessionAction::none;
-    std::string text{};  ///< a mark's note; the tool's place; what undo gave back; why it was refused
+    std::string text{};  ///< a mark's note; the tool's place; the bone of an undo; why it was refused
     bool is_refused = false;
 
     bool operator==(const ControlEvent&) const = default;

@@ -1,4 +1,4 @@
-// State of a session at one frame, without its bone: what clients receive and recordings keep.
+// State of a session at one frame, without its bone, as clients receive and recordings keep it.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@ namespace osteomill {
 
 struct SessionState {
     ToolState tool{};
-    std::vector<ControlEvent> events{};          ///< since the frame before: what was done to the session
-    SessionStatus status{};                      ///< what can be done to it now
+    std::vector<ControlEvent> events{};          ///< since the frame before: controls of the session
+    SessionStatus status{};                      ///< controls that are possible now
     std::vector<StructureDistance> distances{};  ///< to protected structures that are near or were touched
-    /// From where the one who moves the tool looks; only in a recording, and nothing where nobody said.
+    /// Viewpoint of the person who moves the tool; only in a recording, and nothing if nobody sent it.
     std::optional<Viewpoint> view{};
 };
 

@@ -20,7 +20,7 @@ struct StiffnessKnot {
     bool operator==(const StiffnessKnot&) const = default;
 };
 
-/// A tissue whose stiffness does not follow from CT numbers.
+/// A tissue whose stiffness is independent of CT numbers.
 struct TissueStiffness {
     std::uint8_t label = 0;
     double relative_stiffness = 1.0;
@@ -28,7 +28,7 @@ struct TissueStiffness {
     bool operator==(const TissueStiffness&) const = default;
 };
 
-/// A tissue whose stiffness is a multiple of what follows from CT numbers.
+/// A tissue whose stiffness is a multiple of the value from CT numbers.
 struct TissueFactor {
     std::uint8_t label = 0;
     double factor = 1.0;

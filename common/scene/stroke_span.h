@@ -1,4 +1,4 @@
-// The span of a stroke: what one undo gives back, and what the report counts.
+// The span of a stroke, which undo gives back slice by slice, and which the report counts.
 //
 // A stroke begins when the turning burr touches bone. It ends when the pedal comes up and no more bone goes,
 // or when the burr has been clear of bone for longest_gap_s: a tool is lifted and set down again within one

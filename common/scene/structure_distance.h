@@ -1,5 +1,5 @@
-// Distance of the burr from a protected structure, and what came of it so far. Plain data; on the wire it is
-// the message of that name.
+// Distance of the burr from a protected structure, with its touches and losses so far. Plain data; on the
+// wire it is the message of that name.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace osteomill {
 
-/// Contact that ends for less than this goes on.
+/// A touch that ends for less than this counts as going on.
 inline constexpr double touch_gap_s = 0.5;
 
 /// Structures farther than this from the burr get no distance.
@@ -35,16 +35,16 @@ struct StructureDistance {
     bool operator==(const StructureDistance&) const = default;
 };
 
-/// How much a person is to be warned of a protected structure; the graver the greater.
+/// Gravity of a warning of a protected structure; the graver the greater.
 enum class StructureWarning : std::uint8_t { none, near, touch };
 
 /// Near: closer than the tissue's warn_mm.
 StructureWarning warning_of(const StructureDistance& now, const Tissue& tissue);
-/// Of all of them, whose tissues are the session's.
+/// Gravest of all warnings; `tissues` are the session's.
 StructureWarning gravest_warning(std::span<const StructureDistance> distances,
                                  std::span<const Tissue> tissues);
 
-/// The one that the burr touches or is nearest to; null where none has a distance.
+/// The structure that the burr touches or is nearest to; null if none has a distance.
 const StructureDistance* nearest_structure(std::span<const StructureDistance> distances);
 
 }  // namespace osteomill

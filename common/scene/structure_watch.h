@@ -2,13 +2,14 @@
 // account of every touch: how often, how long, how much.
 //
 // The distance is that from the burr's head to the structure, from a distance field of the structure's own
-// (burr_clearance.h): within half a voxel for a ball. A touch is where they overlap, or bone of the structure
-// was milled since the state before. State i stands for the time since state i - 1. What the head has entered
-// are the structure's voxels whose centre lay inside it at a state. Bone of the structure is what lies in its
-// mask and what has its tissue's label, such as the voxels of its surface that are bone by less than half.
+// (burr_clearance.h): within half a voxel for a ball. A touch is a state in which they overlap, or bone of
+// the structure was milled since the state before. State i stands for the time since state i - 1. The head
+// has entered those voxels of the structure whose centre lay inside it at a state. Bone of the structure is
+// all bone in its mask or with its tissue's label, such as the voxels of its surface that are bone by less
+// than half.
 //
-// Costs a distance field for each structure, and a mask of what was entered once it is touched. Not for the
-// haptic loop: it allocates.
+// It takes a distance field for each structure, and a mask of the entered voxels once the structure is
+// touched. Not for the haptic loop: it allocates.
 #pragma once
 
 #include <optional>
@@ -23,7 +24,7 @@
 
 namespace osteomill {
 
-/// What came of a structure in a session.
+/// Account of a structure in a session.
 struct StructureAccount {
     StructureDistance last;              ///< as of the last state
     std::optional<double> nearest_mm{};  ///< smallest distance of all states; nothing: never within reach
@@ -32,7 +33,7 @@ struct StructureAccount {
 
 class StructureWatch {
   public:
-    /// Of nothing.
+    /// A watch over nothing.
     StructureWatch() = default;
     /// `structures`: of one bone, by the index of their tissue. Throws std::length_error, in one line, for
     /// one whose distance field would be too large.
@@ -44,15 +45,15 @@ class StructureWatch {
     /// voxels bear `labels` (nullptr: none).
     void note(const BrickChange& change, BrickFractions before, BrickFractions after,
               const ByteBrick* labels);
-    /// The next state of the session, when all changes before it have been noted. One of time 0 counts for
-    /// nothing: it is where the scene begins, the device has not been read yet.
+    /// The next state of the session, after note() of all changes before it. A state of time 0 does not
+    /// count: it is the scene's start, before the device has been read.
     void update(const ToolState& tool);
 
-    /// Of each structure that is near or was touched, as of the last state.
+    /// Distances of the structures that are near or were touched, as of the last state.
     const std::vector<StructureDistance>& distances() const { return distances_; }
-    /// Of all.
+    /// Accounts of all structures.
     std::vector<StructureAccount> accounts() const;
-    /// Of the masks and the distance fields.
+    /// Size of the masks and the distance fields.
     std::size_t memory_bytes() const;
 
   private:

@@ -42,7 +42,7 @@ void set_torque(TickSample& tick, double value) {
     (*tick.shank_torque_n_mm)[axis] = value;
 }
 
-/// What a number has beyond so many decimals.
+/// Rest of a number beyond so many decimals.
 template <int decimals>
 double beyond(double value) {
     return value - from_code(to_code(value, decimals), decimals);
@@ -77,7 +77,7 @@ void set_pedal(TickSample& tick, double value) {
     tick.input->pedal = static_cast<TickInput::Pedal>(value);
 }
 
-/// Counted from 1; 0: none is asked for.
+/// Counted from 1; 0: no burr is requested.
 double asked_burr(const TickSample& tick) {
     return tick.input && tick.input->burr ? static_cast<double>(*tick.input->burr + 1) : 0.0;
 }
@@ -122,7 +122,7 @@ constexpr TickQuantity along(const char* name, const char* unit, int decimals, b
             set_component<member, axis>};
 }
 
-/// Its recorded decimals are those of before; the rest comes behind.
+/// Recorded decimals are as in older recordings; the rest follows at the end.
 template <glm::length_t axis>
 constexpr TickQuantity hand_along(const char* name) {
     TickQuantity quantity = along<&TickSample::hand_mm, axis>(name, "mm", 4);
@@ -154,7 +154,7 @@ constexpr TickQuantity input(const char* name) {
 
 using T = TickSample;
 
-// Recordings have them in this order; whoever knows fewer leaves the last ones out.
+// Recordings have them in this order; a reader that knows fewer ignores the last ones.
 constexpr std::array quantities{one<&T::time_s>("t_s", "s", 4),
                                 hand_along<0>("hand_x_mm"),
                                 hand_along<1>("hand_y_mm"),

@@ -13,7 +13,7 @@
 
 namespace osteomill {
 
-/// What a tick took beside the hand's pose.
+/// Input of a tick besides the hand's pose.
 struct TickInput {
     /// In the order of their numbers in recordings.
     enum class Pedal : std::uint8_t {
@@ -37,8 +37,8 @@ struct TickSample {
     glm::dvec3 hand_mm{0.0};
     glm::dvec3 burr_mm{0.0};
     glm::dvec3 force_n{0.0};  ///< on the hand
-    /// Of the burr's lowest point below where it first met bone, along the spindle axis of that moment; 0
-    /// before.
+    /// Depth of the burr's lowest point below where it first met bone, along the spindle axis of that moment;
+    /// 0 before.
     double depth_mm = 0.0;
     double removed_mm3 = 0.0;  ///< since the start, or the first session of a bone that was carved before
     bool spindle_on = false;
@@ -47,7 +47,7 @@ struct TickSample {
     std::size_t burr = 0;                    ///< index into the session's burrs
     std::optional<glm::dvec3>
         shank_torque_n_mm{};  ///< of bone on the shank about the burr's centre; absent: no burr has one
-    /// With it the tick can be computed again. Absent: of an older recording, whose poses are rounded to 0.1
+    /// With it the tick can be computed again. Absent in an older recording, whose poses are rounded to 0.1
     /// um.
     std::optional<TickInput> input{};
 
@@ -61,12 +61,12 @@ struct TickSample {
     bool operator==(const TickSample&) const = default;
 };
 
-/// When a tick has a quantity.
+/// Condition under which a tick has a quantity.
 enum class TickPart : std::uint8_t {
     always,
     torque,  ///< where a burr has a shank
     input,   ///< where TickInput is known; readers of before do not know of it
-    rest,    ///< likewise: what a quantity of the hand's pose lacks of it, which setting it adds
+    rest,    ///< the same: missing decimals of the hand's pose, which setting it adds
 };
 
 /// One number of a tick. A log's columns are those that are `in_log`, in this order.

@@ -44,7 +44,7 @@ std::optional<TissueStrength> read_strength(TomlReader& reader) {
     return std::nullopt;
 }
 
-/// Of a tissue whose strength is said, the product must be one that a bone can hold.
+/// If a tissue's strength is given, a bone must be able to hold its product with the factor.
 double read_stiffness_factor(TomlReader& reader, const std::optional<TissueStrength>& strength) {
     const double factor = reader.number("stiffness_factor", {0.01, 100.0}).value_or(1.0);
     if (strength && !(factor * strength->relative_stiffness >= stiffness_per_code &&

@@ -8,15 +8,15 @@
 
 namespace osteomill {
 
-/// From how far a burr is warned of at most.
+/// Greatest distance of a burr at which a warning can be set.
 inline constexpr double most_warn_mm = 10.0;
 
-/// Where a scene does not say at what distance to warn of a tissue.
+/// Distance at which to warn of a tissue, if the scene gives none.
 inline double usual_warn_mm(bool is_protected) {
     return is_protected ? 1.0 : 0.0;
 }
 
-/// One of each table. Throws SceneError, in one line, for keys and values that cannot be, a label that stands
+/// One tissue from each table. Throws SceneError, in one line, for bad keys and values, a label that stands
 /// for two tissues, and a segment in a scene that names no segmentation.
 std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segmentation);
 

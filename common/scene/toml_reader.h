@@ -22,8 +22,8 @@ struct AllowedRange {
 
 class TomlReader {
   public:
-    /// `table_name` is how the table is called in messages, for instance "[burrs]". The table must outlive
-    /// the reader.
+    /// `table_name` is the table's name in messages, for instance "[burrs]". The table must outlive the
+    /// reader.
     TomlReader(const toml::table& table, std::string file, std::string table_name);
 
     /// Each takes a key: absent keys give nullopt; a wrong type or value throws SceneError, a text with
@@ -46,7 +46,7 @@ class TomlReader {
     std::optional<TomlReader> table(std::string_view key);
     std::vector<TomlReader> tables(std::string_view key);
 
-    /// Throws for the first key of the table that nothing asked for, naming those that were.
+    /// Throws for the first key of the table that was never requested, naming the requested ones.
     void refuse_other_keys() const;
 
     /// Throws SceneError at the line of a key (or of the table, if it has no such key).
@@ -67,7 +67,7 @@ class TomlReader {
     std::vector<std::string> known_keys_;
 };
 
-/// The value that was read for a key; throws SceneError where it was absent.
+/// The value that was read for a key; throws SceneError if it was absent.
 template <typename T>
 T required(const TomlReader& reader, std::string_view key, std::optional<T> value) {
     if (!value) reader.fail_missing(key);

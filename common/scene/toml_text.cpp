@@ -15,7 +15,7 @@ bool is_letter_or_digit(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-/// Goes over a text and knows what of it is a string or a comment.
+/// Walks over a text and tells strings and comments from the rest.
 class Skimmer {
   public:
     Skimmer(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -89,7 +89,7 @@ class Skimmer {
         while (at_ < text_.size()) {
             const char letter = text_[at_];
             if (letter == '\n') {
-                // A short string ends with its line, which the parser complains of.
+                // A short string ends with its line; the parser reports that.
                 if (!is_long) return;
                 ++line_;
             }

@@ -1,6 +1,6 @@
-// Text of a TOML file and the table it holds. A text is skimmed before it is parsed, for what toml++ crashes
-// on: it makes a table within a table for every dot of a key, and calls itself to take them down again; and
-// it takes for granted that a name begins behind "[[".
+// Text of a TOML file and the table it holds. Before a text is parsed, it is checked for anything on which
+// toml++ crashes: toml++ nests a table for every dot of a key, and frees them by recursion; and it assumes
+// that a name follows "[[".
 #pragma once
 
 #include <toml++/toml.h>
@@ -18,20 +18,19 @@ inline constexpr int most_toml_key_parts = 32;
 inline constexpr int most_toml_brackets = 32;
 inline constexpr std::size_t most_toml_bytes = 1u << 20;
 
-/// Of a text that is no TOML, in contrast to one that is too much of it.
+/// Error of a text that is no TOML, in contrast to one that is too large or too deep.
 class NotToml : public SceneError {
   public:
     using SceneError::SceneError;
 };
 
-/// Throws NotToml, with `name` and the line, for what is no TOML; SceneError, likewise, for a text of more
-/// than most_toml_bytes, a key of more than most_toml_key_parts, and brackets (lists and inline tables)
-/// deeper than most_toml_brackets.
+/// Throws NotToml, with `name` and the line, for a text that is no TOML; also with both, SceneError for a
+/// text of more than most_toml_bytes, a key of more than most_toml_key_parts, and brackets (lists and inline
+/// tables) deeper than most_toml_brackets.
 toml::table parse_toml(std::string_view text, const std::string& name);
 
-/// A file's text. Throws SceneError for what is not there or no file (a pipe, a device), and for what is
-/// larger than most_toml_bytes. `what` it is goes into the message: "a scene
-/// file".
+/// A file's text. Throws SceneError if it does not exist, is no regular file (a pipe, a device), or is larger
+/// than most_toml_bytes. `what` names its kind in the message: "a scene file".
 std::string read_toml_text(const std::filesystem::path& path, const char* what);
 
 }  // namespace osteomill

@@ -1,5 +1,5 @@
-// The state of the tool, the one type for it from the haptic loop to the picture. Plain data that holds all
-// it says within itself: the loop hands it on without allocating.
+// The state of the tool, the one type for it from the haptic loop to the picture. Plain data without
+// pointers: the loop hands it on without allocating.
 #pragma once
 
 #include <cstddef>
@@ -36,28 +36,28 @@ struct ToolState {
     double removed_mm3 = 0.0;  ///< since the server began
     bool touches_protected = false;
     BoundedLine fault{};   ///< why the force is off; empty while all is well
-    BoundedLine notice{};  ///< what something that was requested waits for; empty: nothing does
+    BoundedLine notice{};  ///< the reason for which a request waits; empty: none waits
     /// The server's wall clock when it took this off the haptic loop, ns since 1970; 0: not said.
     std::int64_t taken_unix_ns = 0;
     ToolDriver driver = ToolDriver::unknown;  ///< said to each client by the streaming server
-    /// Of the burr's tip below where it first met bone, along the spindle axis of that moment; 0 before.
-    /// Nothing where the server does not say.
+    /// Depth of the burr's tip below where it first met bone, along the spindle axis of that moment; 0
+    /// before. Nothing if the server does not send it.
     std::optional<double> depth_mm{};
     /// Nothing where the server does not say.
     std::optional<SolveCounts> solve{};
-    /// Moment of what bone does to the shank, about the burr's centre. Nothing where no burr has a shank, or
-    /// the server does not say.
+    /// Moment of the bone on the shank, about the burr's centre. Nothing if no burr has a shank, or the
+    /// server does not send it.
     std::optional<glm::dvec3> shank_torque_n_mm{};
-    /// Largest force on the hand since the server began. Nothing where the server does not say.
+    /// Largest force on the hand since the server began. Nothing if the server does not send it.
     std::optional<double> peak_force_n{};
-    /// Of the spindle, where it is not the burr's own: it was chosen, or is on the way there.
+    /// Speed of the spindle if it is not the burr's own: it was chosen, or is changing to the chosen one.
     std::optional<double> spindle_rpm{};
-    /// What the edges cut; the streaming server adds it. Nothing where nothing is cut, or it is not said.
+    /// State of the edges' cut; the streaming server adds it. Nothing if nothing is cut, or it is not sent.
     std::optional<CutState> cut{};
 };
 static_assert(std::is_trivially_copyable_v<ToolState>);
 
-/// Of the spindle while it turns, with `burr`, the tool's; rev/min.
+/// Speed of the spindle while it turns; `burr` is the tool's; rev/min.
 inline double spindle_rpm(const ToolState& tool, const Burr& burr) {
     return tool.spindle_rpm.value_or(60.0 * burr.spindle_rev_per_s);
 }

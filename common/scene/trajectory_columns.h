@@ -6,7 +6,7 @@
 namespace osteomill {
 
 inline constexpr std::string_view trajectory_columns = "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal";
-/// What may follow them.
+/// Column that may follow them.
 inline constexpr std::string_view trajectory_burr_column = ",burr";
 
 }  // namespace osteomill

@@ -19,7 +19,7 @@ class TurningBurrs {
     const std::vector<Burr>& all() const { return burrs_; }
     const Burr& operator[](std::size_t burr) const { return burrs_[burr]; }
 
-    /// Has a burr turn at a share of its own speed from now on. Real-time safe.
+    /// Lets a burr turn at a share of its own speed from now on. Real-time safe.
     const Burr& turn(std::size_t burr, double speed_share) noexcept {
         burrs_[burr].spindle_rev_per_s = speed_share * own_rev_per_s_[burr];
         return burrs_[burr];

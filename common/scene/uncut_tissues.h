@@ -1,4 +1,4 @@
-// Tissues that no burr cuts, as an implant or a probe's tip: they stay, and are a wall to it.
+// Tissues that no burr cuts, such as an implant or a probe's tip: they stay, and are a wall to the burr.
 #pragma once
 
 #include <array>

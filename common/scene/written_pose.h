@@ -1,5 +1,6 @@
-// Poses of the hand as recordings write them. The loops compute from these, so that what is recorded is what
-// was used: a motion that is recorded and fed again gives the same bone and the same forces, bit for bit.
+// Poses of the hand as recordings write them. The loops compute from these, so that a recording holds the
+// poses that were used: a recorded motion, played again, gives the same bone and the same forces, bit for
+// bit.
 //
 // A nanometre and a billionth of a radian are far below the step of any encoder. A direction that is rounded
 // so counts as one of unit length wherever one is read (unit_direction).
@@ -15,7 +16,7 @@ namespace osteomill {
 inline constexpr int hand_decimals_mm = 6;
 inline constexpr int axis_decimals = 9;
 
-/// The number with so many decimals that is nearest; what is one already stays as it is. Real-time safe.
+/// The nearest number with so many decimals; a number that has no more stays as it is. Real-time safe.
 template <int decimals>
 double with_decimals(double value) noexcept {
     constexpr double scale = decimals == hand_decimals_mm ? 1e6 : 1e9;

@@ -1,5 +1,5 @@
-// Passwords in addresses (postgresql://USER:PASSWORD@HOST/NAME): found, and taken out of what is printed or
-// written.
+// Passwords in addresses (postgresql://USER:PASSWORD@HOST/NAME): found, and removed from printed or written
+// text.
 #pragma once
 
 #include <cctype>

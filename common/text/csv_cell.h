@@ -1,4 +1,4 @@
-// A text as a cell of a CSV file (RFC 4180), which a spreadsheet takes for a text and does not compute.
+// A text as a cell of a CSV file (RFC 4180), which a spreadsheet shows as text and does not compute.
 #pragma once
 
 #include <string>

@@ -16,8 +16,8 @@ constexpr bool is_separator(char letter) {
     return letter == '/' || letter == '\\';
 }
 
-/// The text, cut after longest_file_name_characters; separators, control characters and what is no UTF-8
-/// become _. "." and "..", which are no names, become _ and __.
+/// The text, cut after longest_file_name_characters; separators, control characters and bytes that are no
+/// UTF-8 become _. "." and "..", which are no names, become _ and __.
 inline std::string as_file_name(std::string_view text) {
     const bool is_no_name = text == "." || text == "..";
     std::string name;

@@ -12,7 +12,7 @@
 
 namespace osteomill {
 
-/// Many times what any file of this project has.
+/// Many times the depth of any file of this project.
 inline constexpr std::size_t deepest_json = 100;
 
 /// How deep lists and objects are nested; some upper bound if the text is no JSON.

@@ -13,8 +13,8 @@ struct Utf8Character {
     bool is_utf8 = false;
 };
 
-/// Whether a character ends a line, or steers what shows it: the controls C0 and C1, the separators of lines
-/// and paragraphs, and what turns the direction of the text that follows (Unicode's bidirectional controls).
+/// Whether a character ends a line, or steers a terminal: the controls C0 and C1, the separators of lines and
+/// paragraphs, and Unicode's bidirectional controls, which turn the direction of the text that follows.
 constexpr bool is_control(char32_t code) {
     return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x061C || code == 0x200E ||
            code == 0x200F || (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);

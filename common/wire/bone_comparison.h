@@ -22,7 +22,7 @@
 
 namespace osteomill {
 
-/// Keeps a request within 3 KiB, and what it makes the other side do within one pass over its checksums.
+/// Keeps a request within 3 KiB, and the other side's work within one pass over its checksums.
 inline constexpr std::size_t most_parts_of_a_comparison = 128;
 
 /// A copy that needs more requests than this differs so widely that a fresh snapshot costs less.

@@ -1,4 +1,4 @@
-// A replica of a bone that is milled elsewhere: changes go in, what changed and the checksum come out.
+// A replica of a bone that is milled elsewhere: changes go in, changed voxels and the checksum come out.
 //
 // A server keeps one for its clients, a client keeps one of the server's bone, and a recording one of the
 // recorded bone.

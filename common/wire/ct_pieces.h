@@ -30,7 +30,7 @@ class CtPacker {
 class CtAssembler {
   public:
     /// A piece with a grid begins anew. Nothing until the last has come. Refuses pieces out of order, a grid
-    /// that is too large or impossible, and what cannot be unpacked; it is then empty again.
+    /// that is too large or impossible, and data that cannot be unpacked; it is then empty again.
     std::variant<std::shared_ptr<const CtVolume>, WireError> take(const v2::CtPiece& piece);
 
   private:

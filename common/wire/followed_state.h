@@ -18,7 +18,7 @@ enum class ReplicaCheck {
 
 struct FollowedState {
     ReplicaCheck check = ReplicaCheck::none;
-    /// A change raised what was left, as milling cannot: the replica had lost bone, and has it again. Those
+    /// A change raised a fraction, which milling cannot: the replica had lost bone, and has it again. Those
     /// that restore bone are no such changes.
     bool has_regained_bone = false;
 };

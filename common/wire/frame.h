@@ -16,8 +16,8 @@ class MessageLite;
 
 namespace osteomill {
 
-/// The largest message in a frame. It bounds what either side holds for a peer that it does not trust, and
-/// how long one frame keeps the next waiting; a snapshot is cut to fit.
+/// The largest message in a frame. It bounds the memory that either side holds for a peer that it does not
+/// trust, and how long one frame keeps the next waiting; a snapshot is cut to fit.
 inline constexpr std::size_t largest_frame_bytes = 128 * 1024;
 
 /// The largest that a client may send: it has far less to say than a server.
@@ -28,8 +28,8 @@ void append_frame(const google::protobuf::MessageLite& message, std::string& str
 /// Does the same with a message that has been serialised.
 void append_frame(std::string_view message, std::string& stream);
 
-/// Finds the frames in a stream that arrives in pieces of any size. It holds what has arrived and not yet
-/// been taken, and never makes room because a peer says so.
+/// Finds the frames in a stream that arrives in pieces of any size. It holds bytes that have arrived and were
+/// not yet read, and never allocates because of a peer's claim.
 class FrameDecoder {
   public:
     FrameDecoder() = default;

@@ -11,7 +11,7 @@ namespace osteomill {
 
 v2::Grid to_message(const Grid& grid);
 
-/// Refuses what require_valid() does.
+/// Refuses the same grids as require_valid().
 std::variant<Grid, WireError> grid_from(const v2::Grid& message);
 
 }  // namespace osteomill

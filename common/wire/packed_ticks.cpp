@@ -14,7 +14,7 @@ namespace osteomill {
 
 namespace {
 
-/// A quarter larger than what takes ten times as long.
+/// A quarter larger than with the level that takes ten times as long.
 constexpr int tick_compression_level = 3;
 /// The size of most_ticks_of_message ticks if each number takes the longest varint, and space for more
 /// quantities.

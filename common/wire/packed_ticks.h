@@ -25,7 +25,7 @@ inline constexpr std::size_t most_ticks_of_message = 128;
 
 /// Ticks of a state frame.
 struct TickBlock {
-    std::uint64_t missed = 0;  ///< that should be before them: the recorder had no room
+    std::uint64_t missed = 0;  ///< that should be before them: the recorder had no space
     std::vector<TickSample> ticks{};
     std::size_t bytes = 0;  ///< that they take in the frame
 };

@@ -29,7 +29,7 @@ static_assert(static_cast<int>(ToolDriver::unknown) == v2::TOOL_DRIVER_UNKNOWN &
                   static_cast<int>(ToolDriver::others_only) == v2::TOOL_DRIVER_OTHERS_ONLY,
               "the drivers have the numbers of the message");
 
-/// A newer server may say what this program does not know.
+/// A newer server may send values that this program does not know.
 ToolDriver driver_from(v2::ToolDriver driver) {
     return v2::ToolDriver_IsValid(driver) ? static_cast<ToolDriver>(driver) : ToolDriver::unknown;
 }

@@ -30,7 +30,7 @@ std::variant<std::vector<Burr>, WireError> burrs_from(
 std::variant<std::vector<Tissue>, WireError> tissues_from(
     const google::protobuf::RepeatedPtrField<v2::TissueDescription>& messages);
 
-/// Refuses what the above refuse, and a force limit that is no finite number of newtons. The protocol's
+/// Refuses as the functions above, and a force limit that is no finite number of newtons. The protocol's
 /// version is taken as it is.
 std::variant<SessionInfo, WireError> session_info_from(const v2::Hello& hello);
 

@@ -1,7 +1,7 @@
 // A server's frame with a checksum of its own, so that it can be trusted wherever it was kept.
 //
-// The checksum is the frame's last field, over the bytes before it: a reader hashes what it has and need not
-// serialise anything again, and any protobuf tool still reads the frame as the message that it is.
+// The checksum is the frame's last field, over the bytes before it: a reader hashes the received bytes and
+// need not serialise anything again, and any protobuf tool still reads the frame as the message that it is.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ std::variant<v2::ServerFrame, WireError> open_frame(std::span<const std::uint8_t
 bool has_sound_seal(std::span<const std::uint8_t> message);
 
 /// A sealed message with the time at which it is recorded, nanoseconds since 1970, sealed anew. Call only
-/// with what open_frame took as sealed.
+/// with a message that open_frame accepted as sealed.
 std::string with_recorded_time(std::span<const std::uint8_t> sealed_message, std::int64_t unix_ns);
 
 }  // namespace osteomill

@@ -34,7 +34,7 @@ struct SessionInfo {
     std::string trainee{};
     std::string case_name{};
     std::map<std::string, std::string> settings{};  ///< as haptic_server --json names them
-    std::string scene_toml{};  ///< the whole scene, which whoever reads it checks; empty: not said
+    std::string scene_toml{};  ///< the whole scene, which its reader checks; empty: not sent
 
     /// The burr of that number; null if the server has announced none.
     const Burr* burr_of(std::size_t number) const { return number < burrs.size() ? &burrs[number] : nullptr; }

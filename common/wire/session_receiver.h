@@ -35,9 +35,9 @@ struct StateArrived {
     SessionState state{};
     std::vector<ChangedBrick> changes{};           ///< in the order in which they are to be applied
     std::optional<std::uint64_t> bone_checksum{};  ///< after them
-    std::optional<v2::Comparison> comparison{};    ///< the answer to what was asked
+    std::optional<v2::Comparison> comparison{};    ///< the answer to a request
     TickBlock ticks{};                             ///< since the state before; only in recordings
-    bool follows_gap = false;  ///< frames before it are missing, and with them what they said of the bone
+    bool follows_gap = false;  ///< frames before it are missing, and with them their changes of the bone
 };
 
 /// Reaction of a receiver to a gap in the sequence of frames.

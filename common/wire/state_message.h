@@ -10,7 +10,7 @@
 
 namespace osteomill {
 
-/// Refuses what tool_from, control_events_from, structure_distances_from and viewpoint_from do, for so many
+/// Refuses as tool_from, control_events_from, structure_distances_from and viewpoint_from do, for so many
 /// burrs and tissues.
 std::variant<SessionState, WireError> session_state_from(const v2::StateFrame& message,
                                                          std::size_t burr_count, std::size_t tissue_count);

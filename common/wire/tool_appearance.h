@@ -5,7 +5,7 @@
 
 namespace osteomill {
 
-/// Less than a pixel shows, and about what a good arm's encoders tremble by.
+/// Less than a pixel, and about the tremble of a good arm's encoders.
 inline constexpr double quiet_motion_mm = 0.002;
 /// Less than a plot shows.
 inline constexpr double quiet_force_n = 0.002;

@@ -142,7 +142,7 @@ void BridgeArm::tell_who_waits() {
 }
 
 void BridgeArm::run() {
-    std::array<std::uint8_t, OMB_MESSAGE_BYTES + 1> buffer{};  // one more, so that what is too long is seen
+    std::array<std::uint8_t, OMB_MESSAGE_BYTES + 1> buffer{};  // one more, to notice too long a message
     PeerAddress from;
     BridgeCounts before;
     std::uint64_t request_ns = 0;

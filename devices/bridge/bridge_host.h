@@ -30,7 +30,7 @@ using PeerAddress = std::vector<std::uint8_t>;
 /// The force to send to the arm now.
 struct BridgeForce {
     glm::dvec3 force_n{0.0};      ///< on the hand, device space
-    glm::dvec3 torque_n_mm{0.0};  ///< on the hand, about what the arm's poses place
+    glm::dvec3 torque_n_mm{0.0};  ///< on the hand, about the point of the arm's poses
     bool is_off = true;           ///< nothing is rendered now
 };
 
@@ -55,7 +55,7 @@ class BridgeHost {
     /// A pose that answers an older force is too old to act on, and so is the answer to it.
     static constexpr std::uint64_t latest_round_trip_ns = 50'000'000;
     /// Most that an arm is believed to have kept a force before its pose. Its clock may run at any rate: by
-    /// ours a pose is never taken for fresher than it is by more than this.
+    /// ours a pose never seems fresher than it is by more than this.
     static constexpr std::uint64_t longest_kept_ns = 50'000'000;
     /// Round trips that the delay is taken from.
     static constexpr std::size_t round_trips_kept = 256;

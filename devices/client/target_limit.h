@@ -3,7 +3,7 @@
 //
 //     path since time 0  <=  room_mm + fastest_hand_mm_per_s * time,    room_mm = 2 longest_reach_mm
 //
-// The room allows messages that come late and in a burst: crossing the burr's reach from one side to the
+// The margin allows messages that come late and in a burst: crossing the burr's reach from one side to the
 // other once is allowed.
 #pragma once
 

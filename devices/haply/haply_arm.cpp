@@ -250,7 +250,7 @@ void HaplyArm::end(HaplyConnection& connection) {
         if (device_id_.empty() || !ask(connection)) return;
         if (sent_force_.is_felt()) connection.receive(fading_pace);
     } while (sent_force_.is_felt());
-    // Closed at once, the connection might take what was said last with it.
+    // If it were closed at once, the last message might be lost.
     for (const auto until = Clock::now() + longest_sending;
          unanswered_ > 0 && connection.is_open() && Clock::now() < until;)
         if (connection.receive(longest_receiving)) --unanswered_;

@@ -23,7 +23,7 @@ struct HaplyConnection::Socket {
     std::size_t taken = 0;  // bytes of the buffer that the caller has read
     bool is_open = false;
     bool is_reading = false;   // a read is under way
-    bool has_message = false;  // one has ended, and nobody has taken what came
+    bool has_message = false;  // one has ended, and its data were not read
 
     /// Until `is_done`, or too late.
     template <typename Condition>

@@ -25,7 +25,7 @@ class HaplyConnection {
     /// Connects and shakes hands, once. False: no answer, or the other end speaks no WebSocket.
     bool open(const ListenAddress& service, std::chrono::milliseconds longest);
 
-    /// False once the other end has gone, or sent what no WebSocket sends, or too long a message.
+    /// False once the other end has gone, or broke the protocol of WebSocket, or sent too long a message.
     bool is_open() const;
 
     /// False: it is not open any more.

@@ -1,4 +1,4 @@
-// Figures of Haply's Inverse3, of what coupling and mapping want to know of an arm.
+// Figures of Haply's Inverse3 that coupling and mapping need.
 //
 // Axes, as the service has them by default: right-handed, x to the right, y away from the user, z up, the
 // origin at the base (docs.haply.co, Inverse SDK 3.5, "Basis Permutation"). Device space is the same in mm.
@@ -13,9 +13,9 @@
 namespace osteomill {
 
 struct Inverse3Profile {
-    /// Half of what is said of its peak, 10 N. A hand that mills feels 1 to 3 N; and a spring of the
-    /// stiffness below that is drawn to 10 N holds 50 mJ, which the watchdog takes for a fault when it lets
-    /// go (15 mJ, safety/watchdog.h).
+    /// Half of its stated peak, 10 N. A hand that mills feels 1 to 3 N; and a spring of the stiffness below
+    /// that is drawn to 10 N holds 50 mJ, which the watchdog sees as a fault when it lets go (15 mJ,
+    /// safety/watchdog.h).
     double max_force_n = 5.0;
     /// Our own: the force also passes the service, USB and the service's filters ("Filters", same place).
     double max_stiffness_n_per_mm = 1.0;

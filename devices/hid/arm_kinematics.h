@@ -37,8 +37,8 @@ class ArmKinematics {
     /// or folded, some forces do not reach the motors, and the result is not finite.
     glm::dvec3 force_n(const glm::dvec3& angles_rad, const glm::dvec3& currents_a) const noexcept;
 
-    /// Unit vector from tip to shank: the profile's fixed axis, or what the stylus's counters say,
-    /// Rz(A) Ry(pi/2 - C) Rx(D) Ry(E) Rx(F) with D, E, F from the counters f, e, d.
+    /// Unit vector from tip to shank: the profile's fixed axis, or by the stylus's counters, Rz(A) Ry(pi/2 -
+    /// C) Rx(D) Ry(E) Rx(F) with D, E, F from the counters f, e, d.
     glm::dvec3 spindle_axis(const glm::dvec3& angles_rad,
                             const std::array<int, 3>& stylus_counts) const noexcept;
 

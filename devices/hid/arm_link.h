@@ -61,8 +61,8 @@ class ArmLink {
     /// are there. Allocates nothing.
     void receive(int wait_ms, double now_s) noexcept;
 
-    /// Takes over what was received, at `now_s` (never decreases), and answers the device. `wanted_n`: the
-    /// force on the hand, device space, if there is a fresh one. Allocates nothing.
+    /// Reads the received report, at `now_s` (never decreases), and answers the device. `wanted_n`: the force
+    /// on the hand, device space, if there is a fresh one. Allocates nothing.
     void answer(double now_s, const std::optional<glm::dvec3>& wanted_n) noexcept;
 
     State state() const { return state_; }

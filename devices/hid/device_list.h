@@ -8,11 +8,11 @@
 
 namespace osteomill {
 
-/// A line for each haptic arm and 3D mouse: its path, its kind, and whether it can be opened or what would
-/// help. Tries to open each. One line if there is none.
+/// A line for each haptic arm and 3D mouse: its path, its kind, and whether it can be opened, or the remedy.
+/// Tries to open each. One line if there is none.
 std::string device_list(HidTransport& transport);
 
-/// The same devices, by whether they can be opened: each with its path, and with what would help.
+/// The same devices, by whether they can be opened: each with its path and the remedy.
 struct HidReadiness {
     std::vector<std::string> ready{};
     std::vector<std::string> closed{};

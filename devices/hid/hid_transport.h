@@ -19,7 +19,7 @@ struct HidDeviceInfo {
     std::string product{};  ///< as the device calls itself
 };
 
-/// One line that says what stands in the way of opening a device, and what would help.
+/// One line with the obstacle to opening a device, and the remedy.
 class HidOpenError : public std::runtime_error {
   public:
     HidOpenError(const std::string& message, bool needs_permission)

@@ -5,7 +5,7 @@
 
 namespace osteomill {
 
-/// Advice on what to install, for a user without permission.
+/// Advice about installation, for a user without permission.
 inline constexpr const char* udev_rule = "scripts/udev/70-osteomill.rules";
 
 class HidapiTransport final : public HidTransport {

@@ -1,6 +1,6 @@
 // A 3D mouse as a device of the loops: it has a position, by integration, and no force of its own. Its puck
 // moves the target of a simulated hand that holds a simulated arm, as a client's mouse does, so that the tool
-// yields to bone; the force on that hand is what clients show.
+// yields to bone; clients show the force on that hand.
 //
 //     d(target)/dt = fastest_mm_per_s |u| u,  u: deflection, a share of the full one     (fine about the
 //     centre)

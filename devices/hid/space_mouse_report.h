@@ -21,8 +21,7 @@ struct SpaceMouseState {
     glm::dvec3 rotation{0.0};  ///< about those axes
     std::uint32_t buttons = 0;
 
-    /// Takes over what a report says; false for one that means nothing, which changes nothing. Real-time
-    /// safe.
+    /// Applies a report; false for a meaningless one, which changes nothing. Real-time safe.
     bool take(std::span<const std::uint8_t> report) noexcept;
 };
 

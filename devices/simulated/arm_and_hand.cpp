@@ -9,7 +9,7 @@ namespace {
 constexpr double two_pi = 6.28318530717958647692;
 constexpr double mm_per_m = 1000.0;  // N / kg = m / s^2
 
-/// Unit vector along a velocity, fading to nothing well below 1 mm/s, where a hand has no direction.
+/// Unit vector along a velocity, fading to zero well below 1 mm/s, at which a hand has no direction.
 glm::dvec3 direction_of(const glm::dvec3& velocity_mm_per_s) noexcept {
     constexpr double hardly_moving_mm_per_s = 0.3;
     return velocity_mm_per_s / (glm::length(velocity_mm_per_s) + hardly_moving_mm_per_s);
@@ -28,7 +28,7 @@ glm::dvec3 ArmAndHand::spring_force_n(const HandTarget& target) noexcept {
                                                          glm::dot(error_mm, target.spindle_axis) *
                                                          target.spindle_axis;
     const double corrected_pull_n = hand_.stiffness_n_per_mm * glm::length(error_mm + corrected_mm);
-    // Whoever already pushes as hard as he will does not store up more.
+    // A hand that already pushes as hard as it will does not store up more.
     if (corrected_pull_n <= hand_.max_push_n || corrected_pull_n <= pull_n) correction_mm_ = corrected_mm;
 
     const glm::dvec3 force_n = hand_.stiffness_n_per_mm * (error_mm + correction_mm_);

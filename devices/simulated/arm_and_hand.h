@@ -2,8 +2,8 @@
 //
 // Semi-implicit Euler: velocity first, with damping taken at the step's end, then position with the new
 // velocity. Coulomb friction is an impulse of at most F_f dt against the velocity that the other forces would
-// leave; where that would reverse the motion, the arm stands still. So it sticks and slips without a
-// threshold speed and never adds energy.
+// leave; if it would reverse the motion, the arm stands still. So it sticks and slips without a threshold
+// speed and never adds energy.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,7 +13,7 @@
 
 namespace osteomill {
 
-/// Where the person means the tool to be, device space.
+/// The tool's place as the person intends it, device space.
 struct HandTarget {
     glm::dvec3 position_mm{0.0};
     glm::dvec3 velocity_mm_per_s{0.0};

@@ -13,7 +13,7 @@ namespace osteomill {
 
 namespace {
 
-/// Waypoints lie no farther apart than this, so that circles are round to a thousandth of a millimetre.
+/// Greatest distance between waypoints: circles are round to a thousandth of a millimetre.
 constexpr double waypoint_spacing_mm = 0.1;
 
 /// Lays waypoints one after the other, each at a speed from the last.

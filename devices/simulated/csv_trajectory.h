@@ -18,7 +18,7 @@ namespace osteomill {
 
 /// Throws std::runtime_error with one line: file, line, what is wrong, what would be right.
 std::vector<Waypoint> read_trajectory_csv(const std::filesystem::path& file, std::size_t burr_count);
-/// The same of a text; `name` stands for the file in errors.
+/// The trajectory in a text; `name` stands for the file in errors.
 std::vector<Waypoint> read_trajectory_csv(const std::string& text, const std::string& name,
                                           std::size_t burr_count);
 

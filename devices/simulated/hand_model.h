@@ -4,8 +4,8 @@
 //     F_hand = K (x_target + c - x) + B (v_target - v) + g F_f u    |K (...)| <= max_push
 //     dc/dt  = 2 pi f a a^T (x_target - x)                     f = correction_hz, a = spindle axis
 //
-// u points along v_target: a hand that knows its arm pushes along the share g of the friction F_f that it has
-// got used to. Without it the tool of a light hand trails a millimetre behind and cuts corners.
+// u points along v_target: a hand used to its arm adds the share g of the friction F_f to its push. Without
+// that the tool of a light hand trails a millimetre behind and cuts corners.
 //
 // Sources. The form, a second-order lump, is that of Hajian and Howe (J. Biomech. Eng. 119:109, 1997: the
 // finger in extension, a few hundred N/m, 2 to 7 N s/m, a few grams), Kuchenbecker, Park and Niemeyer (ASME
@@ -41,7 +41,7 @@ struct HandModel {
 /// How the stylus is held. `firm` is the default of the programs: a dentist holds the handpiece in a pen grip
 /// with the ring finger rested on a tooth, which is the stiffer of the two.
 enum class Grip { light, firm };
-/// Of no hand at all: the stylus is guided, and no force holds it back.
+/// Name for no hand at all: the stylus is guided, and no force holds it back.
 inline constexpr const char* rails_name = "rails";
 
 inline const char* name_of(std::optional<Grip> grip) {

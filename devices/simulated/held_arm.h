@@ -13,7 +13,7 @@ namespace osteomill {
 
 class HeldArm {
   public:
-    /// Longest time that one call integrates, so that it stays short: after a longer suspension of the
+    /// Longest time that one call integrates, so that calls stay short: after a longer suspension of the
     /// machine the arm is where it was.
     static constexpr double longest_catch_up_s = 0.1;
 
@@ -23,13 +23,13 @@ class HeldArm {
     /// `target_mm`, with its spindle along `spindle_axis` (unit). Real-time safe.
     void advance(double now_s, const glm::dvec3& target_mm, const glm::dvec3& spindle_axis) noexcept;
 
-    /// Force of the motors from now on, or from the arm's delay on, if it is said once a ms; clamped to their
+    /// Force of the motors from now on, or after the arm's delay if it is set once a ms; clamped to their
     /// maximum, zero if not finite. Real-time safe.
     void set_motor_force(const glm::dvec3& force_n) noexcept;
 
     /// As the encoders read it at the last advance.
     const PositionSensor& sensor() const { return sensor_; }
-    /// Where the arm really is.
+    /// The arm's true motion.
     const ArmAndHand& truth() const { return motion_; }
 
   private:
@@ -38,7 +38,7 @@ class HeldArm {
     PositionSensor sensor_;
     glm::dvec3 target_mm_;
     glm::dvec3 motor_force_n_{0.0};
-    std::vector<glm::dvec3> late_n_;  // what was said and does not act yet: a ring
+    std::vector<glm::dvec3> late_n_;  // a ring of forces that do not act yet
     std::size_t next_late_ = 0;
     long long substeps_done_ = 0;
     double read_at_s_ = 0.0;

@@ -17,16 +17,16 @@ class PrescribedDevice final : public HapticDevice {
     /// Patient space. Until it is moved the hand rests at `start`, with the pedal up.
     PrescribedDevice(const ToolPose& start, const DeviceMapping& mapping, const DeviceLimits& limits = {});
 
-    /// Where the hand is from the next reading on. Patient space; `axis` is a unit vector. Between two
-    /// readings, from the thread that advances the session. Rounded as the loop rounds it, and with it the
-    /// velocity.
+    /// Places the hand from the next reading on. Patient space; `axis` is a unit vector. Call between two
+    /// readings, from the thread that advances the session. The pose is rounded as the loop rounds it, and so
+    /// is the velocity.
     void move_to(const ToolPose& hand) noexcept { hand_ = as_written(hand); }
     void press(bool pedal) noexcept { pedal_ = pedal; }
     /// Number in the scene's set, from 0.
     void take_burr(std::size_t burr) noexcept { burr_ = burr; }
 
     std::string name() const override { return "prescribed hand"; }
-    /// Of an ideal arm (DeviceLimits), unless others were given.
+    /// The limits of an ideal arm (DeviceLimits), unless others were given.
     DeviceLimits limits() const override { return limits_; }
     void start() override {}
     /// The velocity is the mean since the reading before.

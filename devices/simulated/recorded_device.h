@@ -1,5 +1,4 @@
-// A device that says again, tick by tick, what a recorded one said to the loop. No hardware, no thread;
-// deterministic.
+// A device that repeats, tick by tick, the readings of a recorded one. No hardware, no thread; deterministic.
 #pragma once
 
 #include <optional>
@@ -16,7 +15,7 @@ class RecordedDevice final : public HapticDevice {
     RecordedDevice(const DeviceLimits& limits, const DeviceMapping& mapping)
         : limits_(limits), mapping_(mapping) {}
 
-    /// What is read from now on: the hand's pose and the input of a tick, which has one.
+    /// Sets the next readings: the hand's pose and the input of a tick, which must have one.
     void say(const TickSample& tick) noexcept { tick_ = tick; }
 
     std::string name() const override { return "recorded hand"; }

@@ -10,7 +10,8 @@ namespace osteomill {
 
 namespace {
 
-/// A tick's time is a sum of milliseconds, a file's is rounded: what begins with a tick has begun then.
+/// A tick's time is a sum of milliseconds, a file's is rounded: a waypoint due at a tick has been reached by
+/// then.
 constexpr double rounding_s = 1e-6;
 
 }  // namespace

@@ -1,9 +1,9 @@
 // A haptic arm in a hand that follows a trajectory; no hardware. Deterministic: what it reads depends on the
 // trajectory, the forces written and the times of reading, and on nothing else.
 //
-// The hand waits for its tool. A person who drills does not let the intent run centimetres ahead of a burr
-// that hard bone holds back, but feeds more slowly: trajectory time passes at a pace that falls with the
-// distance e between target and tool,
+// The hand waits for its tool. If hard bone holds the burr back, a person does not aim centimetres ahead of
+// it, but feeds more slowly: trajectory time passes at a pace that falls with the distance e between target
+// and tool,
 //
 //     d(trajectory time)/dt = clamp((e_slowest - e) / (e_slowest - e_full), slowest_pace, 1)
 #pragma once
@@ -19,7 +19,8 @@ namespace osteomill {
 
 class SimulatedDevice final : public HapticDevice {
   public:
-    /// A hand holds its line to about a millimetre without slowing down, and does not push on three away.
+    /// A hand keeps its line to about a millimetre without slowing down, and does not push on if the tool is
+    /// three away.
     static constexpr double full_pace_within_mm = 1.0;
     static constexpr double slowest_pace_from_mm = 3.0;
     /// Never zero, so that every trajectory ends: against a wall after twenty times its duration.
@@ -29,7 +30,7 @@ class SimulatedDevice final : public HapticDevice {
     /// the trajectory begins.
     SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm,
                     const HandModel& hand);
-    /// On rails: always exactly on the trajectory, whatever the force, as the recorded arm was.
+    /// An arm on rails: always exactly on the trajectory, whatever the force, as the recorded arm was.
     SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm);
 
     std::string name() const override { return "simulated arm"; }
@@ -43,10 +44,10 @@ class SimulatedDevice final : public HapticDevice {
     /// Whether the trajectory has been followed to its end. Any thread.
     bool is_finished() const noexcept { return is_finished_.load(std::memory_order_relaxed); }
 
-    /// How much of the trajectory has been followed, 0 to 1; 0 of one that never ends. Only from the thread
-    /// that reads.
+    /// Share of the trajectory that has been followed, 0 to 1; 0 for one that never ends. Only from the
+    /// thread that reads.
     double done() const noexcept { return trajectory_time_s_ / duration_s(); }
-    /// Of the trajectory, at full pace; infinite for one that never ends.
+    /// Duration of the trajectory at full pace; infinite for one that never ends.
     double duration_s() const noexcept { return trajectory_.duration_s(); }
 
     const HeldArm& held_arm() const { return held_arm_; }

@@ -175,7 +175,7 @@ std::optional<SampledMotion::Pose> SampledMotion::at(double now_s) noexcept {
     clock_fault_ = ClockFault::none;
     if (count_ == 0) return std::nullopt;
     const double silence_s = std::clamp(silent_periods * period_s_, least_silence_s, most_silence_s);
-    // A loop that stood still itself does not play what it missed.
+    // A loop that stood still itself does not play the missed samples.
     if (now_s - newest().arrival_s > silence_s || (plays_ && elapsed_s > silence_s)) begin_anew();
     if (count_ < 3) return std::nullopt;
     clock_fault_ = judge_clock();

@@ -27,8 +27,8 @@
 // the tool is lost, and the next sample starts anew. A clock that was set has the same effect.
 //
 // The sender's clock is trusted only as far as ours bears it out: it may run fast, slow, jump, stand or wrap,
-// and a link may hold back more and more of what is sent. More than longest_behind_s behind the delay, the
-// tool is lost, for as long as that lasts:
+// and a link may delay messages more and more. More than longest_behind_s behind the delay, the tool is lost,
+// for as long as that lasts:
 //
 //     ahead    the clock gained more on ours lately than longest_behind_s (it runs fast, or jumped), or
 //              playback cannot keep up with it

@@ -10,7 +10,7 @@ struct CheckRow {
     std::string what;    ///< such as "page locking"
     std::string found;   ///< as it is: "allowed", "not allowed"
     std::string cost{};  ///< the effect that a user notices; empty: nothing is wrong
-    std::string mend{};  ///< a command, or where none helps what to do
+    std::string mend{};  ///< a command, or advice if none helps
     /// A session goes without: it costs comfort, not safety or data.
     bool can_wait = false;
 

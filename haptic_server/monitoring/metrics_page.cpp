@@ -149,7 +149,7 @@ class MetricsPage::Impl {
 
     std::function<std::string()> text_;
     std::vector<std::string> names_;
-    asio::io_context io_{1};  // what is under way in it goes before what it asks
+    asio::io_context io_{1};  // data under way in it go before its requests
     tcp::acceptor acceptor_;
     asio::steady_timer timer_{io_};
     std::array<std::weak_ptr<Visit>, most_visits> visits_{};

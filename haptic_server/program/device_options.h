@@ -17,7 +17,7 @@ namespace osteomill {
 struct DeviceChoice {
     const DeviceEntry* entry = &devices().front();
     PrepareDevice prepare = entry->checked(TypedOptions());
-    std::vector<NamedFile> files_read{};  ///< by what was typed
+    std::vector<NamedFile> files_read{};  ///< by the typed option
     bool lists_devices = false;           ///< and does nothing else
 };
 

@@ -64,7 +64,7 @@ bool is_utf8(const std::string& text) {
     }
 }
 
-/// NAME.histograms.json of NAME.json; nowhere for what is no file, such as /dev/stdout.
+/// NAME.histograms.json of NAME.json; nowhere if that is no file, such as /dev/stdout.
 std::optional<std::filesystem::path> histograms_beside(const std::filesystem::path& json) {
     std::error_code unknown;
     if (std::filesystem::exists(json, unknown) && !std::filesystem::is_regular_file(json, unknown))

@@ -17,7 +17,7 @@ void StatusLine::show(const ToolState& tool, Clock::time_point now, std::optiona
         "{:7.1f} s{}   force {:5.2f} N   removed {:8.2f} mm^3   spindle {}{}", tool.time_s,
         done ? fmt::format(" ({:.0f} %)", 100.0 * *done) : "", glm::length(tool.force_n), tool.removed_mm3,
         tool.spindle_on ? "on " : "off", tool.touches_protected ? "   PROTECTED TISSUE" : "");
-    // To the line's start, and erase what the last one left.
+    // To the line's start, and erase the rest of the last one.
     out_.write(is_terminal_ ? fmt::format("\r{}\033[K", line) : line + "\n");
     is_line_open_ = is_terminal_;
 }

@@ -186,7 +186,7 @@ class Repeat {
         } catch (const std::invalid_argument& error) {
             throw NotRepeatable(error.what());
         }
-        // Its row says what was removed until the next.
+        // Its row has the volume removed until the next.
         const std::optional<TickSample> before = made_.take();
         const bool is_equal = !before_ || (before && is_as(*before_, *before, tick - 1));
         before_ = recorded;

@@ -86,12 +86,12 @@ void read(const ReplayOptions& options, const std::atomic<bool>& stop) {
     });
     for (RecordingCsv& table : tables) table.close();
     if (sound) sound->close();
-    // Names may be what a hostile file holds: bytes that are no UTF-8 must not cost the whole report.
+    // Names may come from a hostile file: bytes that are no UTF-8 must not cost the whole report.
     if (options.json)
         write_atomic_file(
             *options.json,
             to_json(summary).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-    // Whoever asks for the text waits for it, and ends the program if nobody takes it.
+    // A user who requests the text waits for it, and ends the program if nobody takes it.
     end_on_signals();
     if (options.info) fmt::print("{}", to_text(summary));
     if (!summary.error.empty()) throw std::runtime_error(summary.error);

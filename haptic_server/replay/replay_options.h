@@ -17,7 +17,7 @@ struct ReplayOptions {
     Access access;
     double speed = 1.0;
     double from_s = 0.0;
-    bool info = false;  ///< print what is in the recording
+    bool info = false;  ///< print the recording's contents
     std::optional<std::filesystem::path> json;
     std::optional<std::filesystem::path> csv;  ///< one row per tick, if the recording holds ticks
     std::optional<std::filesystem::path> states_csv;

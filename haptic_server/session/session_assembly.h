@@ -60,8 +60,8 @@ class SessionAssembly {
     ShownSession* shown() { return shown_ ? &*shown_ : nullptr; }
 
     /// Starts the device, runs until the duration has passed, `stop` is set, the simulated hand is at its
-    /// trajectory's end or a client ends the session, and stops the device. Once. Throws what
-    /// HapticDevice::start() throws.
+    /// trajectory's end or a client ends the session, and stops the device. Once. Throws as
+    /// HapticDevice::start() does.
     void run(const std::atomic<bool>& stop, const OnProgress& on_progress = {});
 
     // Or, on the virtual clock, in this order and in steps.

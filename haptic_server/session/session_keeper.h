@@ -15,8 +15,8 @@ namespace osteomill {
 
 class SessionKeeper {
   public:
-    /// Writes a bone, or its surface if there is an ending of mesh_endings; says in one line what is wrong
-    /// with it, or nothing. Called on a thread of its own.
+    /// Writes a bone, or its surface if there is an ending of mesh_endings; returns one line about an error,
+    /// or nothing. Called on a thread of its own.
     using Save = std::function<std::string(const Bone&, const std::string& mesh_ending)>;
 
     /// An empty `save`: there is no file to save in, and it is refused.
@@ -25,8 +25,8 @@ class SessionKeeper {
     SessionKeeper(const SessionKeeper&) = delete;
     SessionKeeper& operator=(const SessionKeeper&) = delete;
 
-    /// For the session's controls, called on their thread. Outlived by this. A save takes a copy of what is
-    /// left of the bone until it is written; one at a time.
+    /// For the session's controls, called on their thread. Outlived by this. A save holds a copy of the
+    /// bone's fractions until it is written; one at a time.
     SessionControls::Requests requests();
 
     /// Any thread: in the log, and to clients, as the answer to a save. A failure to save or record is

@@ -44,10 +44,10 @@ struct SessionScene {
     SceneDigests digests{};
 };
 
-/// Loads what is chosen; a bone that comes without a scene gets one, with the tool above it. Doubtful data
-/// are logged. Throws in one line as the readers of scenes, cases and images do. `similar`: a session scene
-/// of the same case with other settings, whose bone is shared if the settings lead to the same bone; null:
-/// there is none.
+/// Loads the chosen scene or bone; a bone that comes without a scene gets one, with the tool above it.
+/// Doubtful data are logged. Throws in one line as the readers of scenes, cases and images do. `similar`: a
+/// session scene of the same case with other settings, whose bone is shared if the settings lead to the same
+/// bone; null: there is none.
 SessionScene load_session_scene(const SceneChoice& choice, const SessionScene* similar = nullptr);
 
 }  // namespace osteomill

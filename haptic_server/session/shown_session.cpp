@@ -56,7 +56,7 @@ SessionInfo info_of(const ShownOptions& options, const SessionScene& scene, cons
     return info;
 }
 
-/// Clients are told what is wrong with the recording as with saving.
+/// Clients receive errors of the recording like those of saving.
 StreamingOptions with_teller(StreamingOptions streaming, SessionKeeper& keeper) {
     if (streaming.record) streaming.record->tell = [&keeper](const std::string& line) { keeper.tell(line); };
     return streaming;

@@ -17,7 +17,7 @@
 namespace osteomill {
 
 struct ShownOptions {
-    StreamingOptions streaming{};            ///< whom, where, and what is recorded
+    StreamingOptions streaming{};            ///< to whom, where, and the recording
     ControlScript script{};                  ///< requests that come at given times without anybody
     const OutputPlace* save_bone = nullptr;  ///< where a client may have the bone saved; outlives the session
     std::string words_at_finish{};           ///< the answer to the client that ends the session

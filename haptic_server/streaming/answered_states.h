@@ -19,8 +19,8 @@ class AnsweredStates {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// Input that answers an older state moves nothing. The limit leaves room for a round trip of 200 ms and
-    /// the time between two state frames; a person on such a link still sees the present situation.
+    /// Input that answers an older state moves nothing. The limit allows for a round trip of 200 ms and the
+    /// time between two state frames; a person on such a link still sees the present situation.
     static constexpr std::chrono::milliseconds longest_age{250};
 
     enum class Answer {

@@ -76,7 +76,7 @@ void ClientConnection::pump() {
     if (feed_.newest_state() != sent) answers_.sent(feed_.newest_state(), std::chrono::steady_clock::now());
     if (!frame) {
         // The client closes when it has read goodbye. Closing first could reset the connection and destroy
-        // what it has not read yet.
+        // data that it has not read yet.
         if (feed_.is_finished()) stream_->end_writing();
         return;
     }

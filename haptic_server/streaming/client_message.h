@@ -30,7 +30,8 @@ struct MessagingClient {
 /// Outcome of an operator's input, accepted or not; see AnsweredStates.
 using Answer = AnsweredStates::Answer;
 
-/// The first message of a client must be a hello of this major version; the error names what came instead.
+/// The first message of a client must be a hello of this major version; the error names the message that came
+/// instead.
 std::optional<WireError> check_greeting(const v2::ClientFrame& frame);
 
 /// Any later message. An operator's input is given to the lease if it is fresh. A control of the session is

@@ -14,10 +14,10 @@ namespace osteomill {
 
 namespace {
 
-/// Bounds what strangers can make the server hold; a class of students looks on through far fewer.
+/// Bounds the memory that strangers can make the server hold; a class of students needs far fewer.
 constexpr std::size_t most_clients = 32;
 
-/// A client says hello within two round trips; this leaves room for a machine that is busy.
+/// A client says hello within two round trips; this allows for a busy machine.
 constexpr std::chrono::seconds patience{10};
 
 std::int64_t unix_time_ns() {

@@ -39,7 +39,7 @@ class ConnectionQuota {
     /// At least one.
     explicit ConnectionQuota(std::size_t most) : most_(most) {}
 
-    /// The connection that has to go before another can be added; none if there is room.
+    /// The connection that has to go before another can be added; none if the quota is not reached.
     std::optional<Id> next_to_go() const;
     void add(Id id, const Origin& origin, Time now);
     /// False if it has none.

@@ -14,7 +14,7 @@ class ControlLease {
     using Time = std::chrono::steady_clock::time_point;
     using ClientId = std::uint64_t;
 
-    /// Long enough to look at what one has milled, short enough for a colleague who waits.
+    /// Long enough to inspect one's milling, short enough for a colleague who waits.
     static constexpr std::chrono::seconds longest_rest{30};
 
     bool is_open_to(ClientId client, Time now) const {

@@ -9,7 +9,7 @@ namespace osteomill {
 
 class FramePace {
   public:
-    /// A frame that says more keeps what comes behind it waiting: this is a second of a link of 256 kbit/s.
+    /// A larger frame keeps the next ones waiting: this is a second of a link of 256 kbit/s.
     static constexpr std::size_t most = 32 * 1024;
     /// Less would be mostly the tool.
     static constexpr std::size_t least = 2 * 1024;

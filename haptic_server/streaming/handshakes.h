@@ -37,7 +37,7 @@ class Handshakes {
     void cancel();
 
   private:
-    /// Closes what has not been handed on.
+    /// Closes connections that were not passed on.
     struct Handshake {
         Handshake(boost::asio::ip::tcp::socket its_socket, boost::asio::io_context& io)
             : socket(std::move(its_socket)), timer(io) {}

@@ -34,7 +34,7 @@ class SessionControls {
   public:
     /// Actions of other parts. Each returns the reason why it cannot be done; an empty line: it will be done.
     struct Requests {
-        /// `text`: as what; empty for the bone itself.
+        /// `text`: the kind of file; empty for the bone itself.
         std::function<std::string(const Bone&, const std::string& text)> save{};
         std::function<std::string()> finish{};
         /// The failures to save since the last call, a line each. The function may be empty.

@@ -1,9 +1,9 @@
 // Recorder of a session, which acts as one more client: a client's frames go into a file.
 //
 // It uses a ClientFeed like any client, so on a slow disk changes are merged and sent later, and the
-// streaming thread never waits. A full disk acts like a slow one: the session goes on, and once there is room
-// the next frame contains all changes since. Poses of that time are missing, bone is not. Ticks wait in their
-// queue while it has room; lost ticks are counted.
+// streaming thread never waits. A full disk acts like a slow one: the session goes on, and once there is
+// space the next frame contains all changes since. Poses of that time are missing, bone is not. Ticks wait in
+// their queue until it is full; lost ticks are counted.
 #pragma once
 
 #include <atomic>
@@ -26,7 +26,7 @@ class SessionRecorder {
     SessionRecorder(const RecordTo& to, v2::Hello hello, const BoneReplica& mirror,
                     std::span<const v2::StructureBricks> structures = {});
 
-    /// These do what they do for a client: see ClientFeed.
+    /// These work as for a client: see ClientFeed.
     void note(std::span<const BrickChange> changes) { feed_.note(changes); }
     /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Nothing if it says no
     /// more than the one before, of the same time.
@@ -50,7 +50,7 @@ class SessionRecorder {
 
     const Stamp began_;
     SampleQueue<TickSample>* const ticks_;
-    std::uint64_t missed_ticks_ = 0;  // that ticks_ dropped and the recording has yet to tell of
+    std::uint64_t missed_ticks_ = 0;  // that ticks_ dropped and the recording has yet to count
     std::uint64_t dropped_ticks_ = 0;
     std::atomic<bool> is_under_way_{false};
     // The recorder has packers of its own: the recording ends on another thread while clients are still sent

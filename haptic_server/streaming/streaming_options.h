@@ -19,7 +19,7 @@
 
 namespace osteomill {
 
-/// A recording that is made of what is shown.
+/// A recording of the shown session.
 struct RecordTo {
     std::filesystem::path file;
     Stamp began;  ///< when the session's time is zero

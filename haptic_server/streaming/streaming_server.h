@@ -48,7 +48,7 @@ class StreamingServer {
     /// cannot be had or nothing can be recorded.
     void start();
 
-    /// Sends a frame of what is shown, and returns when that is done: with paced_by_session.
+    /// Sends a frame of the shown session, and returns when that is done: with paced_by_session.
     void show_frame();
 
     // The end, in three steps, so that saving a bone waits for neither clients nor a disk.

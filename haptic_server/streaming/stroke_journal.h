@@ -53,7 +53,7 @@ class StrokeJournal {
 
     Stroke pack(const std::vector<Restored>& bricks);
     static std::vector<Restored> unpack(const Stroke& stroke);
-    /// Takes the last of `from`, which then is at the end of `to` with what the bone has now.
+    /// Moves the last of `from` to the end of `to`, with the bone's present fractions.
     std::int64_t move(std::vector<Stroke>& from, std::vector<Stroke>& to, const Bone& bone,
                       Restoration& restoration);
 

@@ -4,7 +4,7 @@ namespace osteomill {
 
 namespace {
 
-/// Room for what a product of session time and frame rate rounds off.
+/// Margin for the rounding of a product of session time and frame rate.
 constexpr double rounding_s = 1e-6;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The bone that a bone file holds: made of its CT numbers, or what was saved of a carved one.
+// The bone that a bone file holds: made of its CT numbers, or the saved part of a carved one.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ using FillLabels = std::function<void(int z, std::span<std::uint8_t> labels)>;
 
 struct BoneOfFile {
     Bone bone;
-    std::shared_ptr<const BoneFile> file;  ///< stays open, so that another under its name is not taken for it
+    std::shared_ptr<const BoneFile> file;  ///< stays open, not to be confused with another of its name
     std::string hu_digest;                 ///< digest of the file's CT numbers
     double threshold_hu = default_threshold_hu;
     /// A line for people on a doubt about its CT numbers, or empty: all of it is bone, or a file from

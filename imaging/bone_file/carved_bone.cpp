@@ -128,7 +128,7 @@ KeyValues describe(const Bone& bone, const RecordLayout& layout, std::uint64_t& 
     return keys;
 }
 
-/// Sets what was milled away to air in the layer of slices from `first_z` on, which bricks begin with.
+/// Sets milled voxels to air in the layer of slices from `first_z` on, at which bricks begin.
 ///
 /// Only bone can have been milled away: air and soft tissue have no fraction to lose, and a voxel outside
 /// bone, stored with fraction 0, has no stiffness code, which only bone has.

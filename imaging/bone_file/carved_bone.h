@@ -2,9 +2,9 @@
 //
 // HU alone cannot give the bone back: fractions have 255 levels that no HU tells, and the stiffness of a
 // voxel on the surface was taken from neighbours that may be gone. So the codes are kept as they were, in the
-// same file, since two files can be parted, and cannot be renamed at once. NRRD has room for them: "byte
-// skip" says how many decoded bytes of the gzip stream stand before the voxels, and readers (teem, which is
-// what ITK and 3D Slicer read with, pynrrd) pass over them.
+// same file, since two files can be parted, and cannot be renamed at once. NRRD has a place for them: "byte
+// skip" says how many decoded bytes of the gzip stream stand before the voxels, and readers (teem, with which
+// ITK and 3D Slicer read, and pynrrd) skip them.
 //
 //   before the voxels   for each brick of which anything is left, ascending: its index (32 bits, little
 //                       endian), 4096 fractions, 4096 stiffness codes if the bone is heterogeneous, 4096
@@ -31,10 +31,10 @@ namespace osteomill {
 /// HU of a voxel of which nothing is left.
 inline constexpr std::int16_t milled_away_hu = air_hu;
 
-/// Writes the file beside `path` and switches to it at once. `source` gives what `bone` was built from;
-/// `key_values` go with it (the threshold among them). Throws std::invalid_argument if the grids differ,
-/// ImagingError if the file cannot be written; an older file of that name is then unchanged, also if `source`
-/// throws.
+/// Writes the file beside `path` and switches to it at once. `source` gives the slices from which `bone` was
+/// built; `key_values` go with it (the threshold among them). Throws std::invalid_argument if the grids
+/// differ, ImagingError if the file cannot be written; an older file of that name is then unchanged, also if
+/// `source` throws.
 void save_carved_bone(
     const std::filesystem::path& path, const HuSlices& source, const Bone& bone,
     const std::map<std::string, std::string>& key_values = {}, const ReportProgress& report = [](double) {});

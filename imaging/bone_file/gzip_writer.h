@@ -1,8 +1,8 @@
 // Writer of a gzip stream (RFC 1952) on all cores.
 //
 // Deflated pieces that end on a byte (Z_SYNC_FLUSH) and refer to nothing before themselves follow each other
-// within one member, as pigz does it: every reader takes it for plain gzip. Pieces of 1 MiB cost next to
-// nothing in size.
+// within one member, as pigz does it: to every reader it is plain gzip. Pieces of 1 MiB cost next to nothing
+// in size.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class GzipWriter {
   public:
     using Write = std::function<void(std::span<const std::byte>)>;
 
-    /// `write` is called with what belongs in the file, in order, from the thread that calls add and finish.
+    /// `write` is called with the file's bytes, in order, from the thread that calls add and finish.
     explicit GzipWriter(Write write);
 
     ~GzipWriter();

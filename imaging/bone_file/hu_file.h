@@ -44,9 +44,9 @@ class NrrdData {
 /// Opened: the header is read and held against its digest, the voxels are not.
 class BoneFile {
   public:
-    /// Throws ImagingError in one line for a file that is missing or too short for what its header says, and
-    /// for anything but an int16 NRRD on an isotropic, axis-aligned LPS grid; if the image is merely of
-    /// another form the line says to run bone_import.
+    /// Throws ImagingError in one line for a file that is missing or too short for its header, and for
+    /// anything but an int16 NRRD on an isotropic, axis-aligned LPS grid; if the image is merely of another
+    /// form the line says to run bone_import.
     explicit BoneFile(const std::filesystem::path& path);
 
     const std::filesystem::path& path() const { return file_->path(); }
@@ -80,13 +80,13 @@ void require_digest(const BoneFile& file, const char* key, const Digest& digest,
 /// The CT numbers of a bone file, from the first slice on.
 class HuReader {
   public:
-    /// Passes over what stands before the voxels.
+    /// Skips the data before the voxels.
     explicit HuReader(const BoneFile& file);
     /// From `data`, which stands at the first voxel.
     HuReader(const BoneFile& file, NrrdData data);
 
-    /// The next slices, as many as there is room for. With the last one, what was read is held against gzip's
-    /// CRC and the digest. Throws ImagingError.
+    /// The next slices, as many as fit. With the last one, the data are checked against gzip's CRC and the
+    /// digest. Throws ImagingError.
     void read(std::span<std::int16_t> hu);
     void read_to_end();
     /// The digest of the CT numbers read so far.
@@ -99,10 +99,10 @@ class HuReader {
     std::uint64_t left_;  // voxels
 };
 
-/// The same, to build from. Both must outlive what is given back.
+/// The same, to build from. Both must outlive the result.
 HuSlices slices_of(HuReader& reader, const BoneFile& file);
 
-/// Writes a bone file as a stream, with its digests; see NrrdWriter for how and what is thrown.
+/// Writes a bone file as a stream, with its digests; see NrrdWriter for the form and the exceptions.
 class BoneFileWriter {
   public:
     BoneFileWriter(const std::filesystem::path& path, const Grid& grid,

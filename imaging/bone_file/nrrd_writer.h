@@ -1,5 +1,5 @@
-// Writer of a NRRD as a stream, gzip inside: neither the voxels nor what they are compressed to are ever held
-// as a whole.
+// Writer of a NRRD as a stream, gzip inside: neither the voxels nor their compressed form are ever held as a
+// whole.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace osteomill {
 /// A file that is not committed is deleted.
 class NrrdWriter {
   public:
-    /// Writes the header beside the target, and removes what one that was killed has left there. Throws
+    /// Writes the header beside the target, and removes the leftovers of a killed writer. Throws
     /// std::invalid_argument for a bad grid, ImagingError for a name that does not end in .nrrd and if
     /// nothing can be written.
     NrrdWriter(const std::filesystem::path& path, const NrrdForm& form);

@@ -11,7 +11,7 @@
 namespace osteomill {
 
 std::string text_of_removed(const VolumesByTissue& removed_mm3) {
-    // Differences of large sums leave what is no bone.
+    // Differences of large sums leave rounding, which is no bone.
     constexpr double least_mm3 = 1e-9;
     std::string text;
     for (std::size_t label = 0; label < removed_mm3.size(); ++label)

@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// mm^3, index: tissue label; 0 holds what has none.
+/// mm^3, index: tissue label; 0 for bone without one.
 using VolumesByTissue = std::array<double, 256>;
 
 inline constexpr const char* removed_key = "osteomill_removed_mm3";
@@ -17,7 +17,7 @@ inline constexpr const char* removed_key = "osteomill_removed_mm3";
 /// "0:1.25 7:0.5": label and mm^3 of whatever is above 0, ascending.
 std::string text_of_removed(const VolumesByTissue& removed_mm3);
 
-/// Nothing if the file does not tell. Throws ImagingError if what it tells makes no sense.
+/// Nothing if the file does not tell. Throws ImagingError if its values make no sense.
 VolumesByTissue removed_before_mm3(const BoneFile& file);
 
 }  // namespace osteomill

@@ -34,7 +34,7 @@ namespace osteomill {
 
 namespace {
 
-/// Thrown once a signal asks for the end.
+/// Thrown after a signal has asked for the end.
 struct Stopped : std::runtime_error {
     Stopped() : std::runtime_error("stopped; nothing was written") {}
 };
@@ -46,7 +46,7 @@ struct ImportCommand {
     std::optional<std::filesystem::path> preview;
 };
 
-/// Option texts that have a form of their own; std::invalid_argument says what is wrong with one.
+/// Texts of options with a form of their own; a bad one leads to std::invalid_argument with the reason.
 struct Texts {
     std::string region;
     std::vector<std::string> labels;
@@ -61,14 +61,14 @@ struct Texts {
 
 constexpr double preview_spacing_mm = 0.5;
 
-/// The scan, or the bone of labels where there is none.
+/// The scan, or the bone of labels if there is no scan.
 void import(const ImportOptions& options, const BegunCase& begun, const ImportSurroundings& surroundings,
             bool is_to_look_at) {
     if (begun.labels == 0) return import_bone(options, surroundings);
     import_bone(options, scan_of_labels(begun, surroundings.messages, is_to_look_at), surroundings);
 }
 
-/// A new folder beside a file, gone with this.
+/// A new folder beside a file, removed by the destructor.
 class ScratchFolder {
   public:
     explicit ScratchFolder(const std::filesystem::path& file) : path_(file.string() + ".XXXXXX") {
@@ -88,7 +88,7 @@ class ScratchFolder {
     std::string path_;
 };
 
-/// The whole scan, coarse, by way of a file that is gone afterwards.
+/// The whole scan, coarse, by way of a file that is removed afterwards.
 void preview(ImportOptions options, const BegunCase& begun, const std::filesystem::path& picture,
              const ImportSurroundings& surroundings) {
     const std::optional<ScanRegion> region = std::exchange(options.region, std::nullopt);
@@ -109,7 +109,7 @@ void preview(ImportOptions options, const BegunCase& begun, const std::filesyste
     surroundings.messages << "preview: " << picture.string() << '\n';
 }
 
-/// What there is now, and the next command where `option` says how the server takes it.
+/// The line about a made file, with the next command if `option` is the server's option for it.
 std::string made(const std::string& what, const std::string& path, const std::string& option) {
     const std::string shown = printable(path);
     std::string line = what + ": " + shown;
@@ -223,7 +223,7 @@ void require_distinct_files(const ImportCommand& command) {
     require_distinct(files);
 }
 
-/// Of labels, which have no CT numbers.
+/// For labels, which have no CT numbers.
 void parse_labels(const CLI::App& app, const Texts& texts, ImportCommand& command) {
     ImportOptions& options = command.options;
     if (!options.input.empty() && !options.output.empty())
@@ -241,7 +241,7 @@ void parse_labels(const CLI::App& app, const Texts& texts, ImportCommand& comman
     options.follows_contours = false;
 }
 
-/// "NAME=MATERIAL"; a name may hold "=", a material none.
+/// "NAME=MATERIAL"; a name may hold "=", a material may not.
 void parse_materials(const Texts& texts, CaseParts& parts) {
     for (const std::string& text : texts.materials) {
         const std::size_t at = text.rfind('=');
@@ -251,7 +251,7 @@ void parse_materials(const Texts& texts, CaseParts& parts) {
     }
 }
 
-/// "NAME" or "NAME=MM"; a name may hold "=", and end like a number where MM follows.
+/// "NAME" or "NAME=MM"; a name may hold "=", and may end like a number if MM follows.
 void parse_protected(const Texts& texts, CaseParts& parts) {
     for (const std::string& text : texts.protect) {
         const std::size_t at = text.rfind('=');
@@ -267,7 +267,7 @@ void parse_protected(const Texts& texts, CaseParts& parts) {
     }
 }
 
-/// "METRIC=NUMBER", with what a mark of this metric needs to be missed by anybody.
+/// "METRIC=NUMBER"; it also checks that a mark of this metric can be missed.
 void parse_pass_marks(const Texts& texts, CaseParts& parts) {
     for (const std::string& text : texts.pass) {
         const std::string metric = text.substr(0, text.find('='));
@@ -366,7 +366,7 @@ void run(const ImportCommand& command, const ProgramOutput& output) {
                                           .go_on = [&] {
                                               if (is_stopped) throw Stopped();
                                           }};
-    // All that can be refused is refused before an hour of work.
+    // Every check comes before an hour of work.
     const BegunCase begun = read_case_parts(command.parts);
     std::optional<UnfinishedCase> unfinished;
     if (command.case_folder) {
@@ -382,7 +382,7 @@ void run(const ImportCommand& command, const ProgramOutput& output) {
         unfinished->finish();
         messages << made("case", command.case_folder->string(), "--case");
     } else if (!command.preview) {
-        // Without a threshold it is not known what of it is bone.
+        // Without a threshold nothing tells which voxels are bone.
         messages << made("bone", command.options.output.string(),
                          command.options.threshold_hu ? "--bone" : "");
     }

@@ -17,7 +17,7 @@ namespace osteomill {
 
 namespace {
 
-/// The source cannot give what it gave when it was loaded.
+/// The source no longer gives the values that it gave when it was loaded.
 struct SourceLost : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -27,7 +27,7 @@ LoadedBone load_phantom(const std::string& name, const StiffnessRelation& relati
     BoneSource source{
         .phantom = name, .file = nullptr, .hu_digest = {}, .threshold_hu = phantom_threshold_hu};
     if (auto* bone = std::get_if<Bone>(&made)) {
-        source.phantom.clear();  // of which there are no CT numbers to make
+        source.phantom.clear();  // it has no CT numbers to make
         return {std::move(*bone), std::move(source), {}, {}};
     }
     return {
@@ -60,8 +60,8 @@ VolumesByTissue removed_so_far_mm3(const BoneSource& source, const Bone& bone) {
     return removed_mm3;
 }
 
-/// At the first voxel of the file that was loaded. Throws SourceLost: what stands before the voxels, of a
-/// bone that was carved before, is passed over already here.
+/// A reader at the first voxel of the loaded file. Throws SourceLost, since the data before the voxels of a
+/// bone that was carved before are read here.
 HuReader reader_again(const BoneSource& source) {
     try {
         return HuReader(*source.file);
@@ -70,7 +70,7 @@ HuReader reader_again(const BoneSource& source) {
     }
 }
 
-/// Of the file that was loaded. Throws SourceLost, at the latest with the last slice.
+/// Slices of the loaded file. Throws SourceLost, at the latest with the last slice.
 HuSlices slices_again(const BoneSource& source, HuReader& reader) {
     HuSlices slices = slices_of(reader, *source.file);
     const std::uint64_t voxels = voxel_count(slices.grid);
@@ -88,7 +88,7 @@ HuSlices slices_again(const BoneSource& source, HuReader& reader) {
     return slices;
 }
 
-/// What a session before has removed to the last voxel is not missing.
+/// A tissue that an earlier session removed to the last voxel is not missing.
 void require_every_tissue(const Scene& scene, const LoadedBone& loaded) {
     const auto* planned = scene.plan ? std::get_if<TissueRegion>(&scene.plan->region) : nullptr;
     for (const Tissue& tissue : scene.tissues) {
@@ -110,7 +110,7 @@ void require_every_tissue(const Scene& scene, const LoadedBone& loaded) {
     }
 }
 
-/// Calls `use` with the slices that the bone was built from, made or read once more.
+/// Calls `use` with the slices from which the bone was built, made or read once more.
 template <typename Use>
 auto with_slices(const BoneSource& source, const Use& use) {
     if (!source.phantom.empty()) return use(std::get<HuSlices>(make_phantom(source.phantom)));

@@ -22,7 +22,7 @@ namespace {
 
 constexpr glm::ivec2 size_px(240, 160);
 constexpr double margin = 1.08;
-/// Of the cards of the cases that are built in: the window's dark theme.
+/// Background of the built-in cases' cards: the window's dark theme.
 constexpr std::array background{glm::dvec3(98.0, 103.0, 110.0), glm::dvec3(61.0, 65.0, 69.0)};
 
 struct Box {
@@ -30,7 +30,7 @@ struct Box {
     glm::dvec3 high_mm{-std::numeric_limits<double>::infinity()};
 };
 
-/// Of the bricks with bone.
+/// Box of the bricks with bone.
 Box box_of(const Bone& bone) {
     Box box;
     const BoneContent& content = bone.content();
@@ -44,14 +44,14 @@ Box box_of(const Bone& bone) {
     return box;
 }
 
-/// Unit, to the viewer: between the tool's side and the front, from above.
+/// Unit vector to the viewer: between the tool's side and the front, from above.
 glm::dvec3 to_eye_of(const Scene& scene) {
     const glm::dvec3 from_front = glm::normalize(glm::dvec3(-0.25, -0.7, 0.7));
     const glm::dvec3 half_way = from_front + scene.start_pose.spindle_axis;
     return glm::length(half_way) > 0.1 ? glm::normalize(half_way) : from_front;
 }
 
-/// Head up, but for a view along it.
+/// Head up, unless the view is along it.
 BoneView view_of(const Scene& scene, const Bone& bone) {
     const Box box = box_of(bone);
     BoneView view{.centre_mm = 0.5 * (box.low_mm + box.high_mm),

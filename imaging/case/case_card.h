@@ -1,4 +1,4 @@
-// What the start page shows of an imported case: a sentence, and a picture of its bone.
+// Card of an imported case on the start page: a sentence, and a picture of its bone.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace osteomill {
 
-/// How large the bone is, how fine its voxels, and the tissue to be removed where there is one.
+/// Sizes of the bone and of its voxels, and the tissue to be removed, if there is one.
 std::string sentence_about(const Scene& scene, const Bone& bone);
 
-/// All of the bone, 240 x 160 pixels: from the front and above, as a session's first view is, turned towards
-/// the side that the scene starts on. Throws std::runtime_error where it cannot be written.
+/// All of the bone, 240 x 160 pixels: from the front and above, like a session's first view, turned towards
+/// the side on which the scene starts. Throws std::runtime_error if it cannot be written.
 void write_card_picture(const Scene& scene, const Bone& bone, const std::filesystem::path& png);
 
 }  // namespace osteomill

@@ -37,7 +37,7 @@ constexpr const char* scene_name = "case.toml";
 constexpr const char* segmentation_name = "segmentation.seg.nrrd";
 constexpr const char* picture_name = "picture.png";
 constexpr std::size_t most_tissues = 255;
-/// For segments of which the file says no colour.
+/// Colours of segments to which the file gives none.
 constexpr std::array<std::array<std::uint8_t, 3>, 6> palette{
     {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {213, 94, 0}, {204, 121, 167}}};
 constexpr const char* preface =
@@ -50,7 +50,7 @@ constexpr const char* preface =
     "each\n"
     "# session says that it is unsigned.\n\n";
 
-/// Of a folder the label maps in it, by name.
+/// Replaces a folder by the label maps in it, by name.
 std::vector<std::filesystem::path> label_maps(const std::vector<std::filesystem::path>& paths) {
     std::vector<std::filesystem::path> maps;
     std::error_code failed;
@@ -74,7 +74,7 @@ std::shared_ptr<const Segmentation> read(const std::filesystem::path& path, cons
     return std::make_shared<const Segmentation>(std::move(segmentation));
 }
 
-/// Of all segmentations, without a name twice.
+/// Names of all segmentations' segments; refuses a name that occurs twice.
 std::set<std::string> segment_names(const BegunCase& begun) {
     std::set<std::string> names;
     for (const auto& segmentation : begun.segmentations)
@@ -102,14 +102,14 @@ const Material* material_named(const std::string& name) {
                 : fmt::format("--material: '{}' is none; there are {}", name, fmt::join(names, ", ")));
 }
 
-/// nullptr: as its CT numbers say, or no bone.
+/// nullptr: its CT numbers decide, or it is no bone.
 const Material* material_of(const std::string& segment, const CaseParts& parts, bool is_of_labels) {
     const auto said = parts.materials.find(segment);
     if (said != parts.materials.end()) return material_named(said->second);
     return is_of_labels ? material_of_segment(segment) : nullptr;
 }
 
-/// As the files spell it.
+/// The name as the files spell it.
 std::string known_name(const std::string& option, const std::string& name,
                        const std::set<std::string>& known) {
     const std::vector<std::string> names(known.begin(), known.end());
@@ -122,19 +122,19 @@ std::string known_name(const std::string& option, const std::string& name,
                                              : fmt::format("; there are {}", fmt::join(names, ", "))));
 }
 
-/// A structure of a case, and what it is made of.
+/// A structure of a case, and its material.
 struct CaseStructure {
     NamedStructure structure{};
     const Material* material = nullptr;
 };
 
-/// Those in the bone's box.
+/// Structures in the bone's box.
 std::vector<CaseStructure> structures_of(const BegunCase& begun, const Grid& grid, std::ostream& messages,
                                          const std::function<void()>& go_on) {
     std::vector<CaseStructure> structures;
     for (std::size_t i = 0; i < begun.segmentations.size(); ++i) {
         const Segmentation& segmentation = *begun.segmentations[i];
-        // Where labels stand in for a scan, the import prints the first file's notes as the scan's.
+        // If labels stand in for a scan, the import prints the first file's notes as the scan's.
         if (i > 0 || begun.labels == 0)
             for (const std::string& note : segmentation.image.notes) messages << printable(note) << '\n';
         if (segmentation.segments.empty())
@@ -302,7 +302,7 @@ void finish_case(const std::filesystem::path& folder, const BegunCase& begun, st
         segmentation = segmentation_name;
         if (begun.parts.target) scene.plan = Plan{.region = TissueRegion{*begun.parts.target}};
     }
-    // As it will be loaded: what would be refused then is refused now.
+    // Loaded as a session will load it: an error then is an error now.
     Scene loaded = scene;
     loaded.bone = FileSource{.path = bone_of_case(folder),
                              .threshold_hu = {},

@@ -9,10 +9,10 @@
 
 namespace osteomill {
 
-/// Nothing where the case has none. Throws SceneError, with file and line, for one that cannot be read.
+/// Nothing if the case has none. Throws SceneError, with file and line, for one that cannot be read.
 std::optional<ToolPose> placement_of_case(const std::filesystem::path& folder);
 
-/// Throws std::runtime_error in one line where it cannot be written.
+/// Throws std::runtime_error in one line if it cannot be written.
 void remember_placement(const std::filesystem::path& folder, const ToolPose& pose);
 
 }  // namespace osteomill

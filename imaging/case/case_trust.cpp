@@ -26,7 +26,7 @@ std::string digest_of(std::string_view text) {
     return digest.text();
 }
 
-/// Empty where the text is as it was written.
+/// Empty if the text is as it was written.
 std::string doubt_of(std::string_view text) {
     const std::size_t at = text.rfind(digest_mark);
     if (at == std::string_view::npos) return " (no digest)";

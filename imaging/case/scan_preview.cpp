@@ -23,7 +23,7 @@ constexpr double white_hu = 1800.0;
 constexpr int gap_px = 4;
 constexpr int most_shown_segments = 255;
 
-/// Which axes of the patient run to the right and down in a picture, and which one is looked along.
+/// The patient's axes to the right and down in a picture, and the axis of view.
 struct Plane {
     int right, down, through;
     bool is_down_reversed;  ///< the axis runs up

@@ -1,5 +1,5 @@
-// A scan at a glance, before an hour of import: where it lies, what HU it has, and three slices with the
-// region drawn that is to become bone, or all slices.
+// Preview of a scan, before an hour of import: its place, its HU, and three slices with the region that is to
+// become bone, or all slices.
 #pragma once
 
 #include <filesystem>

@@ -18,7 +18,7 @@ namespace {
 constexpr int half_a_voxel = 128;
 constexpr double clearance_mm = 0.5;
 
-/// Bricks that touch, as slots: pieces of bone, but for gaps of less than a brick.
+/// Bricks that touch, as slots: pieces of bone, joined across gaps of less than a brick.
 std::vector<std::vector<std::int32_t>> pieces_of(const Bone& bone) {
     const BoneContent& content = bone.content();
     std::vector<bool> is_known(bone.stored_bricks());
@@ -48,12 +48,12 @@ std::vector<std::vector<std::int32_t>> pieces_of(const Bone& bone) {
     return pieces;
 }
 
-/// Where bone is, by mean, and how much of it.
+/// Mean place and amount of bone.
 struct Middle {
     glm::dvec3 sum_of_voxels{0.0};
     std::uint64_t voxels = 0;
 
-    /// Of a label, or of all bone.
+    /// Adds the bone of a label, or all bone.
     void add(const Bone& bone, std::int32_t slot, std::optional<std::uint8_t> label) {
         const BrickFractions fractions = bone.fractions(slot);
         const BoneContent& content = bone.content();
@@ -70,7 +70,7 @@ struct Middle {
     glm::dvec3 mean() const { return sum_of_voxels / static_cast<double>(voxels); }
 };
 
-/// What the tool is to look at, in voxels: the middle of the plan's region, or of the largest piece of bone.
+/// The tool's target, in voxels: the middle of the plan's region, or of the largest piece of bone.
 std::optional<glm::dvec3> looked_at(const Scene& scene, const Bone& bone) {
     const auto slots = static_cast<std::int32_t>(bone.stored_bricks());
     if (scene.plan) {
@@ -94,7 +94,7 @@ std::optional<glm::dvec3> looked_at(const Scene& scene, const Bone& bone) {
     return largest.mean();
 }
 
-/// Along a direction from a place to the grid's edge: the last bone.
+/// The last bone along a direction from a place to the grid's edge.
 struct WayOut {
     glm::dvec3 direction{0.0};
     double last_bone = 0.0;  ///< voxels from the place; 0: there is none on the way
@@ -119,8 +119,8 @@ WayOut way_out(const Bone& bone, const glm::dvec3& from, const glm::dvec3& direc
     }
 }
 
-/// The shortest to where bone ends; upwards where none is shorter. A side where the grid cuts through the
-/// bone is taken only where there is no other.
+/// The shortest way to the end of the bone; of equals, upwards. A side on which the grid cuts through the
+/// bone is chosen only if there is no other.
 WayOut nearest_free_side(const Bone& bone, const glm::dvec3& from) {
     std::optional<WayOut> best;
     glm::ivec3 to;
@@ -164,7 +164,7 @@ void place_on_bone(Scene& scene, const Bone& bone) {
     const Grid& grid = bone.grid();
     const WayOut way = nearest_free_side(bone, *place);
     const double burr_radius_mm = scene.burrs[scene.start_burr].radius_mm();
-    // Bone beside the way may reach further out than that on it.
+    // Bone beside the way may reach further out than bone on it.
     double above_mm = start_above_mm;
     const auto start_mm = [&] {
         return grid.origin_mm + grid.spacing_mm * (*place + way.last_bone * way.direction) +

@@ -22,9 +22,9 @@ class SharedBytes {
     std::span<char> bytes_;
 };
 
-/// Runs `step` quietly in a child (fork) and waits for it: true where it came back with true, false where it
-/// came back with false, threw, or ended its process (an assertion, a signal). Its only result is what it
-/// wrote into SharedBytes made before. Throws std::system_error where no process can be begun.
+/// Runs `step` quietly in a child (fork) and waits for it: true if it returned true; false if it returned
+/// false, threw, or ended its process (an assertion, a signal). Its only results are in SharedBytes made
+/// before. Throws std::system_error where no process can be begun.
 bool succeeds_apart(const std::function<bool()>& step);
 
 }  // namespace osteomill

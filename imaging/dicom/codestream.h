@@ -1,5 +1,5 @@
-// An image as JPEG 2000, JPEG and JPEG-LS describe it in their own header, beside what the DICOM around them
-// says.
+// An image as JPEG 2000, JPEG and JPEG-LS describe it in their own header, independently of the DICOM around
+// them.
 #pragma once
 
 #include <cstdint>

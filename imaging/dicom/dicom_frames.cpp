@@ -112,7 +112,7 @@ bool lies_elsewhere(const DicomFile& file) {
             (*scan.bits_allocated != 16 && *scan.bits_stored < *scan.bits_allocated));
 }
 
-/// GDCM takes them for the lowest, and would clear the others.
+/// GDCM treats them as the lowest, and would clear the others.
 void keep_all_bits(gdcm::ImageReader& reader) {
     gdcm::PixelFormat format = reader.GetImage().GetPixelFormat();
     const auto bits = format.GetBitsAllocated();

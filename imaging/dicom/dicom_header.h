@@ -17,7 +17,7 @@ struct DicomHeader {
     std::string series_uid;
     std::string instance_uid;  ///< SOP Instance UID
     std::string series_description;
-    std::string transfer_syntax;  ///< in words where GDCM knows them
+    std::string transfer_syntax;  ///< as text if GDCM knows them
     int rows = 0;                 ///< 0: no image (a report, a DICOMDIR)
     int columns = 0;
     int samples_per_pixel = 1;
@@ -36,7 +36,7 @@ struct DicomHeader {
     std::vector<DicomRescale> rescales;  ///< one a frame
     /// The assumptions about it and the doubts about its values, as texts that follow its name.
     std::vector<std::string> notes;
-    std::string fault;  ///< why the frames make no volume, in words; empty where they may
+    std::string fault;  ///< why the frames make no volume, as text; empty if they may
 };
 
 /// std::nullopt if the file is not DICOM at all. Throws ImagingError if it cannot be opened, begins as

@@ -1,7 +1,7 @@
 // Scan of a DICOM file, element by element, before GDCM reads it. GDCM recurses into every sequence within a
-// sequence, sometimes twice, makes room for any length that an element claims, and decodes pixels of any
-// format. So GDCM only gets files that nest little, hold the bytes that they claim, and are images that it
-// decodes (dicom_pixels.h). Pure functions over bytes.
+// sequence, sometimes twice, allocates any length that an element claims, and decodes pixels of any format.
+// So GDCM only gets files that nest little, hold the bytes that they claim, and are images that it decodes
+// (dicom_pixels.h). Pure functions over bytes.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct DicomFragment {
 };
 
 struct DicomScan {
-    std::string transfer_syntax{};  ///< UID; empty where the file states none
+    std::string transfer_syntax{};  ///< UID; empty if the file states none
     std::string sop_class{};        ///< UID
     std::string modality{};         ///< CT, MR, SEG, ...
     std::optional<int> rows{};
@@ -54,10 +54,11 @@ inline constexpr std::size_t dicom_mark_bytes = 132;
 /// element of group 2 or 8).
 bool may_be_dicom(std::span<const std::uint8_t> bytes);
 
-/// std::nullopt for what is not DICOM. Throws std::invalid_argument, in words, for what begins as DICOM but
-/// is cut off or damaged, for sequences nested deeper than most_dicom_nesting, and for values that hide
-/// nested sequences. Implicit and explicit, little and big endian, deflated (up to 256 MiB). `bytes` may be
-/// the first of a file of `file_bytes` as long as they reach into pixels that are not compressed.
+/// std::nullopt for a file that is not DICOM. Throws std::invalid_argument, with the reason, for a file that
+/// begins as DICOM but is cut off or damaged, for sequences nested deeper than most_dicom_nesting, and for
+/// values that hide nested sequences. Implicit and explicit, little and big endian, deflated (up to 256 MiB).
+/// `bytes` may be the first of a file of `file_bytes` as long as they reach into pixels that are not
+/// compressed.
 std::optional<DicomScan> scan_dicom(std::span<const std::uint8_t> bytes, std::uint64_t file_bytes);
 
 }  // namespace osteomill

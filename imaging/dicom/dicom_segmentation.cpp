@@ -57,7 +57,7 @@ std::string in_utf8(const std::string& text, const std::string& set) {
     return is_whole ? out.substr(0, out.size() - room) : text;
 }
 
-/// The segments' frames, and what they hold.
+/// The segments' frames, and their contents.
 class SegmentationSource {
   public:
     explicit SegmentationSource(const std::filesystem::path& path) : path_(path) {

@@ -18,7 +18,8 @@ struct DicomRescale {
     bool operator==(const DicomRescale&) const = default;
 };
 
-/// Modality LUT (0028,3000): stored values from `first` on, and what they mean; those beyond are the ends'.
+/// Modality LUT (0028,3000): stored values from `first` on, and their meaning; values beyond have that of the
+/// ends.
 struct ModalityTable {
     std::int64_t first = 0;
     std::vector<float> meaning{};  ///< not empty

@@ -154,7 +154,7 @@ std::size_t DicomWalker::after(const Element& element, const DicomSyntax& syntax
         }
         items_in_values_ = before;
     }
-    // GDCM reads it with the file, makes room for any length in it, and ends the program if it does not end.
+    // GDCM reads it with the file, allocates any length in it, and ends the program if it does not end.
     if (is_sequence && begins_with_item(element)) throw DamagedDicom();
     items_in_values_ += items_between(element.value, end);
     require_few_hidden(element, items_in_values_ - before);

@@ -1,5 +1,5 @@
-// Positions of the slices of a DICOM series, and whether together they make a volume. Pure functions of what
-// the headers say: no files.
+// Positions of the slices of a DICOM series, and whether together they make a volume. Pure functions of the
+// headers' values: no files.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -51,7 +51,7 @@ struct SliceLattice {
     glm::dvec3 origin_mm{0.0};
     glm::dvec3 spacing_mm{1.0};
     glm::dmat3 direction{1.0};
-    std::string note;  ///< where positions and what is stated differ, in words; else empty
+    std::string note;  ///< how positions and stated values differ; else empty
 };
 
 /// The lattice of a segmentation's frames. Its gap follows the positions; if those leave it open (slices may

@@ -30,10 +30,10 @@ class ByteSource {
     ByteSource(ByteSource&&) noexcept;
     ByteSource& operator=(ByteSource&&) = delete;
 
-    /// The next bytes, as many as there is room for. Throws ImagingError if the file ends before, or what
-    /// was encoded is damaged.
+    /// The next bytes, as many as fit. Throws ImagingError if the file ends before, or the encoded data are
+    /// damaged.
     void read(std::span<std::byte> bytes);
-    /// The same, but for what ends earlier; how many there were.
+    /// The next bytes of a source that may end earlier; returns their number.
     std::size_t read_some(std::span<std::byte> bytes);
     void skip(std::uint64_t count);
     /// To be called after the last read: compressed data must end here, their checksum, which covers all of

@@ -14,7 +14,7 @@
 namespace osteomill {
 
 struct ImageHeader {
-    SourceImage image{};     ///< its notes say what had to be assumed
+    SourceImage image{};     ///< its notes list the assumptions
     bool is_placed = false;  ///< whether a NRRD says how it lies in the patient
     int layers = 1;          ///< values of a voxel, side by side
     VoxelLayout voxels{};
@@ -33,7 +33,7 @@ inline std::uint64_t least_bytes(std::uint64_t voxels, VoxelType type, Encoding 
 }
 
 /// Finds the voxels of every file that the header of `path` names, or behind the header. Throws ImagingError
-/// if one is missing, or shorter than what is to be skipped.
+/// if one is missing, or shorter than the part to be skipped.
 VoxelData find_voxels(const ImageHeader& header, const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -205,7 +205,7 @@ std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& p
         const OpenedImage image = open_labels(path);
         files.insert(files.end(), image.data_files.begin(), image.data_files.end());
     } catch (const std::runtime_error&) {
-        // Whoever reads it says so.
+        // The caller says so.
     }
     return files;
 }

@@ -1,5 +1,5 @@
 // Reader of images of every format, scan or labels: a DICOM folder or file, NRRD, NIfTI, MetaImage or a stack
-// of pictures, by what it holds.
+// of pictures, recognised by its contents.
 #pragma once
 
 #include <filesystem>
@@ -20,15 +20,15 @@ struct ImageChoice {
 
 /// Reads headers only. Throws ImagingError, in one line, for all that is no three-dimensional grey image
 /// placed in the patient: a path that does not exist, an unknown kind of file, a header that is cut off or
-/// says what cannot be, 2 or 4 dimensions, a single slice, colour, a geometry that no scan has
-/// (plausible_geometry.h), voxels for which the files are too short, and what the headers, dicom_series.h,
-/// slice_geometry.h and picture_stack.h refuse.
+/// impossible, 2 or 4 dimensions, a single slice, colour, a geometry that no scan has (plausible_geometry.h),
+/// voxels for which the files are too short, and anything that the headers, dicom_series.h, slice_geometry.h
+/// and picture_stack.h refuse.
 OpenedImage open_image(const std::filesystem::path& path, const ImageChoice& choice = {});
 
 /// Whether the name is one of an image's file, by its ending; DICOM's files have none of their own.
 bool is_image_name(const std::filesystem::path& path);
 
-/// The file's name without what tells its format: "mandible" of "mandible.seg.nrrd".
+/// The file's name without its format's ending: "mandible" of "mandible.seg.nrrd".
 std::string name_without_ending(const std::filesystem::path& path);
 
 /// The files that reading an image or a label map opens: the path itself, and the files that its header

@@ -183,7 +183,7 @@ std::vector<NrrdAxis> axes_by_spacings(const NrrdHeader& header, const NrrdSpace
     return axes;
 }
 
-/// Leaves out what has but one voxel and is none of space, or is more than space has; the layers go before.
+/// Leaves out axes of a single voxel that are not of space, or are more than space has; the layers go before.
 void place(std::vector<NrrdAxis> axes, ImageHeader& into, const std::filesystem::path& path) {
     std::erase_if(axes, [](const NrrdAxis& axis) { return axis.size == 1 && !axis.step_mm; });
     while (axes.size() > 3 && axes.back().size == 1) axes.pop_back();

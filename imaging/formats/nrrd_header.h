@@ -40,7 +40,7 @@ NrrdHeader parse_nrrd_header(std::span<const std::uint8_t> bytes, const std::fil
 /// cannot be, or that are not read; for other than three axes in space; for a geometry that no scan has.
 ImageHeader nrrd_image(const NrrdHeader& header, const std::filesystem::path& path);
 
-/// Reads the header and what it means. Throws ImagingError.
+/// Reads and interprets the header. Throws ImagingError.
 ImageHeader open_nrrd(const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -23,10 +23,10 @@ glm::dvec3 parse_stack_spacing(const std::string& text);
 /// A picture beside a scan makes no stack of it.
 bool is_picture_folder(const std::filesystem::path& folder, bool has_spacing);
 
-/// A folder, or a TIFF. Reads what the first picture says of size and form. Values are grey levels (8 or 16
-/// bits, of TIFF floats, too), or colours, 0 where a picture is transparent. Throws ImagingError in one line
-/// if no spacing is given, there are fewer than two pictures, one cannot be read, or is of a form that is not
-/// read; reading the slices throws if a picture has another size or form than the first. Notes if the files'
+/// A folder, or a TIFF. Reads size and form from the first picture. Values are grey levels (8 or 16 bits, of
+/// TIFF floats, too), or colours, 0 where a picture is transparent. Throws ImagingError in one line if no
+/// spacing is given, there are fewer than two pictures, one cannot be read, or is of a form that is not read;
+/// reading the slices throws if a picture has another size or form than the first. Notes if the files'
 /// numbers have a gap.
 OpenedImage open_picture_stack(const std::filesystem::path& path, const std::optional<glm::dvec3>& spacing_mm,
                                ImagePurpose purpose = ImagePurpose::scan);

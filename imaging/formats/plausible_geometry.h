@@ -20,7 +20,7 @@ inline constexpr double farthest_position_mm = farthest_place_mm;
 inline constexpr std::uint64_t most_voxels_of_an_axis = 65535;
 inline constexpr std::uint64_t most_voxels = std::uint64_t{1} << 36U;
 
-/// Also false for what is not a number.
+/// Also false if it is not a number.
 bool is_plausible_spacing(double spacing_mm);
 bool is_plausible_position(const glm::dvec3& position_mm);
 

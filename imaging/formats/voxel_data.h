@@ -39,7 +39,7 @@ std::vector<std::string> numbered_names(const std::vector<std::string>& words, s
 
 /// The file of that name beside the header or in a folder below. Throws ImagingError, naming the header, for
 /// a name that leads out of the header's folder (an absolute one, "..", a link), for one that no file has
-/// (is_there false), and for what is no regular file.
+/// (is_there false), and for one that is no regular file.
 std::filesystem::path data_file_beside(const std::filesystem::path& header, const std::string& name);
 
 /// Receives the bytes that are read and decoded, piece by piece, in order.

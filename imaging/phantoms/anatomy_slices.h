@@ -3,14 +3,14 @@
 // An anatomy is a class with
 //
 //     std::optional<Near> near(const glm::dvec3& centre_mm, double reach_mm) const;
-//         which of its parts may lie within `reach_mm` of a place; nothing: all there is air
+//         its parts that may lie within `reach_mm` of a place; nothing: all there is air
 //     double surface_mm(const glm::dvec3& p, const Near& near) const;
 //         a measure of the distance from the surface of all that is solid, negative inside; zero on the
 //         surface and sloping by a half to two there
 //     PlaceInAnatomy at(const glm::dvec3& p, const Near& near) const;
 //
-// In the slices HU pass the threshold on the surface. What a voxel on it is filled with follows from the
-// distance itself, the measure over its slope, so that there are no stairs (hu_slices.h).
+// In the slices HU pass the threshold on the surface. The filling of a voxel there follows from the distance
+// itself, the measure over its slope, so that there are no stairs (hu_slices.h).
 #pragma once
 
 #include <algorithm>
@@ -36,8 +36,8 @@ struct PlaceInAnatomy {
     std::uint8_t tissue = 0;
 };
 
-/// HU that pass the threshold exactly on the surface and reach the material's one voxel inside, those of what
-/// lies outside one voxel outside.
+/// HU that pass the threshold exactly on the surface, reach the material's one voxel inside, and the
+/// surroundings' one voxel outside.
 inline double hu_across_surface(double material_hu, double outside_hu, double distance_voxels) {
     return distance_voxels < 0.0
                ? phantom_threshold_hu + (material_hu - phantom_threshold_hu) * std::min(1.0, -distance_voxels)
@@ -69,7 +69,7 @@ class AnatomySlices {
         next_z_ += count;
     }
 
-    /// Of a voxel of the slices that were read last, or of the two before.
+    /// Distance of a voxel of the slices that were read last, or of the two before, from the surface.
     double surface_distance_voxels(const glm::ivec3& voxel) const {
         return distance_voxels_[index_from(voxel, held_from_z_)];
     }

@@ -11,7 +11,7 @@ inline constexpr double pulp_hu = 300.0;
 inline constexpr double lesion_hu = 650.0;
 inline constexpr double cortical_hu = 1600.0;
 inline constexpr double ligament_hu = 60.0;
-// Softer than the threshold of bone in life; here just above it, so that they are there.
+// In life they are below the threshold of bone; here just above it, so that they exist.
 inline constexpr double nerve_hu = 190.0;
 inline constexpr double gum_hu = 170.0;
 

@@ -15,11 +15,11 @@ namespace osteomill {
 
 namespace {
 
-/// How much of each voxel of a grid lies within an ellipsoid around the origin.
+/// Share of each voxel of a grid that lies within an ellipsoid around the origin.
 ///
 /// With the half axes r, k0 = |p / r| and k1 = |p / r^2|, the distance from p to the surface is about
-/// k0 (k0 - 1) / k1. Both squares are sums of one term an axis, so three short tables hold all that a voxel
-/// needs. Since k1 <= k0 / min r, a voxel with |k0 - 1| >= h / (2 min r) is farther than half a voxel from
+/// k0 (k0 - 1) / k1. Both squares are sums of one term an axis, so three short tables suffice for every
+/// voxel. Since k1 <= k0 / min r, a voxel with |k0 - 1| >= h / (2 min r) is farther than half a voxel from
 /// the surface: whole or empty, without a root.
 class EllipsoidCover {
   public:
@@ -38,7 +38,7 @@ class EllipsoidCover {
         empty_above_ = (1.0 + half_voxel) * (1.0 + half_voxel);
     }
 
-    /// What y and z contribute to all voxels of a row.
+    /// The terms of y and z, the same for all voxels of a row.
     struct Terms {
         double k0_squared = 0.0;
         double k1_squared = 0.0;

@@ -80,8 +80,8 @@ class Jaw {
     Jaw() : teeth_(placed_teeth()) {}
 
     std::optional<Near> near(const glm::dvec3& centre, double reach_mm) const {
-        // Measures slope by so much at most; gum follows teeth that are so near, and in bone their sockets'
-        // lining.
+        // Measures slope by so much at most; gum follows teeth within this distance, and in bone the lining
+        // of their sockets does.
         constexpr double slope = 1.4, gum_reach_mm = 3.5, lining_reach_mm = 0.8;
         const double reached_mm = slope * reach_mm + (centre.z > -4.0 ? gum_reach_mm : lining_reach_mm);
         Near near;
@@ -123,7 +123,7 @@ class Jaw {
         double nearest_mm() const { return std::min(tooth_mm, std::min(socket_mm, gum_mm)); }
     };
 
-    /// What all places of one distance from the front have in common.
+    /// Values that all places at one distance from the front share.
     struct Section {
         double row_x_mm = 0.0;
         double row_length = 1.0;  ///< along the row, mm a mm of y
@@ -184,7 +184,7 @@ class Jaw {
     }
 
     /// Follows jaw and necks at 1.1 mm, up to its margin with the papillae between teeth, and is cut off
-    /// under the attached part. It overlaps what it lies on, so that there is no crack between.
+    /// under the attached part. It overlaps the parts under it, so that there is no crack between.
     static double gum_mm(const glm::dvec3& p, const Section& at, double outside, double tooth) {
         constexpr double overlap_mm = 0.3, lower_edge_mm = 10.0, far_mm = 1.5;
         const double above_cervix = p.z - at.cervix_z_mm;
@@ -220,7 +220,7 @@ class Jaw {
     }
 
     Material material_at(const glm::dvec3& p, const Parts& part) const {
-        // The gum's thin margin is gum up to its very edge.
+        // The gum's thin margin is all gum.
         constexpr double edge_mm = 0.1;
         const bool is_off_gum = part.gum_mm >= edge_mm;
         if (part.tooth_mm < 0.0 ||

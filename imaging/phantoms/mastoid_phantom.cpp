@@ -23,7 +23,7 @@ constexpr double saw_front_y_mm = -17.0, saw_back_y_mm = 29.0, saw_inner_x_mm = 
 // Air cells: balls about the points of a jittered lattice.
 constexpr double cell_lattice_mm = 2.7, cell_jitter = 0.33, least_cell_mm = 0.8, largest_cell_mm = 1.65;
 
-// Bone that mastoid cells leave around what they border on, mm.
+// Bone that mastoid cells leave around the parts that they border on, mm.
 constexpr double cortex_mm = 2.2, plate_mm = 0.9, capsule_mm = 1.3, nerve_wall_mm = 0.9;
 
 struct Ball {
@@ -96,11 +96,11 @@ class TemporalBone {
             case TemporalTissue::tmj:
                 return 180.0;
             default:
-                return 200.0;  // softer in life; here just above the threshold, to be there
+                return 200.0;  // softer in life; here just above the threshold, to exist
         }
     }
 
-    /// Of the piece as a whole, with the sheet of dura on it.
+    /// Distance of the piece as a whole, with the sheet of dura on it.
     static double outer_mm(const glm::dvec3& p) {
         return std::max(std::min(temporal_body_mm(p), dura_mm(p)), saw_mm(p));
     }
@@ -158,7 +158,7 @@ class TemporalBone {
         add(TemporalTissue::iac, std::max(part_mm(TemporalPart::iac), body - 0.3));
         for (const auto& [kind, tissue] : structures_of_parts) {
             const double distance = std::max(part_mm(kind), outside);
-            // A nerve within the internal canal goes before what it lies in.
+            // A nerve within the internal canal takes precedence over the canal.
             if (distance < 0.0 && d.structure == TemporalTissue::iac) d.structure_mm = distance + 0.01;
             add(tissue, distance);
         }

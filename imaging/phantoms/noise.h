@@ -21,7 +21,7 @@ inline double lattice_noise(const glm::ivec3& point) {
     return static_cast<double>(bits >> 11U) / static_cast<double>(1ULL << 52U) - 1.0;
 }
 
-/// Between the lattice's points; `weight` are the shares of the next point along each axis, 0 to 1.
+/// Value between the lattice's points; `weight` are the shares of the next point along each axis, 0 to 1.
 inline double noise_between(const glm::dvec3& base, const glm::dvec3& weight) {
     const glm::ivec3 first(base);
     double sum = 0.0;

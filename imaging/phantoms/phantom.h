@@ -11,7 +11,7 @@
 
 namespace osteomill {
 
-/// Labels of the tissues of tooth and jaw; 0 is what is not bone.
+/// Labels of the tissues of tooth and jaw; 0 is all that is not bone.
 enum class DentalTissue : std::uint8_t {
     cortical_bone = 1,
     trabecular_bone = 2,
@@ -32,8 +32,7 @@ HuSlices make_tooth_phantom();
 /// The left body of a lower jaw with its teeth from canine to second molar in their sockets, 0.125 mm, as
 /// dental cone beams have: enamel, dentine, pulp, a periodontal gap of 0.25 to 0.32 mm, cortical and
 /// trabecular bone, the mandibular canal, gum, and caries in the first molar. The row runs front to back, the
-/// cheek is at +x. The jaw is sawn off at both ends. What its sizes are taken from: tooth_shape.h,
-/// jaw_phantom.cpp.
+/// cheek is at +x. The jaw is sawn off at both ends. Sources of its sizes: tooth_shape.h, jaw_phantom.cpp.
 HuSlices make_jaw_phantom();
 
 /// Labels of the mastoid phantom's tissues: those of FIVRS (scenes/fivrs.ctbl).
@@ -57,8 +56,8 @@ enum class TemporalTissue : std::uint8_t {
 };
 
 /// A left temporal bone, 0.15 mm: mastoid with air cells, antrum and tympanic cavity with the ossicles, ear
-/// canal, labyrinth, internal canal with its nerves, facial nerve, sigmoid sinus, carotid artery, dura. What
-/// its sizes are taken from: temporal_bone.h.
+/// canal, labyrinth, internal canal with its nerves, facial nerve, sigmoid sinus, carotid artery, dura.
+/// Sources of its sizes: temporal_bone.h.
 HuSlices make_mastoid_phantom();
 
 /// The homogeneous cube of the polishing experiment: 50 x 50 x 12 mm at 0.1 mm, relative stiffness 1, top
@@ -72,10 +71,10 @@ inline constexpr double phantom_threshold_hu = 150.0;
 /// The tooth's trajectory is the cavity that drills out the lesion with the 1.5 mm burr to a hole of 4.5 mm;
 /// the jaw's likewise with the 1.5 mm burr; the cube's is the polishing slide with the 5 mm burr; the head's
 /// (see head_phantom.h) thins the vault at its top with the 3 mm burr. Throws std::invalid_argument for an
-/// unknown name, listing the known ones, and SceneError for a change that cannot be (scene_file.h).
+/// unknown name, listing the known ones, and SceneError for a bad change (scene_file.h).
 Scene phantom_scene(const std::string& name, const SceneChanges& changes = {});
 
-/// A phantom: CT numbers to make bone from, or, where making them would take too long, the bone itself.
+/// A phantom: CT numbers to make bone from, or the bone itself if CT numbers would take too long to make.
 /// Throws like phantom_scene.
 std::variant<HuSlices, Bone> make_phantom(const std::string& name);
 

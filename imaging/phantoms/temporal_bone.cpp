@@ -79,8 +79,8 @@ void add_labyrinth(std::vector<AnatomyPart>& parts) {
     ring({-6.6, 5.0, 4.6}, {0.0, 0.5, 0.866}, 2.3);   // lateral, its front end up by 30 degrees
     ring({-8.9, 6.3, 2.2}, {-0.64, 0.77, 0.0}, 3.1);  // posterior, along the pyramid's back face
     ring({-8.6, 2.2, 6.6}, {0.77, 0.64, 0.0}, 3.2);   // anterior, across the pyramid
-    // Two turns and a half of the cochlea about an axis that points forwards and outwards. Turning by the
-    // angle whose cosine is 0.8 and whose sine is 0.6 needs no more than products.
+    // Two turns and a half of the cochlea about an axis that points forwards and outwards. A turn by the
+    // angle whose cosine is 0.8 and whose sine is 0.6 needs only products.
     const glm::dvec3 axis = glm::normalize(glm::dvec3(0.55, -0.8, -0.2));
     const glm::dvec3 across = glm::normalize(glm::cross(axis, glm::dvec3(0.0, 0.0, 1.0)));
     const glm::dvec3 up = glm::cross(across, axis);

@@ -46,7 +46,7 @@ enum class TemporalPart : std::uint8_t {
 };
 inline constexpr std::size_t temporal_parts = 19;
 
-/// Parts that are one tissue each, in the order in which they go before one another where they meet.
+/// Parts that are one tissue each; where two meet, the earlier takes precedence.
 inline constexpr std::array<std::pair<TemporalPart, TemporalTissue>, 12> structures_of_parts{{
     {TemporalPart::facial_nerve, TemporalTissue::facial_nerve},
     {TemporalPart::superior_vestibular, TemporalTissue::superior_vestibular_nerve},
@@ -84,10 +84,10 @@ double temporal_body_mm(const glm::dvec3& p);
 double dura_mm(const glm::dvec3& p);
 /// Positive on the ear canal's side.
 double drum_plane_mm(const glm::dvec3& p);
-/// Where the mastoid has air cells.
+/// Region in which the mastoid has air cells.
 double pneumatised_mm(const glm::dvec3& p);
 
-/// Of the ear canal.
+/// Thickness of the ear canal's skin.
 inline constexpr double canal_skin_mm = 0.5;
 
 }  // namespace osteomill

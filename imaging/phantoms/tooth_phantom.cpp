@@ -107,7 +107,7 @@ bool is_near_tooth(const glm::dvec3& p) {
     return std::abs(p.x) < 7.0 && std::abs(p.y) < 6.5;
 }
 
-/// The bodies' own measures of distance, which blending and slopes stretch.
+/// The bodies' own measures of distance, stretched by blending and slopes.
 Distances distances_at(const glm::dvec3& p) {
     const double tooth = is_near_tooth(p) ? tooth_mm(p) : 1.0;
     return {tooth, std::max(jaw_mm(p), ligament_mm - tooth)};

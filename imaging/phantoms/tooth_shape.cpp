@@ -198,7 +198,7 @@ ToothShape second_molar() {
 
 double tooth_distance_mm(const ToothShape& tooth, const glm::dvec3& p) {
     constexpr double neck_blend_mm = 1.2, fork_blend_mm = 1.6;
-    // Farther from the cervix than this the other part is too far off to be blended with.
+    // Beyond this distance from the cervix the other part is too far off to be blended with.
     constexpr double roots_only_z_mm = -2.5, crown_only_z_mm = 3.4;
     const double crown = p.z < roots_only_z_mm ? 100.0 : crown_distance_mm(tooth, p);
     if (p.z > crown_only_z_mm) return crown;

@@ -1,4 +1,5 @@
-// Distances of a tooth of the lower jaw: enamel and dentine together, its pulp, and how thick its enamel is.
+// Distances of a tooth of the lower jaw: of enamel and dentine together, and of its pulp; and the thickness
+// of its enamel.
 //
 // In a tooth's own space, mm: x away from the midline along the row (distal), y towards the cheek (buccal), z
 // towards the chewing surface (occlusal), zero on the axis where enamel ends (cervix).

@@ -15,8 +15,8 @@ namespace osteomill {
 
 namespace {
 
-/// A pixel of one colour takes one ray; where it differs from a neighbour's by more than an eye passes over,
-/// several: adaptive antialiasing after Whitted (1980), a third of the time of several everywhere.
+/// A pixel whose colour differs visibly from a neighbour's takes several rays, any other one: adaptive
+/// antialiasing after Whitted (1980), in a third of the time of several rays everywhere.
 constexpr int rays_per_edge_pixel_side = 3;
 constexpr double edge_step = 10.0;  // of 255
 const glm::dvec3 bone_colour(226.0, 216.0, 198.0);
@@ -59,8 +59,9 @@ class View {
         return (0.28 + 0.72 * diffuse) * tissue_colour(place + 0.6 * view_.direction);
     }
 
-    /// The window's, which shows no rings where a surface crosses the voxels' layers: 4^3 trilinear samples a
-    /// voxel apart (gradient_by_samples in bone_sampling.glsl), here as weights of the 5^3 voxels about them.
+    /// The window's gradient, which shows no rings where a surface crosses the voxels' layers: 4^3 trilinear
+    /// samples a voxel apart (gradient_by_samples in bone_sampling.glsl), here as weights of the 5^3 voxels
+    /// about them.
     glm::dvec3 smoothed_gradient(const glm::dvec3& place) {
         const glm::dvec3 first = glm::floor(place - 1.5);
         const glm::dvec3 part = place - 1.5 - first;

@@ -25,8 +25,8 @@ struct BoneView {
     glm::dvec3 direction{0, 0, -1.0};  ///< unit, from the viewer
     glm::dvec3 up{0, -1.0, 0};         ///< unit, square to the direction
     double half_width_mm = 10.0;
-    bool is_section = false;  ///< what lies before the centre is cut away
-    /// Where no bone is, sRGB from 0 to 255: at the picture's upper edge, and at its lower one.
+    bool is_section = false;  ///< all before the centre is cut away
+    /// Colours beside the bone, sRGB from 0 to 255: at the picture's upper edge, and at its lower one.
     std::array<glm::dvec3, 2> background{glm::dvec3(255.0), glm::dvec3(255.0)};
 };
 
@@ -35,7 +35,7 @@ struct RgbPicture {
     std::vector<std::uint8_t> rgb{};
 };
 
-/// What a section shows besides bone.
+/// Marks that a section shows besides bone.
 struct SectionMarks {
     std::span<const Structure> structures{};                        ///< in their tissue's colour
     std::function<bool(const glm::dvec3& place_mm)> is_outlined{};  ///< a region whose border is drawn

@@ -10,8 +10,8 @@
 
 namespace osteomill {
 
-/// `rgb`: three bytes a pixel, rows from above. Replaces the file as a whole. Throws std::runtime_error in
-/// one line naming the file where it cannot be written.
+/// `rgb`: three bytes a pixel, rows from above. Replaces the file as a whole. Throws std::runtime_error, in
+/// one line naming the file, if it cannot be written.
 void write_rgb_png(std::span<const std::uint8_t> rgb, const glm::ivec2& size_px,
                    const std::filesystem::path& path, Link link = Link::follow);
 

@@ -20,7 +20,7 @@ void for_voxels_about(const glm::dvec3& place, Take&& take) {
     }
 }
 
-/// Whether half of a place or more is of what `is_in(voxel)`.
+/// Whether at least half of the weight at a place is of voxels that `is_in(voxel)`.
 template <typename IsIn>
 bool is_mostly(const glm::dvec3& place, IsIn&& is_in) {
     double share = 0.0;

@@ -12,7 +12,7 @@
 namespace osteomill {
 
 /// Padding is no measurement: a step of thousands of HU beside it would make a spline overshoot into bone
-/// that is not there. So the values around go on into it, and what was made of it is air in the end.
+/// that is not there. So the values around go on into it, and its voxels become air in the end.
 class FieldOfView {
   public:
     /// `values` are the part's; those that are not numbers are padding. Next to the field they become the

@@ -26,7 +26,7 @@ constexpr int most_of_median_of_air = 15;
 constexpr int least_gap_above_padding = 64;
 /// Air has noise around -1000; tissue lies above this.
 constexpr float lowest_air_hu = -1100.0F;
-/// A constant near -1000 in more of a scan is its air, not what lies outside of a round field of view.
+/// A constant near -1000 in more of a scan is its air, not the outside of a round field of view.
 constexpr double most_padding_like_air = 0.25;
 constexpr int highest_of_cut_off_air = 5;
 constexpr double least_share_cut_off = 0.02;

@@ -1,4 +1,4 @@
-// Histogram of the values of a scan, and what speaks against their being HU.
+// Histogram of the values of a scan, and reasons against their being HU.
 //
 // The scale of CT numbers is fixed by air (-1000) and water (0), and every scan of a patient has some air. A
 // file that was saved without its offset, a label map or an 8-bit picture becomes a bone as well as a CT

@@ -30,7 +30,7 @@ IntensityWindow parse_intensity_window(const std::string& text);
 void rescale_values(const Rescale& rescale, std::span<float> values);
 void window_values(const IntensityWindow& window, std::span<float> values);
 
-/// Makes what is infinite not a number, too: neither was measured. How many there are.
+/// Turns infinite values into not-a-number, too: neither was measured. How many there are.
 std::size_t mark_not_finite(std::span<float> values);
 
 }  // namespace osteomill

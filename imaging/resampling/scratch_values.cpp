@@ -58,7 +58,7 @@ ScratchValues::~ScratchValues() {
 }
 
 void ScratchValues::let_go() const {
-    // A shared mapping loses nothing: the file keeps what was written.
+    // A shared mapping loses nothing: the file keeps written data.
     if (mapped_ != nullptr) ::madvise(mapped_, mapped_bytes_, MADV_DONTNEED);
 }
 

@@ -13,7 +13,7 @@ namespace osteomill {
 class ScratchValues {
   public:
     /// All zero. A file is made in `folder` if the values take more than `most_memory_bytes`. Throws
-    /// ImagingError, naming the folder, if the disk has no room for it; std::bad_alloc.
+    /// ImagingError, naming the folder, if the disk has no space for it; std::bad_alloc.
     ScratchValues(std::uint64_t count, std::uint64_t most_memory_bytes, const std::filesystem::path& folder);
     ~ScratchValues();
     ScratchValues(const ScratchValues&) = delete;

@@ -33,7 +33,7 @@ struct PlacesInSlices {
 
 class SliceShapes {
   public:
-    /// Floats that it needs room for, per voxel of the scan.
+    /// Floats of memory that it needs, per voxel of the scan.
     static constexpr std::size_t floats_per_voxel = 2;
 
     /// Looks at every slice along `axis`, on all cores. `values` are the part's HU, finite; `room`, which

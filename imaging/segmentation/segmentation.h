@@ -35,9 +35,9 @@ struct Segmentation {
     LabelRows labels;
 };
 
-/// Throws ImagingError, in one line, for what open_labels refuses, names that do not fit their labels, labels
-/// that are no whole numbers from 0 to 65535 (within 0.01), more than 4096 different ones, and more than
-/// memory is given to.
+/// Throws ImagingError, in one line, for anything that open_labels refuses, names that do not fit their
+/// labels, labels that are no whole numbers from 0 to 65535 (within 0.01), more than 4096 different ones, and
+/// more than the allowed memory.
 Segmentation read_segmentation(const std::filesystem::path& path,
                                const std::optional<glm::dvec3>& stack_spacing_mm = std::nullopt);
 

@@ -26,7 +26,7 @@ Q_CV_AMBF = np.array([0.5, 0.5, -0.5, 0.5])  # the same as a quaternion x, y, z,
 
 
 def product(a, b):
-    """Of two quaternions x, y, z, w: b first."""
+    """Product of two quaternions x, y, z, w: b acts first."""
     vector = a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3])
     return np.append(vector, a[3] * b[3] - a[:3] @ b[:3])
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A recording as a table of pandas, and what it says second by second.    python3 recording_to_pandas.py SESSION.pcap"""
+"""A recording as a table of pandas, and a summary second by second. python3 recording_to_pandas.py SESSION.pcap"""
 import sys
 
 import numpy as np

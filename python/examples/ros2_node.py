@@ -28,7 +28,7 @@ def quaternion_of(axis):
 
 
 def axis_of(q):
-    """Of z, turned by a quaternion with members x, y, z, w."""
+    """The axis z turned by a quaternion with members x, y, z, w."""
     return np.array([2 * (q.x * q.z + q.y * q.w), 2 * (q.y * q.z - q.x * q.w), 1 - 2 * (q.x**2 + q.y**2)])
 
 

@@ -21,7 +21,7 @@ HIDDEN, STEPS, BATCH, RATE = 32, 3000, 4096, 3e-3
 
 
 def frames_of(folder):
-    """Each picture of a set with which of its pixels are the tool's."""
+    """Each picture of a set with the mask of its tool."""
     folder = pathlib.Path(folder)
     frames = []
     for index in sorted(folder.glob("dataset*.json")):
@@ -37,7 +37,7 @@ def frames_of(folder):
 
 
 def box_mean(image, reach):
-    """Of the (2 reach + 1)^2 pixels about each; beyond the edges the edge goes on."""
+    """Mean of the (2 reach + 1)^2 pixels about each; beyond the edges the edge goes on."""
     for axis in (0, 1):
         padded = np.pad(image, [(reach + 1, reach) if i == axis else (0, 0) for i in (0, 1)], mode="edge")
         sums = np.cumsum(padded, axis=axis, dtype=np.float64)

@@ -1,4 +1,4 @@
-// Arms of one's own in Python.
+// User-defined arms in Python.
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 

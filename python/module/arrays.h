@@ -1,4 +1,4 @@
-// Arrays and arguments of Python: what the bindings share.
+// Arrays and arguments of Python, as all bindings use them.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -59,8 +59,8 @@ inline glm::dvec3 vector_of(const py::handle& value, const char* argument) {
     return v;
 }
 
-/// Of length 1: what is not is made so, and what is, is left as it is to the bit. Throws
-/// std::invalid_argument for no length.
+/// The axis scaled to length 1; one of length 1 stays as it is, to the bit. Throws std::invalid_argument for
+/// no length.
 inline glm::dvec3 unit(const glm::dvec3& axis, const char* argument) {
     const double length = glm::length(axis);
     if (!(length > 1e-9))
@@ -68,13 +68,13 @@ inline glm::dvec3 unit(const glm::dvec3& axis, const char* argument) {
     return is_of_unit_length(length) ? axis : axis / length;
 }
 
-/// Waits, without the interpreter's lock, for the thread that has it.
+/// Waits, without the interpreter's lock, for the thread that holds the mutex.
 inline std::unique_lock<std::mutex> waited(std::mutex& busy) {
     const ReleasedLock released;
     return std::unique_lock<std::mutex>(busy);
 }
 
-/// Holds a session for one thread. Throws std::runtime_error where another has it.
+/// Holds a session for one thread. Throws std::runtime_error if another thread holds it.
 inline std::unique_lock<std::mutex> taken(std::mutex& busy) {
     std::unique_lock<std::mutex> lock(busy, std::try_to_lock);
     if (!lock.owns_lock())

@@ -46,7 +46,7 @@ struct Box {
 
 using BoxArgument = std::optional<std::array<std::array<int, 3>, 2>>;
 
-/// The whole grid where none is given. It may reach beyond the grid.
+/// The whole grid if none is given. The box may reach beyond the grid.
 Box box_of(const BoxArgument& argument, const Grid& grid) {
     if (!argument) return {glm::ivec3(0), grid.size_voxels};
     const auto& [from, to] = *argument;
@@ -88,7 +88,7 @@ void for_each_row(const Bone& bone, const Box& box, const Copy& copy) {
             }
 }
 
-/// Looks at a bone that no other thread changes meanwhile, without the interpreter's lock.
+/// Reads a bone that no other thread changes meanwhile, without the interpreter's lock.
 template <typename Look>
 void look(const BoneView& view, const Look& look_at) {
     const ReleasedLock released;
@@ -97,7 +97,7 @@ void look(const BoneView& view, const Look& look_at) {
     look_at(view.bone());
 }
 
-/// A copy of a channel: `copy(bone, slot, offset in the brick, count, out)` for each row, 0 where no bone is
+/// A copy of a channel: `copy(bone, slot, offset in the brick, count, out)` for each row, 0 if no bone is
 /// stored.
 template <typename Value, typename Copy>
 py::array channel(const BoneView& view, const BoxArgument& argument, const Copy& copy) {

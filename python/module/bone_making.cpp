@@ -27,7 +27,7 @@ std::string words_of(const py::handle& value) {
     return std::string(py::str(value));
 }
 
-/// What is left, 0 to 255, of an array of such numbers, or of one that only says where bone is.
+/// Fractions, 0 to 255, from an array of such numbers, or from one that only says where bone is.
 Bytes3 fractions_of(const py::array& array) {
     if (array.ndim() != 3 || array.size() == 0)
         throw std::invalid_argument("fraction: takes an array (i, j, k) of voxels, not one of shape " +
@@ -74,7 +74,7 @@ BoneView bone_from_array(const py::array& fraction, double spacing_mm, const py:
     const Grid grid{.size_voxels = {edge_of(left, 0), edge_of(left, 1), edge_of(left, 2)},
                     .spacing_mm = spacing_mm,
                     .origin_mm = vector_of(origin_mm, "origin_mm")};
-    Bytes3 labels = left;  // or what is none, so that there is something to look at
+    Bytes3 labels = left;  // or a value below bone's, so that something can be displayed
     const bool is_labelled = tissue.has_value();
     if (tissue) {
         require_shape(*tissue, fraction, "tissue");

@@ -12,21 +12,21 @@ namespace osteomill::python {
 
 class BoneView {
   public:
-    /// As it was loaded.
+    /// The bone as it was loaded.
     explicit BoneView(std::shared_ptr<const LoadedCase> loaded) : loaded_(std::move(loaded)) {}
-    /// As it is whenever it is looked at.
+    /// The session's bone at each moment of reading.
     explicit BoneView(std::shared_ptr<SteppedSession> session)
         : loaded_(session->shared_case()), session_(std::move(session)) {}
-    /// Of its own, without CT numbers.
+    /// A bone of its own, without CT numbers.
     explicit BoneView(Bone bone) : own_(std::make_shared<const Bone>(std::move(bone))) {}
 
     const Bone& bone() const {
         if (own_) return *own_;
         return session_ ? session_->bone() : loaded_->scene().bone;
     }
-    /// Null: there are no CT numbers to be had.
+    /// Null: there are no CT numbers.
     const BoneSource* source() const { return loaded_ ? &loaded_->scene().source : nullptr; }
-    /// Null: nothing changes it.
+    /// Null: the bone never changes.
     SteppedSession* session() const { return session_.get(); }
 
   private:

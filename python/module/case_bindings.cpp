@@ -20,7 +20,7 @@ namespace osteomill::python {
 
 namespace {
 
-/// What is wrong with an argument, in the words of Python's.
+/// Raises the error of a wrong argument, as Python words it.
 [[noreturn]] void fail(const std::string& line) {
     constexpr std::string_view option = "--case: ";
     throw std::invalid_argument(line.starts_with(option) ? "name: " + line.substr(option.size()) : line);
@@ -35,7 +35,7 @@ std::optional<std::string> burr_named(const py::object& burr) {
     return burr.cast<std::string>();
 }
 
-/// Changes of `choice`; `similar` is shared as far as they leave it as it is.
+/// Changes of `choice`; the parts of `similar` that they leave unchanged are shared.
 std::shared_ptr<LoadedCase> load_changed(const std::string& name, SceneChoice choice,
                                          const std::vector<std::string>& set,
                                          const std::optional<std::string>& burr,
@@ -52,7 +52,7 @@ std::shared_ptr<LoadedCase> load_changed(const std::string& name, SceneChoice ch
     try {
         return std::make_shared<LoadedCase>(name, std::move(choice), similar);
     } catch (const SceneError& wrong) {
-        // A key of `set` is an argument; a file is none.
+        // A key of `set` is an argument; a file is not.
         if (std::string_view(wrong.what()).starts_with("set: ")) fail(wrong.what());
         throw;
     } catch (const std::invalid_argument& wrong) {
@@ -84,7 +84,7 @@ std::shared_ptr<LoadedCase> with(const LoadedCase& loaded, const std::vector<std
     return load_changed(loaded.name(), loaded.choice(), set, start_burr, rpm, bone, trajectory, &loaded);
 }
 
-/// Of a case: what it was chosen by, so that another process loads it once more.
+/// Pickled form of a case: the choice that led to it, so that another process loads it again.
 py::tuple kept(const LoadedCase& loaded) {
     const SceneChoice& choice = loaded.choice();
     py::list changes;
@@ -114,7 +114,7 @@ std::shared_ptr<LoadedCase> load_kept(const py::tuple& kept) {
 
 Burr make_burr(double diameter_mm, int edges, double rpm, const py::handle& cutting, const py::handle& edge,
                bool clockwise) {
-    // As in a scene, but for diameters of studies.
+    // Limits as in a scene, except for diameters in studies.
     if (!(diameter_mm > 0.0 && diameter_mm <= 100.0) || edges < 1 || edges > 64 || !(rpm > 0.0 && rpm <= 1e6))
         throw std::invalid_argument(fmt::format(
             "a burr has a diameter_mm above 0, up to 100, 1 to 64 edges and rpm above 0, up to 1e6, not "

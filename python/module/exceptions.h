@@ -1,7 +1,7 @@
-// The package's own exceptions, by which a script tells its own slip from what went wrong.
+// The package's own exceptions, which tell a script's own mistake from a failure.
 //
 // BadInput, a ValueError: an argument is wrong, and the line says what would be right. Fault, a RuntimeError:
-// what was asked for was right and could not be done: a file that cannot be read, a session that has ended.
+// the request was right and failed: a file that cannot be read, a session that has ended.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -39,7 +39,7 @@ inline void translate(std::exception_ptr thrown) {
     }
 }
 
-/// In the core, before anything else.
+/// Made in the core, before anything else.
 inline void make_exceptions(pybind11::module_& module) {
     const auto make = [&module](const char* name, const char* whole_name, const char* doc, PyObject* base) {
         module.attr(name) = pybind11::reinterpret_steal<pybind11::object>(

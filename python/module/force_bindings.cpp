@@ -26,7 +26,7 @@ SteadyMotion make_motion(const py::object& position_mm, const py::object& veloci
             .velocity_mm_per_s = vector_of(velocity_mm_per_s, "velocity_mm_per_s")};
 }
 
-/// Of the voxel that a point lies in, weighed by what is left of it.
+/// Stiffness of the voxel in which a point lies, times the fraction left of it.
 BoneFunction function_of(const BoneView& view) {
     return [&bone = view.bone()](const glm::dvec3& position_mm) {
         const glm::ivec3 voxel(glm::floor(to_voxel_coordinates(bone.grid(), position_mm) + 0.5));

@@ -1,5 +1,5 @@
-// A case that sessions are made of: its scene, its bone, and where its protected structures are. Loaded once,
-// never changed, and shared by any number of sessions in any number of threads.
+// A case from which sessions are made: its scene, its bone, and the places of its protected structures.
+// Loaded once, never changed, and shared by any number of sessions in any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +28,8 @@ struct StepNames {
 
 class LoadedCase {
   public:
-    /// Loads it, for as long as that takes; the bone of `similar` is shared where it is the same. Throws in
-    /// one line as load_session_scene does.
+    /// Loads it, for as long as that takes; the bone of `similar` is shared if it is the same. Throws in one
+    /// line as load_session_scene does.
     LoadedCase(std::string name, SceneChoice choice, const LoadedCase* similar = nullptr);
 
     const std::string& name() const { return name_; }
@@ -39,30 +39,30 @@ class LoadedCase {
     const Scene& settings() const { return scene_.scene; }
     std::uint64_t bone_checksum() const { return bone_checksum_; }
 
-    /// The tissues by which removed bone is counted, and the label of each; "unlabelled" is one of them where
+    /// The tissues by which removed bone is counted, and the label of each; "unlabelled" is one of them if
     /// the bone has such voxels.
     struct NamedLabel {
         std::string name;
         std::size_t label;
     };
     const std::vector<NamedLabel>& labels() const { return labels_; }
-    /// Their names, and those of the structures: what steps are read by.
+    /// Their names, and those of the structures, by which steps are read.
     std::shared_ptr<const StepNames> step_names() const { return step_names_; }
-    /// Of the tissues that the bone had.
+    /// Labels of the tissues that the bone had.
     const std::vector<std::size_t>& labels_of_bone() const { return labels_of_bone_; }
 
     /// Names of the protected structures.
     const std::vector<std::string>& structures() const { return structure_names_; }
-    /// The scene's burrs as they are felt.
+    /// The scene's burrs as the hand feels them.
     const std::vector<Burr>& felt_burrs() const { return felt_burrs_; }
 
     bool has_plan() const { return scene_.scene.plan.has_value(); }
-    /// From a place, patient LPS, to the planned region; 0 and below: within, so deep. Infinite where the
-    /// bone has none of it. The first call looks for the region. There is a plan.
+    /// Distance from a place, patient LPS, to the planned region; 0 and below: within, so deep. Infinite if
+    /// the bone has none of the region. The first call finds the region. The case must have a plan.
     double plan_distance_mm(const glm::dvec3& place_mm) const;
 
-    /// From the burr's head to structure number `i`, mm; 0 and below: they overlap, so deep; infinite:
-    /// further than reach.
+    /// Distance from the burr's head to structure number `i`, mm; 0 and below: they overlap, so deep;
+    /// infinite: beyond reach.
     double distance_mm(std::size_t i, const ToolState& tool) const noexcept;
 
   private:

@@ -1,4 +1,4 @@
-// A recording that was opened: what its states say, column by column, and its bone at any instant.
+// An open recording: the values of its states, column by column, and its bone at any instant.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ struct StateColumns {
     std::vector<std::uint8_t> burr, spindle_on;
 };
 
-/// All of a recording; what cannot be read is left out.
+/// All ticks of a recording that can be read.
 std::vector<TickSample> ticks_of(const std::filesystem::path& file);
 
 class OpenedRecording {
   public:
-    /// Throws RecordingError where there is no bone in it.
+    /// Throws RecordingError if it holds no bone.
     explicit OpenedRecording(std::filesystem::path file)
         : file_(std::move(file)), playhead_(std::in_place, file_) {}
 
@@ -38,9 +38,9 @@ class OpenedRecording {
     const StateColumns& columns() { return read(), columns_; }
     const RecordingSummary& summary() { return read(), *summary_; }
 
-    /// After the last frame that is no later than `time_s`, seconds since the recording began. Goes on from
-    /// where it was requested last, or begins anew where that is later. Throws RecordingError for what cannot
-    /// be right until then.
+    /// The bone after the last frame that is no later than `time_s`, seconds since the recording began. Goes
+    /// on from the last requested time, or begins anew if that is later. Throws RecordingError for a fault
+    /// before that time.
     const Bone& bone_at(double time_s);
 
   private:

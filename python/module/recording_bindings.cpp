@@ -81,7 +81,7 @@ py::object info(const SharedRecording& recording) {
     {
         const ReleasedLock released;
         const std::unique_lock<std::mutex> held(recording->busy());
-        // Names may be what a hostile file holds.
+        // Names may come from a hostile file.
         text = to_json(recording->summary())
                    .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     }
@@ -99,7 +99,7 @@ void to_hdf5(const SharedRecording& recording, const std::filesystem::path& file
     if (!error.empty()) throw std::runtime_error(error);
 }
 
-/// Every tick, read when it is asked for and not kept.
+/// Every tick, read on request and not kept.
 py::dict ticks(const SharedRecording& recording) {
     std::vector<TickSample> all;
     {

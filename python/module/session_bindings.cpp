@@ -32,8 +32,9 @@ std::optional<Grip> grip_of(const std::string& hand) {
         fmt::format("hand: \"{}\" is none; choose \"prescribed\", \"light\" or \"firm\"", hand));
 }
 
-/// The interpreter ends without the sessions that a daemon thread still refers to: their recordings would
-/// stay unfinished. One that a thread is at work on, or of another process, is left as it is.
+/// The interpreter does not destroy sessions to which a daemon thread still refers; their recordings would
+/// stay unfinished, so they are ended here. A session that a thread is working on, or of another process, is
+/// left alone.
 void end_at_exit(const SharedSession& session) {
     const auto end = [weak = std::weak_ptr(session)] {
         ends_interpreter.store(
@@ -47,7 +48,7 @@ void end_at_exit(const SharedSession& session) {
     py::module_::import("atexit").attr("register")(py::cpp_function(end));
 }
 
-/// A forked process has the session's memory and none of its threads: there it is let go as it is.
+/// A forked process has the session's memory and none of its threads: there the session is leaked.
 void let_go(SteppedSession* session) {
     if (session->is_of_this_process()) delete session;
 }

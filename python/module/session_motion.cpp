@@ -52,7 +52,7 @@ std::int32_t burr_number(const SteppedSession& session, const py::object& burr) 
     return static_cast<std::int32_t>(number);
 }
 
-/// Rows of three, N of them. Throws std::invalid_argument for another shape and for what is not finite.
+/// N rows of three. Throws std::invalid_argument for another shape and for values that are not finite.
 void require_rows(const Doubles& rows, py::ssize_t n, const char* argument) {
     if (rows.ndim() != 2 || rows.shape(0) != n || rows.shape(1) != 3)
         throw std::invalid_argument(fmt::format("{}: takes an array ({}, 3), not {}", argument, n,

@@ -1,4 +1,4 @@
-// Sessions moved by Python's arguments: a step, a rollout, a run, one of many at once.
+// Motion of sessions by Python's arguments: a step, a rollout, a run, or many sessions at once.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -19,19 +19,19 @@ using Doubles = pybind11::array_t<double, pybind11::array::c_style | pybind11::a
 using Flags = pybind11::array_t<bool, pybind11::array::c_style | pybind11::array::forcecast>;
 
 // Errors are std::invalid_argument for an argument, named in the line, and std::runtime_error for a session
-// that another thread has. Python's signals end the work within a second of session time.
+// that another thread holds. Python's signals end the work within a second of session time.
 
-/// Raises what Python's signals raise, Ctrl-C among them: they wait for the interpreter's lock.
+/// Raises the exceptions of Python's signals, such as Ctrl-C: they wait for the interpreter's lock.
 void raise_of_signal();
 
-/// Three numbers that are a place, patient LPS, mm.
+/// A place of three numbers, patient LPS, mm.
 glm::dvec3 place_of(const pybind11::handle& value, const char* argument);
 
 /// Throws std::invalid_argument, which begins with `what`, for a session whose hand is simulated.
 void require_prescribed(const SteppedSession& session, const char* what);
 
-/// An input a row: hands (N, 3), axes (N, 3) or (3,), pedals (N,) or one; nothing: the axis as it is, the
-/// pedal up.
+/// An input for each row: hands (N, 3), axes (N, 3) or (3,), pedals (N,) or one; nothing: the axis as it is,
+/// the pedal up.
 std::vector<HandInput> inputs_of(const SteppedSession& session, const Doubles& hands,
                                  const std::optional<Doubles>& axes, const std::optional<Flags>& pedals,
                                  std::int32_t burr);

@@ -20,7 +20,7 @@ namespace osteomill::python {
 
 namespace {
 
-/// Computed without a look at whether somebody wants it to stop.
+/// Computed without a check whether the caller wants to stop.
 constexpr std::uint64_t ticks_at_once = 1000;
 
 double power_w(double torque_n_mm, const Burr& burr) {
@@ -32,7 +32,7 @@ MillingSessionOptions milling_options(const SteppedOptions& options) {
                                   .coupling = options.coupling,
                                   .force_model = options.force_model,
                                   .vibration = options.vibration,
-                                  // Whoever steps it ends it, also one that follows a trajectory without end.
+                                  // The caller that steps it ends it, even if its trajectory has no end.
                                   .duration_s = std::numeric_limits<double>::max()};
     if (milling.coupling.empty())
         milling.coupling =
@@ -42,7 +42,8 @@ MillingSessionOptions milling_options(const SteppedOptions& options) {
     return milling;
 }
 
-/// All that it computes from, a line for each: two sessions of one are the same function of their hand.
+/// All inputs of the computation, a line for each: two sessions with the same lines are the same function of
+/// their hand.
 std::string origin_of(const std::map<std::string, std::string>& settings, const std::string& scene_toml,
                       const std::string& case_name) {
     std::string text = fmt::format("case = {}\n", case_name);
@@ -52,13 +53,13 @@ std::string origin_of(const std::map<std::string, std::string>& settings, const 
     return text + scene_toml;
 }
 
-/// A prescribed hand is read as it is.
+/// A prescribed hand is read without encoder steps.
 DeviceLimits limits_without_encoder(ArmModel arm) {
     arm.resolution_mm = 0.0;
     return limits_of(arm);
 }
 
-/// What an arm's limits do not tell.
+/// The values of an arm that its limits do not hold.
 std::string line_of(const std::optional<ArmModel>& arm) {
     if (!arm) return "";
     return fmt::format("arm = {} kg, {} N of friction, {} N s/mm, {} mm, {} ms late\n", arm->mass_kg,
@@ -114,7 +115,7 @@ SteppedSession::~SteppedSession() {
     try {
         end();
     } catch (const std::exception&) {
-        // Who wants to know whether a recording is whole ends the session.
+        // A caller that must know whether a recording is whole ends the session itself.
     }
 }
 
@@ -153,7 +154,7 @@ void SteppedSession::begin() {
         session.shown->settings = settings;
         session.shown->scene_toml = scene_toml;
     }
-    // The one before, if any, goes only once there is another.
+    // The assembly before, if any, is destroyed only once the new one exists.
     run_.assembly = std::make_unique<SessionAssembly>(std::move(scene), std::move(parts), std::move(session));
     run_.assembly->start();
     run_.assembly->advance(1);

@@ -1,11 +1,11 @@
 // A session on the virtual clock that is stepped from outside, a millisecond a tick: by a hand at prescribed
 // poses, or by the simulated arm in a hand that follows the scene's trajectory. A thin layer over
-// SessionAssembly: it feeds the hand, keeps what was fed, and notes what each tick knew. The tick of time 0,
-// with the hand at the start and the pedal up, is made at once.
+// SessionAssembly: it sets the hand, keeps that motion, and records the values of each tick. The tick of time
+// 0, with the hand at the start and the pedal up, is made at once.
 //
-// What is saved of a session is what it was fed: the session is a pure function of that. To load it is to
-// play it again from the bone as it was loaded, which takes as long as the session took to compute, and holds
-// no second bone.
+// A saved session is the motion of its hand: the session is a pure function of that. Loading plays the motion
+// again from the bone as it was loaded, which takes as long as the session took to compute, and needs no
+// second bone.
 #pragma once
 
 #include <unistd.h>
@@ -50,30 +50,30 @@ struct HandInput {
     }
 };
 
-/// What a tick knew.
+/// Values of a tick.
 struct TickState {
     ToolState tool{};
     glm::dvec3 milling_force_n{
-        0.0};  ///< of the bone on the burr, mean over the newest milling step, as the tick knew it
+        0.0};  ///< of the bone on the burr, mean over the newest milling step known to the tick
     std::vector<double> removed_mm3{};  ///< so far, by LoadedCase::labels()
     double removed_in_all_mm3 = 0.0;
     double spindle_torque_n_mm = 0.0;  ///< that the cut takes (spindle_torque.h), in the tick's ms
     double spindle_power_w = 0.0;
 };
 
-/// What was fed to a session since it began.
+/// Motion of a session's hand since it began.
 struct FedMotion {
-    std::string session;  ///< which case and which settings: only such a session takes it
+    std::string session;  ///< case and settings: only a session of the same accepts the motion
     std::vector<HandInput> inputs{};
 };
 
 class SteppedSession {
   public:
-    /// Throws std::invalid_argument or std::runtime_error in one line for what a part refuses.
+    /// Throws std::invalid_argument or std::runtime_error in one line for anything that a part refuses.
     SteppedSession(std::shared_ptr<const LoadedCase> loaded, SteppedOptions options);
     ~SteppedSession();
     /// Goes on where `other` is, to the bit; it is not recorded. The caller holds other's `busy`. Throws
-    /// std::logic_error where that has ended.
+    /// std::logic_error if `other` has ended.
     SteppedSession(const SteppedSession& other);
     SteppedSession& operator=(const SteppedSession&) = delete;
 
@@ -88,15 +88,15 @@ class SteppedSession {
     }
     bool is_of_this_process() const { return ::getpid() == process_; }
 
-    /// Makes the ticks of `input`. Throws std::logic_error once it has ended.
+    /// Makes the ticks of `input`. Throws std::logic_error once the session has ended.
     void step(const HandInput& input);
-    /// As it was after the last tick.
+    /// State after the last tick.
     TickState state() const;
     const ToolState& tool() const { return run_.tool; }
     const glm::dvec3& milling_force_n() const { return run_.assembly->session().known_result().force_n; }
-    /// That the cut takes, in the last tick's ms; 0 while the spindle stands.
+    /// Torque that the cut takes, in the last tick's ms; 0 while the spindle stands.
     double spindle_torque_n_mm() const;
-    /// So far, of one tissue, and of all that the bone had.
+    /// Volume removed so far, of one tissue, and of all that the bone had.
     double removed_mm3(std::size_t label) const { return run_.assembly->session().removed_mm3(label); }
     double removed_in_all_mm3() const;
 
@@ -111,18 +111,18 @@ class SteppedSession {
     const LoadedCase& loaded() const { return *loaded_; }
     std::shared_ptr<const LoadedCase> shared_case() const { return loaded_; }
     const Bone& bone() const { return run_.assembly->session().bone(); }
-    /// Of the arm.
+    /// Limit of the arm.
     double max_force_n() const;
     const MillingSessionOptions& settings() const { return run_.assembly->options(); }
 
     FedMotion fed() const { return {.session = origin_, .inputs = run_.fed}; }
-    /// Goes to where the motion leads. `pace` is called with what computes the next second or less of it, and
-    /// calls that; whatever it throws leaves the session as it was. Throws std::invalid_argument for a motion
-    /// of another case or other settings, and for a session that is recorded.
+    /// Goes to the end of the motion. `pace` is called with a function that computes the next second or less
+    /// of it, and calls that; if `pace` throws, the session stays as it was. Throws std::invalid_argument for
+    /// a motion of another case or other settings, and for a session that is recorded.
     using Pace = std::function<void(const std::function<void()>& compute)>;
     void replay(const FedMotion& motion, const Pace& pace);
 
-    /// Ends it; a recording is whole then. Throws std::runtime_error where that could not be written.
+    /// Ends the session; a recording is whole then. Throws std::runtime_error if it could not be written.
     void end();
 
   private:

@@ -39,8 +39,8 @@ glm::dvec3 vector_in(const py::handle& row) {
     return {x, y, z};
 }
 
-/// All that a step says, and nothing else: two that say the same are equal, and it can be sent to other
-/// processes.
+/// All values of a step, and nothing else: two steps of the same values are equal, and a step can be sent to
+/// other processes.
 py::tuple said(const Tick& tick) {
     const ToolState& tool = tick.state.tool;
     return py::make_tuple(

@@ -11,7 +11,7 @@
 
 namespace osteomill::python {
 
-/// What a step returns: what its last tick knew. It needs no case, and goes to other processes.
+/// Result of a step: the values of its last tick. It needs no case, and can be sent to other processes.
 struct Tick {
     TickState state{};
     std::shared_ptr<const StepNames> names{};

@@ -1,4 +1,4 @@
-# Types of the compiled core; what it does say its docstrings.
+# Types of the compiled core; its docstrings say what it does.
 import os
 import pathlib
 from collections.abc import Callable, Sequence

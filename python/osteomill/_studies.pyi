@@ -1,4 +1,4 @@
-# Types of the kernels of osteomill.studies; promised to nobody.
+# Types of the kernels of osteomill.studies; their interface is not promised.
 import os
 from collections.abc import Sequence
 from typing import Any
@@ -250,7 +250,7 @@ def run_link(
     latency_s: float = ...,
 ) -> dict[str, Any]: ...
 
-# Of a case.
+# Cases and burrs.
 def scene_text(case: Case) -> str: ...
 def is_ball(burr: Burr) -> bool: ...
 def chips_alone(burr: Burr) -> Burr: ...

@@ -1,4 +1,4 @@
-"""What is drawn by lot for an episode, besides where the tool starts: within ranges that the user names."""
+"""Random draws for an episode, besides the tool's start: within ranges that the user names."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from osteomill._core import BadInput, Case
 
 Ranges = Mapping[str, Sequence[float]]
 
-# What no key of a scene says, and the most that it may be.
+# Quantities that are no keys of a scene, and the most that each may be.
 _OF_EPISODE = {"registration_mm": 50.0, "delay_ms": 1000.0, "force_noise_n": 100.0, "pose_noise_mm": 50.0}
 
 
 @dataclass(frozen=True)
 class Drawn:
-    """An episode's: its case, and how what is seen and done differs from what is."""
+    """The draws of an episode: its case, and the errors of observation and action."""
 
     case: Case
     values: dict[str, float] = field(default_factory=dict)
@@ -33,7 +33,7 @@ class Drawn:
 
 
 class Draws:
-    """Of these cases one, evenly, and of each range a value, evenly."""
+    """Draws one of these cases, and a value of each range, all evenly."""
 
     def __init__(self, cases: Sequence[Case], ranges: Ranges | None) -> None:
         self.cases = list(cases)
@@ -48,7 +48,7 @@ class Draws:
                 raise BadInput(f"ranges: takes {', '.join(_OF_EPISODE)} and keys of a scene; {error}") from None
 
     def draw(self, generator: np.random.Generator) -> Drawn:
-        """The next episode's."""
+        """The draws of the next episode."""
         if len(self.cases) == 1 and not self.ranges:
             return Drawn(self.cases[0])
         case = self.cases[int(generator.integers(len(self.cases)))]

@@ -1,4 +1,4 @@
-"""An environment for learning to mill: one of Gymnasium's where that is installed, and of the same form where it is not."""
+"""An environment for learning to mill: one of Gymnasium's if that is installed, else one of the same form."""
 
 from __future__ import annotations
 
@@ -30,17 +30,17 @@ Ends = Literal["fault", "protected"]
 
 
 def removed_mm3(before: Step, after: Step) -> float:
-    """The reward where none is given: bone that was removed, mm^3."""
+    """The default reward: bone that was removed, mm^3."""
     return after.removed_mm3["total"] - before.removed_mm3["total"]
 
 
 def never(before: Step, after: Step) -> bool:
-    """The end where none is given: there is none but the episode's duration."""
+    """The default end: only the episode's duration."""
     return False
 
 
 class Way(NamedTuple):
-    """Of the hand during an action, a row a millisecond."""
+    """Path of the hand during an action, a row for each millisecond."""
 
     hands_mm: NDArray[np.float64]
     axes: NDArray[np.float64] | None
@@ -55,27 +55,28 @@ class Env(_Base):
     velocity, mm/s in patient LPS, of at most `fastest_mm_per_s` along each axis, and the pedal, down above 0.5; with
     actions="normalised" all are from -1 to 1, the velocity as a share of the fastest, the pedal down above 0. The hand moves so for
     1 / `control_hz` s, a tick a millisecond. The spindle keeps its direction; with `fastest_rad_per_s` above 0 it is tilted: the action
-    is (7,), with the rate at which the spindle turns about the patient's axes, rad/s, before the pedal. What is beyond the bounds is
-    clipped; what is no such array, or no number, is refused.
+    is (7,), with the rate at which the spindle turns about the patient's axes, rad/s, before the pedal. Values beyond the bounds
+    are clipped; anything but such an array of numbers is refused.
 
-    `observation` names what is seen, as a dict of arrays: "pose" (6,): the burr's centre (mm, LPS) and the spindle's axis;
-    "hand" (3,); "force" (3,), N; "torque" (3,), of bone on the shank, N mm; "spindle" (2,): the cut's torque on it, N mm, and power, W;
-    "removed" (tissues + 1,), mm^3, the total first; "distance" (structures,), mm to the protected ones, inf beyond reach; "plan" (1,):
-    mm from the burr's centre to what the case plans to remove, below 0 within; "cropN" (N, N, N): uint8, what is left of the
-    N^3 voxels about the burr; "rgb" (height, width, 3), "depth" (height, width), mm, and "labels" (height, width): what `camera` sees,
-    a mapping as osteomill.render takes, at `picture_px`, width and height; None: the first view.
+    `observation` names the quantities seen, as a dict of arrays: "pose" (6,): the burr's centre (mm, LPS) and the spindle's axis;
+    "hand" (3,); "force" (3,), N; "torque" (3,), of bone on the shank, N mm; "spindle" (2,): the cut's torque on it, N mm, and
+    power, W; "removed" (tissues + 1,), mm^3, the total first; "distance" (structures,), mm to the protected ones, inf beyond
+    reach; "plan" (1,): mm from the burr's centre to the region that the case plans to remove, below 0 within; "cropN" (N, N, N):
+    uint8, the fractions left of the N^3 voxels about the burr; "rgb" (height, width, 3), "depth" (height, width), mm, and
+    "labels" (height, width): the picture of `camera`, a mapping as osteomill.render takes, at `picture_px`, width and height;
+    None: the first view.
 
-    `reward(before, after)` and `is_done(before, after)` get what was known before and after an action, as Steps. An episode is also
-    over by what `ends` names: a "fault", or a "protected" tissue that is cut; and truncated after `duration_s`.
+    `reward(before, after)` and `is_done(before, after)` get the state before and after an action, as Steps. Events named in
+    `ends` also end an episode: a "fault", or a "protected" tissue that is cut. It is truncated after `duration_s`.
 
-    Of the same seed it is the same to the bit. By a generator of the environment's own are drawn: where the tool starts,
-    within `start_jitter_mm` of the case's start along each axis, and what `ranges` names, each evenly from its least to its most:
-    "registration_mm", how far a navigation is off, in any direction; "delay_ms", after which an action acts; "force_noise_n" and
-    "pose_noise_mm", standard deviations of what is seen; or any key of a scene, as Case takes them: "force_scale" times what
-    cutting takes, "wall_friction", "tissues.enamel.relative_stiffness". Keys that change the bone load it anew, which takes a second.
-    `drawn` has what was drawn. "pose", "hand" and "plan" are as the navigation shows them; all else is as it is.
+    The same seed gives the same episodes, to the bit. A generator of the environment's own draws the tool's start, within
+    `start_jitter_mm` of the case's start along each axis, and the quantities in `ranges`, each evenly from its least to its most:
+    "registration_mm", the error of a navigation, in any direction; "delay_ms", after which an action acts; "force_noise_n" and
+    "pose_noise_mm", standard deviations of observations; or any key of a scene, as Case takes them: "force_scale", a factor of
+    the cutting force, "wall_friction", "tissues.enamel.relative_stiffness". Keys that change the bone load it anew, which takes a
+    second. `drawn` has the drawn values. "pose", "hand" and "plan" are as the navigation shows them; all else is without error.
 
-    Other arguments are those of Session. An environment can be pickled, as it is before reset, if its functions can.
+    Other arguments are those of Session. An environment can be pickled in its state before reset, if its functions can.
 
     With gymnasium installed it is a gymnasium.Env, and gymnasium.make("osteomill/Mill-v0") makes one of the tooth with normalised actions.
     """
@@ -145,12 +146,12 @@ class Env(_Base):
 
     @property
     def unwrapped(self) -> Env:
-        """Itself: it wraps nothing."""
+        """The environment itself: it wraps nothing."""
         return self
 
     @property
     def np_random(self) -> np.random.Generator:
-        """The generator that episodes are drawn from."""
+        """The generator that draws episodes."""
         if self._np_random is None:
             self._begin_generator(None)
         assert self._np_random is not None
@@ -162,7 +163,7 @@ class Env(_Base):
 
     @property
     def np_random_seed(self) -> int:
-        """What the generator began with; -1 where that is not known."""
+        """The generator's seed; -1 if it is not known."""
         if self._np_random_seed is None:
             self._begin_generator(None)
         assert self._np_random_seed is not None
@@ -176,11 +177,11 @@ class Env(_Base):
 
     @property
     def drawn(self) -> dict[str, float]:
-        """What was drawn for this episode, by the names of `ranges`."""
+        """The values drawn for this episode, by the names of `ranges`."""
         return dict(self._drawn.values)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Observation, dict[str, Any]]:
-        """Begins an episode; returns what is seen, and info as step does. Without a seed the generator goes on.
+        """Begins an episode; returns the observation, and info as step does. Without a seed the generator goes on.
 
         options: none are known, and BadInput says so.
         """
@@ -205,7 +206,7 @@ class Env(_Base):
         """Takes an action, clipped to `action_space`; returns observation, reward, terminated, truncated, info.
 
         info: plain numbers of the last tick, "time_s", "removed_mm3" (the total), "force_n" (its magnitude), "spindle_on", "fault";
-        "step", all that it knew, and "ticks", the arrays of all ticks as Session.rollout returns them.
+        "step", all its values, and "ticks", the arrays of all ticks as Session.rollout returns them.
         """
         if self.session is None:
             raise Fault("call reset() before step()")
@@ -217,7 +218,7 @@ class Env(_Base):
         return observation, reward, terminated, truncated, info | {"ticks": ticks}
 
     def _way(self, action: Any) -> Way:
-        """What the hand does in this action's time: with a delay, what it was told before."""
+        """Path of the hand in this action's time; with a delay, that of an earlier action."""
         velocity_mm_per_s, rate_rad_per_s, pedal = self._meant(action)
         passed_s = np.arange(1, self._ms + 1)[:, None] * 1e-3
         hands_mm = self._hand_mm + passed_s * velocity_mm_per_s
@@ -234,7 +235,7 @@ class Env(_Base):
         return Way(told.hands_mm[:self._ms], None if of_axes is None else of_axes[:self._ms], told.pedals[:self._ms])
 
     def _arrived(self, after: Step) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """What step returns, once the session is there."""
+        """The values that step returns, once the session is there."""
         before, self._now = self._now, after
         terminated = bool(self._is_done(before, after)) or ("fault" in self._ends and after.fault != "") or (
             "protected" in self._ends and after.touches_protected)
@@ -243,7 +244,7 @@ class Env(_Base):
         return self._observe(after), float(self._reward(before, after)), terminated, truncated, self._info(after)
 
     def render(self) -> None:
-        """Nothing: render_mode is None. osteomill.render(env.session) draws it."""
+        """Does nothing: render_mode is None. osteomill.render(env.session) draws it."""
 
     def close(self) -> None:
         """Ends the episode's session."""
@@ -272,7 +273,7 @@ class Env(_Base):
         return f"<Env of {self.case!r}: {', '.join(self.observation_space)}; {1000 / self._ms:g} actions a second>"
 
     def _meant(self, action: Any) -> tuple[NDArray[np.float64], NDArray[np.float64], bool]:
-        """Velocity, rate of turning (of no numbers, where the spindle keeps its direction), pedal."""
+        """Velocity, rate of turning (empty if the spindle keeps its direction), pedal."""
         shape = self._fastest.shape
         try:
             numbers = np.asarray(action, float)

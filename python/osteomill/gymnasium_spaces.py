@@ -1,4 +1,4 @@
-"""The spaces of gymnasium where that is installed, and spaces of the same form where it is not."""
+"""The spaces of gymnasium if it is installed, else spaces of the same form."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an environment shows of its session, as arrays by name."""
+"""Observations of an environment's session, as arrays by name."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NAMES = ("pose", "hand", "force", "torque", "spindle", "removed", "distance", "
 
 
 class Pictures:
-    """Of sessions of one case, by one camera: shared by environments that are in one process."""
+    """Pictures of sessions of one case, by one camera: shared by environments that are in one process."""
 
     def __init__(self, camera: Mapping[str, Any] | None, size_px: Sequence[int], names: Sequence[str]) -> None:
         width, height = size_px
@@ -37,12 +37,12 @@ class Pictures:
         self._view: View | None = None
 
     def of(self, session: Session) -> dict[str, Any]:
-        """By kind."""
+        """The images by kind."""
         if self._view is not None:
             try:
                 return self._drawn(self._view, session)
             except BadInput:
-                pass  # of another bone: a case that was drawn by lot
+                pass  # of another bone: a case that was drawn at random
         self._view = View(session, [self._camera], images=self._images)
         return self._drawn(self._view, session)
 
@@ -61,7 +61,7 @@ class Pictures:
 
 
 class Observer:
-    """Of sessions of `case`: the arrays of these names, each within its space."""
+    """Observer of sessions of `case`: the arrays of these names, each within its space."""
 
     def __init__(self, case: Case, names: Sequence[str], camera: Mapping[str, Any] | None, picture_px: Sequence[int]) -> None:
         self._case = case
@@ -101,7 +101,8 @@ class Observer:
         raise BadInput(f'observation: "{name}" is none of {", ".join(_NAMES)}, cropN (N from 1 to 256)')
 
     def observe(self, step: Step, session: Session, drawn: Drawn, generator: np.random.Generator) -> Observation:
-        """All of an instant. Pose, hand and plan are as a navigation shows them, with the episode's error of registration and noise."""
+        """All observations of an instant. Pose, hand and plan are as a navigation shows them, with the episode's error of
+        registration and noise."""
         images = self.pictures.of(session) if self.pictures is not None else {}
 
         def shown(place_mm: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,10 +1,10 @@
-"""Files of the parts of a sweep: JSON lines, the first saying of which cases, then one for each case that is done.
+"""Files of the parts of a sweep: JSON lines, a first one that identifies the cases, then one for each case that is done.
 
     {"sweep": "peaks.peak_force_n", "cases": "5b3f...", "shard": 1, "of": 3}
     {"case": 17, "outcome": ...}
 
-A line is written at once, so that a process that is killed loses the cases it was at, and at most the last line
-is torn; a run that continues the file cuts that off. Numbers come back to the last bit.
+A line is written as soon as its case is done, so a killed process loses only the cases it was working on, and at most the
+last line is torn; a run that continues the file cuts that off. Numbers come back to the last bit.
 """
 
 import dataclasses
@@ -24,13 +24,13 @@ Outcomes = dict[int, Any]  # by index into the list of all cases
 
 @dataclasses.dataclass(frozen=True)
 class Part:
-    """One of several: part `number`, from 1, of `of`."""
+    """One of several parts: `number`, from 1, of `of`."""
 
     number: int = 1
     of: int = 1
 
     def cases(self, keys: list[str]) -> list[int]:
-        """Indices of its cases, drawn as by lot, always the same: each part has its share of what takes long."""
+        """Indices of its cases, drawn pseudorandomly and always the same: each part gets its share of long cases."""
         lots = [hashlib.sha256(key.encode()).digest() for key in keys]
         return sorted(range(len(keys)), key=lots.__getitem__)[self.number - 1 :: self.of]
 
@@ -46,12 +46,12 @@ def part_named(text: str) -> Part:
 
 
 def fingerprint_of(keys: Iterable[str]) -> str:
-    """Of a list: changes with a key or the order."""
+    """Fingerprint of a list: it changes with a key or the order."""
     return hashlib.sha256("\n".join(keys).encode()).hexdigest()
 
 
 class PartFile:
-    """What one file holds. ValueError in one line for a file that cannot be read, or is none of a part."""
+    """Contents of one file. ValueError in one line for a file that cannot be read, or is not a part's."""
 
     def __init__(self, file: pathlib.Path) -> None:
         self.file = file
@@ -69,8 +69,8 @@ class PartFile:
 class PartWriter:
     """Appends to the file of a part, alone: a second writer is refused while this one is open.
 
-    Makes the file, or takes up one of the same header; `done` is what it held then. ValueError in one line where
-    it is of another sweep, or is being written by another process.
+    Makes the file, or continues one of the same header; `done` holds its outcomes so far. ValueError in one line if it is
+    of another sweep, or another process is writing it.
     """
 
     def __init__(self, file: pathlib.Path, header: Header) -> None:
@@ -102,7 +102,7 @@ class PartWriter:
         except BlockingIOError:
             raise ValueError(f"{self.file}: another process is writing it") from None
         except OSError:
-            pass  # a file system without locks: whoever starts a part starts it once
+            pass  # a file system without locks: the user must start a part only once
         whole = whole_lines(self.file)
         if whole:
             kept = PartFile(self.file)
@@ -110,7 +110,7 @@ class PartWriter:
                 raise ValueError(f"{self.file}: holds cases of another {_difference(kept.header, header)}: "
                                  "give another folder or remove it")
             self.done = kept.outcomes
-        self._lines.truncate(len(whole.encode()))  # what a kill tore off
+        self._lines.truncate(len(whole.encode()))  # the torn end after a kill
         if not whole:
             self._write(header)
 
@@ -124,7 +124,7 @@ class PartWriter:
 
 
 class JoinedParts:
-    """Parts that ran apart, all of them. ValueError in one line where they do not fit, or one is missing."""
+    """All parts of a sweep that ran in parts. ValueError in one line if they do not fit together, or one is missing."""
 
     def __init__(self, files: Iterable[pathlib.Path]) -> None:
         self.parts: list[PartFile] = []
@@ -148,7 +148,7 @@ class JoinedParts:
         self.parts.append(part)
 
     def outcomes(self, keys: list[str], names: list[str] | None = None) -> list[Any]:
-        """Of the cases of these keys, in their order; `names`: as people are told of them."""
+        """Outcomes of the cases of these keys, in their order; `names`: the cases' names in messages."""
         fingerprint = fingerprint_of(keys)
         outcomes: list[Any] = [None] * len(keys)
         for part in self.parts:
@@ -166,9 +166,9 @@ class JoinedParts:
 
 
 def whole_lines(file: pathlib.Path) -> str:
-    """Up to the last end of a line: what follows was torn off by a kill."""
+    """The text up to the last end of a line: a kill has torn the rest."""
     try:
-        from osteomill import _studies  # which draws, too: who reads no part loads no OpenGL
+        from osteomill import _studies  # which also draws: a caller that reads no part loads no OpenGL
 
         text = _studies.read_file(file)
         return text[: text.rfind(b"\n") + 1].decode()
@@ -204,6 +204,6 @@ def _case_of(line: str, place: str) -> tuple[int, Any]:
 
 
 def _difference(kept: Header, own: Header) -> str:
-    """In what two headers differ, in words."""
+    """Difference of two headers, in words."""
     same_but_build = kept | {"program": None} == own | {"program": None}
     return "build of this program" if same_but_build else "sweep"

@@ -21,12 +21,11 @@ KINDS = ("colour", "depth", "labels", "normals")
 
 
 class Rendering(Iterator[dict[str, Any]]):
-    """Frames of a recording, one after the other: what render() returns.
+    """Frames of a recording, one after the other, as render() returns them.
 
-    A frame is what the index of an image set says of it (docs/datasets.md), with arrays where that has lists
-    of numbers and names of files: "recorded_s", "session_s", "tool" with its "pose", "hand_mm", "force_n",
-    "removed_mm3", and under "images", by the camera's name, its "pose" and each kind of image. All is of one
-    instant. Any thread may ask for the next frame.
+    A frame is its entry in the index of an image set (docs/datasets.md), with arrays in the place of lists of numbers and names
+    of files: "recorded_s", "session_s", "tool" with its "pose", "hand_mm", "force_n", "removed_mm3", and under "images", by the
+    camera's name, its "pose" and each kind of image. All is of one instant. Any thread may ask for the next frame.
     """
 
     def __init__(self, rendering: _render.Rendering | _OneFrame) -> None:
@@ -39,7 +38,8 @@ class Rendering(Iterator[dict[str, Any]]):
 
     @property
     def sessions(self) -> list[dict[str, Any]]:
-        """Those that have begun so far; of each the scene and the table of labels. A frame says which by "session"."""
+        """The sessions that have begun so far; of each the scene and the table of labels. A frame's "session" says which is its
+        own."""
         return self._rendering.sessions
 
     def __next__(self) -> dict[str, Any]:
@@ -51,11 +51,11 @@ class Rendering(Iterator[dict[str, Any]]):
 
 
 class View:
-    """Cameras that look at sessions while these go on, in this process: what osteomill.render draws once, again and again, quickly.
+    """Cameras on live sessions in this process: the drawing of osteomill.render, repeated quickly.
 
-    session: the first to be looked at; cameras, images, randomise as osteomill.render. A camera without a place has the first
-    view of that session. `draw` takes that session, its copies, and others of the same case, in any order; what has changed of
-    the bone since the last picture is all that is taken over. Any thread may draw. Errors as osteomill.render.
+    session: the first one to draw; cameras, images, randomise as in osteomill.render. A camera without a place has the first view
+    of that session. `draw` takes that session, its copies, and others of the same case, in any order; it copies only changes of
+    the bone since the last picture. Any thread may draw. Errors as osteomill.render.
     """
 
     def __init__(
@@ -80,7 +80,7 @@ class View:
         return self._view.session
 
     def draw(self, session: Session) -> dict[str, Any]:
-        """The frame of a session as it is now: to the bit that of its recording. BadInput: it is of another bone."""
+        """The frame of a session at present: to the bit that of its recording. BadInput: it is of another bone."""
         _require_own_drawing()
         return _with_arrays(self._view.draw(session))
 
@@ -111,7 +111,7 @@ _drawing_process: int | None = None
 
 
 def _require_own_drawing() -> None:
-    """A driver's threads and memory do not come along into a forked process: whatever draws there waits for ever."""
+    """A driver's threads and memory are not copied into a forked process: drawing there would wait for ever."""
     global _drawing_process
     if _drawing_process is None:
         _drawing_process = os.getpid()
@@ -138,20 +138,20 @@ def render(
     images: Sequence[str] = KINDS,
     randomise: int | None = None,
 ) -> Rendering:
-    """Draw frames of a recording, or the one of a session as it is now or of a case before anything is milled, without a display.
+    """Draw frames of a recording, or the one of a session at present or of a case before anything is milled, without a display.
 
     case_or_recording: a Recording or its file, a Session, or a Case.
-    cameras: a file of cameras, or what it would hold, a mapping for each ("name", "eye_mm", "intrinsics", ...);
-        "trainee": from where the trainee looked; None: one of 640 x 480 at the first view.
+    cameras: a file of cameras, or its contents, a mapping for each ("name", "eye_mm", "intrinsics", ...);
+        "trainee": from the trainee's viewpoint; None: one of 640 x 480 at the first view.
     fps: frames a recorded second, the first state at or behind each; None: every recorded state.
-    from_s: recorded time from which on there are frames.
+    from_s: recorded time of the earliest frame.
     images: of "colour", "depth", "ray-depth", "labels", "normals".
     randomise: the seed of domain randomisation; None: as in the window.
 
-    To the bit what render_client --dataset writes: "colour" uint8 (height, width, 3), "depth" and "ray_depth"
-    float32 (height, width) in mm, "labels" uint8 (height, width), "normals" float16 (height, width, 3).
-    Raises BadInput for cameras and images that cannot be, Fault for a recording that cannot be read, where there is no
-    OpenGL 3.3, and in a process that was forked from one that has drawn.
+    Images are to the bit those of render_client --dataset: "colour" uint8 (height, width, 3), "depth" and "ray_depth" float32
+    (height, width) in mm, "labels" uint8 (height, width), "normals" float16 (height, width, 3).
+    Raises BadInput for bad cameras and images, and Fault for a recording that cannot be read, without OpenGL 3.3, and in a process
+    that was forked from one that has drawn.
     """
     drawing = _drawing()
     named, text = ("", "") if cameras is None else _cameras(cameras)
@@ -164,7 +164,7 @@ def render(
 
 
 def _cameras(cameras: _Path | Sequence[Mapping[str, Any]]) -> tuple[str, str]:
-    """What the core is given: a name, or the text of a file. A number, text or list of JSON is one of TOML."""
+    """Cameras for the core: a name, or the text of a file. A number, text or list of JSON is one of TOML."""
     if isinstance(cameras, str | os.PathLike):
         return os.fspath(cameras), ""
     lines: list[str] = []

@@ -10,7 +10,7 @@ from osteomill import _core
 
 @dataclass(frozen=True)
 class Repeated:
-    """How a session that was computed again compares with its recording."""
+    """Comparison of a session that was computed again with its recording."""
 
     is_equal: bool
     """Every number of every tick as it is written, and every checksum of the bone."""
@@ -30,16 +30,16 @@ class Repeated:
 def repeat(recording: _core.Recording | str | os.PathLike[str]) -> Repeated:
     """Compute a recorded session again, and compare it with its recording tick by tick.
 
-    recording: a Recording or its file, of haptic_server --record or Session(record=...), of protocol 2.3 or later: what it began
-    with (scene, bone, arm) and the hand of every tick are in it, so it needs no case. Older recordings say that they repeat to
-    0.1 um only. Raises Fault for a file that is no recording.
+    recording: a Recording or its file, of haptic_server --record or Session(record=...), of protocol 2.3 or later: its start
+    (scene, bone, arm) and the hand of every tick are in it, so it needs no case. Older recordings are reported to repeat only to
+    0.1 um. Raises Fault for a file that is no recording.
     """
     file: str | os.PathLike[str] = recording.file if isinstance(recording, _core.Recording) else recording
     return Repeated(*_core._repeat(file))
 
 
 def say_repeated(file: os.PathLike[str]) -> int:
-    """For the program osteomill_study: says it in a line; 0 where all is equal, else 1."""
+    """For the program osteomill_study: prints the result in a line; returns 0 if all is equal, else 1."""
     result = repeat(file)
     print(f"{os.fspath(file)}: {result}", flush=True)
     return 0 if result.is_equal else 1

@@ -1,4 +1,4 @@
-"""Spaces of an environment, as far as it needs them, in the form of gymnasium.spaces: for where that is not installed."""
+"""Spaces of an environment, as far as it needs them, in the form of gymnasium.spaces, in case that is not installed."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from numpy.typing import NDArray
 
 
 class Space:
-    """What Box and Dict share: a generator of their own, which `seed` begins anew."""
+    """Base of Box and Dict: a generator of their own, which `seed` begins anew."""
 
     def __init__(self) -> None:
         self._np_random: np.random.Generator | None = None
 
     @property
     def np_random(self) -> np.random.Generator:
-        """The generator that `sample` draws from."""
+        """The generator with which `sample` draws."""
         if self._np_random is None:
             self._np_random = np.random.default_rng()
         return self._np_random
 
     def seed(self, seed: int | None = None) -> Any:
-        """Begins the generator anew; returns what would begin it so again."""
+        """Begins the generator anew; returns the seed that would begin it so again."""
         sequence = np.random.SeedSequence(seed)
         self._np_random = np.random.default_rng(sequence)
         return sequence.entropy

@@ -28,19 +28,18 @@ def sweep(
     """Return ``[function(case) for case in cases]``, worked out by several processes.
 
     function: of one case; defined at the top of a module or script, so that other processes find it.
-    cases: what JSON can say (numbers, texts, lists, dicts); each its own, none there twice.
-    jobs: how many processes; None: as many as this process may use processors.
-    shard, out: run part ``"I/N"`` only, keep what is done in ``OUT/sweep-I-of-N.jsonl`` and end the
+    cases: values of JSON (numbers, texts, lists, dicts), each only once.
+    jobs: number of processes; None: as many as this process may use processors.
+    shard, out: run part ``"I/N"`` only, keep its outcomes in ``OUT/sweep-I-of-N.jsonl`` and end the
         program (``SystemExit``). A part that was killed goes on there when it is run again.
-    merge: the folder of all parts; nothing is run, what they have done is returned.
+    merge: the folder of all parts; nothing is run, their outcomes are returned.
 
     Left out, shard, out and merge are those of the environment (OSTEOMILL_SHARD, OSTEOMILL_OUT,
     OSTEOMILL_MERGE), so that a script runs under Slurm without change: scripts/array.sbatch.
 
-    What the function returns passes through JSON: arrays and scalars of numpy become lists and numbers,
-    tuples lists, to the last bit; so the result is the same in one process and in parts. Raises
-    ValueError in one line for parts that are missing, there twice, not done, or of other cases, and what
-    the function raises.
+    The function's results pass through JSON: arrays and scalars of numpy become lists and numbers, tuples lists, to the last
+    bit; so the result is the same in one process and in parts. Raises ValueError in one line for parts that are missing,
+    present twice, not done, or of other cases, and any exception of the function.
     """
     cases = list(cases)
     keys = keys_of(cases)
@@ -80,7 +79,7 @@ def run_cases(
 ) -> Generator[tuple[int, Any], None, None]:
     """Pairs of index and outcome, as they are done, begun in the order of `indices`, by `jobs` processes.
 
-    What the function raises ends the rest. ChildProcessError where a process ends by itself.
+    An exception of the function ends the rest. ChildProcessError if a process ends by itself.
     """
     others = multiprocessing.active_children()
     with concurrent.futures.ProcessPoolExecutor(jobs or processors(), initializer=_begin_worker) as pool:
@@ -101,12 +100,12 @@ def run_cases(
 
 
 def processors() -> int:
-    """That this process may use."""
+    """Number of processors that this process may use."""
     return len(os.sched_getaffinity(0))
 
 
 def outcome_by_json(function: Callable[[Any], Any], case: Any) -> Any:
-    """As a sweep in several processes gives it."""
+    """The outcome as a sweep in several processes gives it."""
     return json.loads(_outcome(function, case))
 
 
@@ -115,7 +114,7 @@ def _outcome(function: Callable[[Any], Any], case: Any) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """What numpy has, as JSON says it."""
+    """A value of numpy in a form that JSON has."""
     if hasattr(value, "tolist"):
         return value.tolist()
     raise TypeError(f"{type(value).__name__} is nothing that JSON can say")

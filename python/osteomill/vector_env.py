@@ -27,13 +27,14 @@ Flags = NDArray[np.bool_]
 
 
 class VectorEnv(_Base):
-    """`num_envs` environments of one case, stepped together: of gymnasium's vector form, and one of its VectorEnvs where that is installed.
+    """`num_envs` environments of one case, stepped together: in gymnasium's vector form, and a VectorEnv of gymnasium's if that
+    is installed.
 
-    Each is the Env of the same arguments, and what it gives is to the bit what that Env gives alone. Observations are batched,
+    Each is the Env of the same arguments, and its results are to the bit those of that Env alone. Observations are batched,
     (num_envs, ...) by name; rewards, terminations and truncations are (num_envs,). An environment whose episode has ended is
     begun anew by the next step, whose action it does not take, with reward 0 (metadata["autoreset_mode"]).
 
-    threads: that step sessions; None: as many as this process may use processors.
+    threads: number of threads that step sessions; None: as many as this process may use processors.
     """
 
     metadata: dict[str, Any] = {"render_modes": [], "render_fps": 50, "autoreset_mode": _NEXT_STEP}
@@ -75,8 +76,8 @@ class VectorEnv(_Base):
     def step(self, actions: Any) -> tuple[Observation, NDArray[np.float64], Flags, Flags, dict[str, Any]]:
         """Takes an action for each, (num_envs, ...); returns observations, rewards, terminations, truncations, infos.
 
-        infos: of each plain number of Env's info an array (num_envs,), and "_NAME", which of them have it; "step", the Steps.
-        There are no "ticks".
+        infos: of each plain number of Env's info an array (num_envs,), and "_NAME", a mask of the environments that have it;
+        "step", the Steps. There are no "ticks".
         """
         if any(env.session is None for env in self.envs):
             raise Fault("call reset() before step()")
@@ -109,7 +110,7 @@ class VectorEnv(_Base):
         return {name: np.stack([one[name] for one in seen]) for name in self.observation_space}
 
     def render(self) -> None:
-        """Nothing: render_mode is None. osteomill.render(env.session) draws one of `envs`."""
+        """Does nothing: render_mode is None. osteomill.render(env.session) draws one of `envs`."""
 
     def close(self, **_: Any) -> None:
         """Ends the sessions."""
@@ -122,7 +123,7 @@ class VectorEnv(_Base):
 
 
 def _gathered(infos: list[dict[str, Any]]) -> dict[str, Any]:
-    """As gymnasium's vector environments gather: arrays by name, and which environments have it."""
+    """Infos gathered as in gymnasium's vector environments: arrays by name, and masks of the environments that have a value."""
     gathered: dict[str, Any] = {}
     for name in {name: None for info in infos for name in info}:
         has = np.array([name in info for info in infos])

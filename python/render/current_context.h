@@ -1,4 +1,4 @@
-// A context that is current for a while: whoever draws next may be on another thread.
+// A context that is current for a while: the next drawing may be on another thread.
 #pragma once
 
 #include "render_client/volume/gl/offscreen_context.h"

@@ -13,7 +13,7 @@ namespace osteomill::python {
 
 namespace {
 
-/// What came through a message, as it does into a recording and out of it.
+/// The value after its way through a message, as into a recording and out of it.
 template <typename Value>
 Value received(std::variant<Value, WireError> message) {
     if (const auto* error = std::get_if<WireError>(&message)) throw std::runtime_error(error->line);
@@ -71,7 +71,7 @@ std::vector<BrickChange> DrawnLiveSession::take_changes() {
         const auto slot = static_cast<std::int32_t>(number);
         const BrickFractions after = now.fractions(slot);
         const BrickFractions before = std::as_const(seen_).fractions(slot);
-        // Neither has a brick of its own there: a bone of one case is shared.
+        // Neither bone has a brick of its own there: bones of one case share bricks.
         if (after.data() == before.data()) continue;
         BrickChange change{.brick = now.content().brick_of_slot[number]};
         for (std::size_t voxel = 0; voxel < brick_voxel_count; ++voxel) {

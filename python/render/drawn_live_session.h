@@ -1,5 +1,4 @@
-// A session that is stepped from Python, as it is drawn while it goes on: to the bit as its recording would
-// be.
+// Drawing state of a session that is stepped from Python: to the bit that of its recording.
 #pragma once
 
 #include <memory>
@@ -14,12 +13,13 @@ namespace osteomill::python {
 
 class DrawnLiveSession final : public ImagedSession {
   public:
-    /// At the instant where `session` is, whose `busy` the caller holds, here and whenever this is asked of
+    /// At the present instant of `session`, whose `busy` the caller holds, here and in every later call with
     /// it.
     explicit DrawnLiveSession(const SteppedSession& session);
 
-    /// To the instant where `session` is, which may be another of the same bone: one that began anew, or a
-    /// copy. Throws std::invalid_argument for one of another bone, other tissues or other burrs.
+    /// Goes to the present instant of `session`, which may be another one of the same bone: one that began
+    /// anew, or a copy. Throws std::invalid_argument for a session of another bone, other tissues or other
+    /// burrs.
     void go_to(const SteppedSession& session);
 
     double time_s() const override { return tool_.time_s; }

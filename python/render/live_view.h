@@ -1,5 +1,5 @@
-// Pictures of sessions that go on, one after the other, in the caller's process: textures of one bone, which
-// follow what is milled of it, and an OpenGL context of their own, which any thread may draw with.
+// Pictures of live sessions, one after the other, in the caller's process: textures of one bone, which follow
+// the milling, and an OpenGL context of their own, with which any thread may draw.
 #pragma once
 
 #include <memory>
@@ -18,17 +18,18 @@ namespace osteomill::python {
 class LiveView {
   public:
     /// The first view is that of `session`. Throws gl::NoOpenGl; std::runtime_error for a bone that cannot be
-    /// drawn; std::invalid_argument for a camera that follows a trainee: nobody looks. The caller holds the
-    /// session's `busy`, here and in draw().
+    /// drawn; std::invalid_argument for a camera that follows a trainee: a live session has no viewpoint. The
+    /// caller holds the session's `busy`, here and in draw().
     LiveView(const SteppedSession& session, DatasetContents contents);
     ~LiveView();
     LiveView(const LiveView&) = delete;
     LiveView& operator=(const LiveView&) = delete;
 
-    /// As it is now. Throws as DrawnLiveSession::go_to. One thread at a time; another waits.
+    /// The present frame of a session. Throws as DrawnLiveSession::go_to. One thread at a time; another
+    /// waits.
     Rendering::Frame draw(const SteppedSession& session);
 
-    /// As the index of an image set has it.
+    /// The session's entry in the index of an image set.
     const nlohmann::ordered_json& session() const { return json_; }
     std::span<const DatasetCamera> cameras() const { return contents_.cameras; }
     const DatasetImages& images() const { return contents_.images; }

@@ -1,5 +1,5 @@
-// The module osteomill._render: frames of an image set as arrays. Apart from the core, which has no OpenGL;
-// osteomill.render loads it when it is called.
+// The module osteomill._render: frames of an image set as arrays. Separate from the core, which has no
+// OpenGL; osteomill.render loads it when it is called.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -42,7 +42,7 @@ py::dict arrays_of(CameraImages&& images, const DatasetImages& wanted) {
 }
 
 py::object from_json(const Json& json) {
-    // Names may be what a hostile file holds.
+    // Names may come from a hostile file.
     return py::module_::import("json").attr("loads")(
         json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
@@ -132,7 +132,7 @@ py::object cameras(const Drawing& drawing) {
     return from_json(all);
 }
 
-/// Waits for whoever draws; the interpreter does not.
+/// Waits for a thread that draws; the interpreter does not.
 struct Unhurried {
     template <typename Drawing>
     void operator()(Drawing* drawing) const {

@@ -16,7 +16,7 @@ namespace osteomill::python {
 
 class Rendering {
   public:
-    /// Throws gl::NoOpenGl, and what DatasetFrames throws.
+    /// Throws gl::NoOpenGl, and the exceptions of DatasetFrames.
     Rendering(std::filesystem::path recording, DatasetContents contents);
     ~Rendering();
     Rendering(const Rendering&) = delete;
@@ -30,7 +30,7 @@ class Rendering {
     /// As DatasetFrames::next. One thread at a time; another waits.
     std::optional<Frame> next(const std::function<bool()>& stop_requested);
 
-    /// The sessions that have begun so far, as the index has them.
+    /// Entries in the index of the sessions that have begun so far.
     nlohmann::ordered_json sessions();
     std::span<const DatasetCamera> cameras() const { return frames_->contents().cameras; }
     const DatasetImages& images() const { return frames_->contents().images; }

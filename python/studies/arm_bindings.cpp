@@ -1,5 +1,5 @@
-// Arms: the force on a simulated hand of any strength on an arm of any make, and how much of a force that
-// swings a coupling's spring passes.
+// Arms: the force on a simulated hand of any strength on an arm of any make, and the share of a swinging
+// force that a coupling's spring passes.
 #include <pybind11/complex.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

@@ -14,8 +14,8 @@ namespace osteomill::python {
 
 namespace {
 
-/// Within 0.3 % of what a far finer quadrature gives, which is less than a dynamometer asks (tested); a table
-/// of 24 runs takes a fraction of a second.
+/// Within 0.3 % of a far finer quadrature, which is finer than a dynamometer needs (tested); a table of 24
+/// runs takes a fraction of a second.
 constexpr study::Quadrature enough{.kappa = 120, .psi = 240};
 
 SpindleSense sense_of(const std::string& turns) {

@@ -1,4 +1,4 @@
-// Files, as all programs read and write them. Errors are RuntimeError in one printable line.
+// Reading and writing of files, as in all programs. Errors are RuntimeError in one printable line.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -28,7 +28,7 @@ py::bytes read_file(const std::filesystem::path& file) {
     return with_printable_error([&] { return py::bytes(read_text(file, json_kind)); });
 }
 
-/// Number and cells of each line that says something.
+/// Number and cells of each line that is not empty.
 std::vector<std::pair<int, std::vector<py::bytes>>> table_lines(const std::filesystem::path& file) {
     return with_printable_error([&] {
         std::vector<std::pair<int, std::vector<py::bytes>>> found;

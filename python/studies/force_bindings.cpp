@@ -122,7 +122,7 @@ py::tuple steady_reference(const SteadyCase& c) {
     return py::make_tuple(array_of(force_n), removal);
 }
 
-/// Of the flat bone {z <= 0}, its top layer of another stiffness.
+/// Reference force in the flat bone {z <= 0}, whose top layer has another stiffness.
 py::array_t<double> reference_force(const Burr& burr, const Vector& position_mm, const Vector& axis,
                                     const Vector& velocity_mm_per_s,
                                     const std::optional<std::pair<double, double>>& layer) {
@@ -154,7 +154,7 @@ Bone scene_bone(const std::string& name) {
     return load_bone(phantom_scene(name)).bone;
 }
 
-/// A motion of 1 mm depth at 6 mm/s and 10 000 rpm, but for what is said.
+/// A motion of 1 mm depth at 6 mm/s and 10 000 rpm, unless given otherwise.
 SteadyCase steady_case(const std::string& name, const Burr& burr, double feed_mm_per_s, double depth_mm) {
     return {.name = name, .burr = burr, .velocity_mm_per_s = {feed_mm_per_s, 0.0, 0.0}, .depth_mm = depth_mm};
 }

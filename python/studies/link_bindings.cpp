@@ -1,4 +1,5 @@
-// The link: what crosses it, how old what a client shows is, and in how many voxels its bone differs.
+// The link: the data that cross it, the age of a client's picture, and the number of voxels in which its bone
+// differs.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 

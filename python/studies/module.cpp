@@ -1,5 +1,5 @@
-// The module osteomill._studies: what the studies of the package compute in C++, and the checks of texts and
-// files that all programs share. Promised to nobody.
+// The module osteomill._studies: the parts of the package's studies that are computed in C++, and the checks
+// of texts and files that all programs share. Its interface is not promised.
 #include <string>
 
 #include "common/program/commit.h"

@@ -1,4 +1,4 @@
-// Pictures, offscreen: what a frame takes in any way of drawing, and how far it is from the reference image.
+// Pictures, offscreen: the time of a frame in any way of drawing, and its error against the reference image.
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

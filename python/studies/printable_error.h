@@ -1,4 +1,4 @@
-// Errors for Python, which takes none whose text is not UTF-8: a path may be none.
+// Errors for Python, which accepts only UTF-8: a path may not be UTF-8.
 #pragma once
 
 #include <exception>
@@ -8,7 +8,7 @@
 
 namespace osteomill::python {
 
-/// What `work` gives. Throws std::runtime_error, printable, for whatever it throws.
+/// The result of `work`. Throws std::runtime_error, printable, for whatever `work` throws.
 template <typename Work>
 auto with_printable_error(Work&& work) {
     try {

@@ -1,4 +1,4 @@
-// Of a case what the studies need beside what everybody sees: its scene as text, the kind of a burr.
+// Properties of a case for studies alone: its scene as text, the kind of a burr.
 #include <pybind11/pybind11.h>
 
 #include "common/scene/scene_file.h"

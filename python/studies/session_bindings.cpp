@@ -1,5 +1,5 @@
-// Recordings as the study of several sessions reads them, and how all pages call and show a metric. Errors
-// are RuntimeError in one printable line.
+// Recordings as the study of several sessions reads them, and the names and forms of metrics on all pages.
+// Errors are RuntimeError in one printable line.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -33,7 +33,7 @@ namespace {
 
 std::string digest_of_recording(const std::filesystem::path& file) {
     return with_printable_error([&] {
-        PacketReader{file};  // what is no recording is not read to its end
+        PacketReader{file};  // a file that is no recording is not read to its end
         const InputFile in(file, {.what = "a recording"});
         Digest digest;
         std::array<std::byte, 1 << 16> bytes{};
@@ -57,7 +57,7 @@ SessionTrace whole_trace(const std::filesystem::path& file) {
     });
 }
 
-/// Names may be what a hostile file holds.
+/// Names may come from a hostile file.
 py::dict read_session(const std::filesystem::path& file) {
     const SessionTrace trace = whole_trace(file);
     py::list metrics;

@@ -115,7 +115,7 @@ py::dict dict_of(const study::SiteRun& run) {
                     "damped"_a = run.solve.damped, "faults"_a = run.faults);
 }
 
-/// A line a tick: hand, burr, forces of hand, model and rigid burr, whether the spindle turns.
+/// A line for each tick: hand, burr, forces of hand, model and rigid burr, whether the spindle turns.
 py::array_t<double> trace_of(const study::SiteRun& run) {
     std::vector<double> values;
     for (const study::SiteTick& tick : run.ticks) {

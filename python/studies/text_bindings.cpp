@@ -1,4 +1,5 @@
-// Texts from elsewhere, as all programs check and show them. They come as bytes, since they may be no UTF-8.
+// Checks and display of texts from elsewhere, as in all programs. They come as bytes, since they may not be
+// UTF-8.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 

@@ -51,10 +51,9 @@ struct DatasetCamera {
 /// One, at the first view.
 std::vector<DatasetCamera> default_cameras();
 
-/// Throws std::runtime_error, in one line, for what cannot be. A path's file is relative to the cameras'
-/// file.
+/// Throws std::runtime_error, in one line, for bad contents. A path's file is relative to the cameras' file.
 std::vector<DatasetCamera> read_cameras(const std::filesystem::path& file);
-/// The text of such a file; `name` is what errors call it, and paths are relative to `folder`.
+/// The text of such a file; `name` is its name in errors, and paths are relative to `folder`.
 std::vector<DatasetCamera> parse_cameras(std::string_view text, const std::string& name,
                                          const std::filesystem::path& folder);
 

@@ -40,7 +40,7 @@ class DatasetFrames {
                   std::function<void(const ImagedSession&)> on_session);
 
     /// The next of this part; nothing at the recording's end, and where `stop_requested` says so, which is
-    /// asked at every state. Throws RecordingError for what cannot be read.
+    /// asked at every state. Throws RecordingError if it cannot be read.
     std::optional<DatasetFrame> next(const std::function<bool()>& stop_requested);
 
     /// The instant of the last frame.

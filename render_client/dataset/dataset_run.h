@@ -13,9 +13,9 @@
 namespace osteomill {
 
 /// Draws the dataset of options.replay as options.dataset says; the index gets the program's `version`. Files
-/// that are there already under the same names are replaced. Ends early, with the index of what was written,
-/// when `stop_requested` says so. Throws std::runtime_error, in one line, for what cannot be read, drawn or
-/// written, SceneError for the cameras, and gl::NoOpenGl.
+/// that are there already under the same names are replaced. Ends early, with the index of the written
+/// frames, when `stop_requested` says so. Throws std::runtime_error, in one line, if something cannot be
+/// read, drawn or written, SceneError for the cameras, and gl::NoOpenGl.
 RenderReport run_dataset(const RenderOptions& options, const std::string& version,
                          const std::function<bool()>& stop_requested);
 

@@ -1,5 +1,5 @@
-// A session at an instant, as image sets see it: what it is, its bone, its tool. One is recorded, another
-// live.
+// A session at an instant, as image sets see it: its description, its bone, its tool. One is recorded,
+// another live.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ class ImagedSession {
     virtual std::span<const Structure> structures() const = 0;
     /// From where the trainee looks, if that is known.
     virtual const std::optional<Viewpoint>& view() const = 0;
-    /// What has changed in the bone since the last call.
+    /// Changes of the bone since the last call.
     virtual std::vector<BrickChange> take_changes() = 0;
 };
 

@@ -32,7 +32,7 @@ class BoneLink final : public SessionSource {
     BoneLink(const BoneLink&) = delete;
     BoneLink& operator=(const BoneLink&) = delete;
 
-    /// Applies what has come, up to about one second's worth of state frames.
+    /// Applies received frames, up to about one second's worth of state frames.
     LinkUpdate poll() override;
     /// A lost server leaves the last bone.
     const Bone* bone() const override;

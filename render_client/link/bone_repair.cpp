@@ -6,7 +6,8 @@ namespace osteomill {
 
 namespace {
 
-/// A second, for what a frame lost between the search and its end said. More would hide a defect.
+/// A second one, for changes in a frame that was lost between the search and its end. More would hide a
+/// defect.
 constexpr int most_searches = 2;
 
 /// One a second: who has not answered by then never will.
@@ -25,7 +26,7 @@ BoneRepair::Progress BoneRepair::begin(const BoneReplica& replica) {
 
 BoneRepair::Progress BoneRepair::take(const StateArrived& state, ReplicaCheck check,
                                       const BoneReplica& replica) {
-    // The answer may be among what is missing.
+    // The answer may be among the missing frames.
     if (state.follows_gap) return WireError{"frames were lost while the bone was being repaired"};
     GoesOn next;
     if (state.comparison) {

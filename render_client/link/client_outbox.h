@@ -18,7 +18,8 @@ class ClientOutbox {
   public:
     static constexpr std::size_t most_waiting_controls = 64;
 
-    /// A session has begun on a connection: the hello goes first, and the session says what else is accepted.
+    /// A session has begun on a connection: the hello goes first, and the session decides which other
+    /// messages are accepted.
     void begin(const SessionInfo& session);
     /// The connection is gone: nothing waits, and nothing is accepted. The viewpoint is kept for the next
     /// one.

@@ -1,4 +1,4 @@
-// Age of what a client shows, from the server's stamps.
+// Age of a client's picture, from the server's stamps.
 //
 // A stamp is the server's wall clock. On one machine the measured delay is right; between two it is off by as
 // much as their clocks are, and may be negative. Its excess over the least of this session is right if the

@@ -25,7 +25,7 @@ class KeyFrames {
     /// `start`: where the bone is as it first came.
     explicit KeyFrames(Playhead::Mark start);
 
-    /// Before the playhead takes its next frame: remembers what that is going to change.
+    /// Before the playhead takes its next frame: saves the bricks that it will change.
     void before_step(const Playhead& playhead);
     /// Behind a frame: makes a key frame if it is time for one. Key frames that exist already are not made
     /// again.

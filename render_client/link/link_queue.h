@@ -10,8 +10,8 @@
 
 namespace osteomill {
 
-/// A queue that is full is not an error: the receiving thread stops reading until there is room, and the
-/// server tells later what it could not tell now. Status changes always fit: one that follows another
+/// A queue that is full is not an error: the receiving thread stops reading until there is space, and the
+/// server sends later what it could not send now. Status changes always fit: one that follows another
 /// replaces it.
 class LinkQueue {
   public:

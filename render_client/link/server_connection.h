@@ -39,7 +39,7 @@ struct LinkCounters {
 
 class ServerConnection {
   public:
-    /// Writes what it receives into `record`, too, if that is given, and speaks TLS if `tls` is. Throws
+    /// Also writes received frames into `record`, if that is given, and speaks TLS if `tls` is. Throws
     /// RecordingError if a recording cannot begin, std::runtime_error if the files of TLS are no good.
     ServerConnection(std::string host, std::uint16_t port,
                      const std::optional<std::filesystem::path>& record = std::nullopt,
@@ -68,14 +68,14 @@ class ServerConnection {
     void send(const v2::CompareBone& request, std::uint64_t session_number);
     /// Frees it on the receiving thread: a large bone takes a tenth of a second.
     void discard(std::shared_ptr<void> unused);
-    /// There is room in the queue again.
+    /// The queue has space again.
     void resume();
     /// Why nothing more is recorded; empty while all is well, and if nothing is to be.
     std::string recording_error() const;
     /// Writes the frames that still wait; later ones are not recorded. Returns one line if some could not be
     /// written.
     std::string finish_recording();
-    /// Drops what has come of this connection and begins another.
+    /// Drops the data of this connection and begins another.
     void reconnect();
     /// To another server from now on.
     void connect_to(std::string host, std::uint16_t port);

@@ -1,5 +1,5 @@
-// Source of a session, of which a client asks in every frame what is new: a server (BoneLink), a recording of
-// one (RecordingPlayer), or a script in its place.
+// Source of a session, which a client asks in every frame for news: a server (BoneLink), a recording of one
+// (RecordingPlayer), or a script in its place.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ enum class LinkStatus {
     receiving_snapshot,  ///< connected; bone() is still the one before, if any
     live,                ///< bone() follows the server's
     lost,                ///< the connection broke; trying again
-    finished,            ///< the server said goodbye; bone() is what it left; trying again quietly
+    finished,            ///< the server said goodbye; bone() is the last bone; trying again quietly
     /// The server speaks another major version of the protocol, or one of the two does not accept the
     /// other's certificate: trying again, but somebody has to do something.
     refused,
@@ -82,7 +82,7 @@ struct LinkUpdate {
 class SessionSource {
   public:
     virtual ~SessionSource() = default;
-    /// Once a frame: takes in what has come. The bone changes only here.
+    /// Once a frame: reads new messages. The bone changes only here.
     virtual LinkUpdate poll() = 0;
     /// Null until one has arrived; valid until the next poll().
     virtual const Bone* bone() const = 0;

@@ -15,7 +15,7 @@ namespace osteomill {
 
 class SessionSound {
   public:
-    /// The burr. Returns one line on what came of it, for people. It is also logged if it went wrong.
+    /// The burr. Returns one line about the outcome, for people. It is also logged if it went wrong.
     std::string switch_to(bool on);
     bool is_on() const { return is_on_; }
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int frames_per_s = 30;
 
-/// Takes in what there is up to where the recording is to be.
+/// Reads up to the wanted time of the recording.
 void arrive(SessionPicture& session, const RecordingPlayer& player) {
     do {
         session.take_in();

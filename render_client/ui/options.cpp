@@ -43,7 +43,7 @@ struct Side {
 constexpr std::array sides{Side{"left", 0, 1.0},   Side{"right", 0, -1.0}, Side{"back", 1, 1.0},
                            Side{"front", 1, -1.0}, Side{"above", 2, 1.0},  Side{"below", 2, -1.0}};
 
-/// Adds the cut that "SIDE" or "SIDE:MM" means. Returns what is wrong, or nothing.
+/// Adds the cut that "SIDE" or "SIDE:MM" means. Returns the error, or nothing.
 std::string take_cut(const std::string& text, CutSettings& cuts) {
     const std::size_t colon = text.find(':');
     const auto side =

@@ -32,7 +32,7 @@ std::string to_json(const RenderReport& report) {
                                       {"dirty_bricks_uploaded", report.dirty_bricks_uploaded},
                                       {"checksum_mismatches", report.checksum_mismatches},
                                       {"link_status", report.link_status}};
-    // A status may quote what a server sent; bytes that are no UTF-8 must not cost the whole report.
+    // A status may quote a server's text; bytes that are no UTF-8 must not cost the whole report.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

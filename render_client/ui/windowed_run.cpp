@@ -97,7 +97,7 @@ struct Shared {
     std::atomic<bool> is_fullscreen{false};
 };
 
-/// The thread that draws: takes in what the source brings, and shows it if it has changed.
+/// The thread that draws: reads the source's news, and shows them.
 class Drawing {
   public:
     /// The window's context is current here, for as long as this lives.

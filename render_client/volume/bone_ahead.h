@@ -1,4 +1,4 @@
-// The bone before a burr: how far along its spindle, and whether a place on it is seen.
+// The bone before a burr: its distance along the spindle, and the visibility of a place on it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,11 +9,11 @@
 
 namespace osteomill {
 
-/// Bone further ahead is not looked for.
+/// Limit of the search ahead.
 inline constexpr double farthest_ahead_mm = 20.0;
 
-/// From the burr's surface to the bone that its centre would meet along the spindle; 0 where it is there.
-/// Nothing where there is none within farthest_ahead_mm of the centre.
+/// From the burr's surface to the bone that its centre would meet along the spindle; 0 if they touch. Nothing
+/// if there is no bone within farthest_ahead_mm of the centre.
 std::optional<double> bone_ahead_mm(const Bone& bone, const ToolState& tool, double burr_radius_mm);
 
 /// Whether bone lies between an eye and a place on the surface of bone.

@@ -1,4 +1,4 @@
-// Colours of bone: one for each tissue label or, where the scene labels none, for each stiffness.
+// Colours of bone: one for each tissue label or, if the scene has no labels, for each stiffness.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ using ColourTable = std::array<glm::vec3, 256>;
 struct TissueColour {
     std::uint8_t label = 0;
     std::array<std::uint8_t, 3> srgb{};
-    /// Light that a millimetre of it takes away: 1 is solid, 0 hides it.
+    /// Share of light that a millimetre of it absorbs: 1 is solid, 0 hides it.
     double opacity = 1.0;
     double shows_through_mm = 0.0;  ///< thinner bone shows its colour (thin_bone.h); 0: none does
     double shows_through_strength = 0.0;
@@ -32,10 +32,10 @@ struct StiffnessColour {
 /// sRGB (IEC 61966-2-1) to linear light.
 glm::vec3 linear_from_srgb(const std::array<std::uint8_t, 3>& srgb);
 
-/// Colour of bone of which nothing else is known: a warm ivory.
+/// Colour of bone without a tissue or stiffness: a warm ivory.
 glm::vec3 plain_bone_colour();
 
-/// Tissues as they are drawn.
+/// Tissues as pictures show them.
 std::vector<TissueColour> tissue_colours(std::span<const Tissue> tissues);
 
 /// Colours by label; labels without a colour look like plain bone.

@@ -9,8 +9,8 @@
 
 namespace osteomill {
 
-/// Where the camera looks, patient LPS. At azimuth 0 it stands in front of the patient (towards -y), at
-/// positive elevation above.
+/// Place and direction of the camera, patient LPS. At azimuth 0 it stands in front of the patient (towards
+/// -y), at positive elevation above.
 struct Camera {
     glm::dvec3 target_mm{0.0};
     double distance_mm = 100.0;

@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint8_t half_full = 128;
 constexpr std::array<std::uint8_t, 3> border_colour{255, 150, 40};
 
-/// The place of a tissue, their number for other bone, one more for neither. A structure's mask goes before
-/// what bone bears there.
+/// Index of a tissue, the number of tissues for other bone, one more for neither. A structure's mask takes
+/// precedence over the bone's label.
 std::size_t what_is_at(const Bone& bone, std::span<const SliceTissue> tissues, const glm::ivec3& voxel) {
     for (std::size_t i = 0; i < tissues.size(); ++i)
         if (tissues[i].mask && tissues[i].mask->contains(voxel)) return i;
@@ -72,7 +72,7 @@ std::vector<std::uint8_t> slice_picture(const CtVolume& ct, const Bone* bone,
                                         const HuWindow& window) {
     const auto edge = static_cast<std::size_t>(view.edge_px);
     std::vector<std::uint8_t> pixels(4 * edge * edge);
-    // What each pixel is of: a tissue, by its place; other bone; neither.
+    // Kind of each pixel: a tissue, by its index; other bone; neither.
     const std::size_t neither = tissues.size() + 1;
     std::vector<std::size_t> what(edge * edge, neither);
     for (std::size_t y = 0; y < edge; ++y)

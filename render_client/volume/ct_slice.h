@@ -1,5 +1,4 @@
-// Slices through the CT, as a radiologist sees them: where a pixel lies in the patient, and what colour it
-// has.
+// Slices through the CT, as a radiologist sees them: a pixel's place in the patient, and its colour.
 #pragma once
 
 #include <array>
@@ -30,18 +29,18 @@ struct SliceView {
     glm::dvec3 right() const;  ///< unit, patient LPS
     glm::dvec3 down() const;
     glm::dvec3 across() const;
-    /// Of a pixel's middle; x to the right, y down from the picture's upper left corner.
+    /// Place of a pixel's middle; x to the right, y down from the picture's upper left corner.
     glm::dvec3 position_mm(const glm::dvec2& pixel) const;
-    /// Where a point, moved across the slice into it, is seen.
+    /// Pixel of a point that is moved across the slice into it.
     glm::dvec2 pixel(const glm::dvec3& position_mm) const;
 
     bool operator==(const SliceView&) const = default;
 };
 
-/// What is at the left, right, upper and lower edge: R, L, A, P, S, I.
+/// Directions at the left, right, upper and lower edge: R, L, A, P, S, I.
 std::array<char, 4> edge_letters(SlicePlane plane);
 
-/// Which HU are black and which white: level -+ window / 2.
+/// Window of greys: HU from level - window / 2, black, to level + window / 2, white.
 struct HuWindow {
     double level_hu = 500.0;
     double window_hu = 2500.0;
@@ -50,15 +49,15 @@ struct HuWindow {
     bool operator==(const HuWindow&) const = default;
 };
 
-/// A tissue whose border is drawn: where its mask is, or where the bone has its label.
+/// A tissue whose border is drawn: of its mask, or of the bone with its label.
 struct SliceTissue {
     std::uint8_t label = 0;
     std::array<std::uint8_t, 3> colour_rgb{};
     std::optional<StructureMask> mask{};
 };
 
-/// Pixels of four bytes, row by row from the upper left corner: the CT in grey, and over it, where `bone` is
-/// given, the border of what is left of it in orange, and of each tissue in its colour.
+/// Pixels of four bytes, row by row from the upper left corner: the CT in grey, and over it, if `bone` is
+/// given, the border of the bone that is left in orange, and of each tissue in its colour.
 std::vector<std::uint8_t> slice_picture(const CtVolume& ct, const Bone* bone,
                                         std::span<const SliceTissue> tissues, const SliceView& view,
                                         const HuWindow& window);

@@ -10,7 +10,7 @@ double slope_of_edge(const Camera& camera) {
     return std::tan(0.5 * camera.field_of_view_rad);
 }
 
-/// Of what was reckoned through the angle and back.
+/// Tolerance of a value that was converted to the angle and back.
 constexpr double tolerance = 1e-6;
 
 }  // namespace

@@ -14,7 +14,7 @@ inline constexpr std::array magnification_steps{0.4, 0.6, 1.0, 1.6, 2.5};
 double magnification(const Camera& camera);
 /// Must be positive.
 void set_magnification(Camera& camera, double factor);
-/// To the next larger or smaller step, as far as there is one.
+/// To the next larger or smaller step, if there is one.
 void magnify_by_step(Camera& camera, bool larger);
 
 }  // namespace osteomill

@@ -4,7 +4,7 @@
 namespace osteomill {
 
 struct PictureQuality {
-    double scale = 1.0;   ///< resolution of the coarsest part, of that of the picture: 1 down to 1/4
+    double scale = 1.0;   ///< resolution of the coarsest part, as a share of the picture's: 1 down to 1/4
     bool refined = true;  ///< every pixel is that of a full-quality picture
 
     bool operator==(const PictureQuality&) const = default;

@@ -27,14 +27,14 @@ void write(png_image& image, const glm::ivec2& size_px, const void* pixels, cons
     AtomicFile whole(file, Link::replace);  // its name is ours
     errno = 0;
     if (!png_image_write_to_file(&image, whole.part().c_str(), 0, pixels, 0, colours)) {
-        const int reason = errno;  // libpng knows no more than that there was one
+        const int reason = errno;  // libpng does not know more about it
         throw std::runtime_error("cannot write the picture " + file.string() + ": " +
                                  (reason != 0 ? std::strerror(reason) : image.message));
     }
     whole.commit_unsynced();
 }
 
-/// Of an image that has been begun to be read.
+/// Finishes an image whose reading has begun.
 Picture finish_reading(png_image& image, bool has_begun, const std::string& name) {
     Picture picture({static_cast<int>(image.width), static_cast<int>(image.height)});
     image.format = PNG_FORMAT_RGB;

@@ -10,7 +10,7 @@
 
 namespace osteomill {
 
-/// Replaces the file as a whole. Throws std::runtime_error naming the file where it cannot be written.
+/// Replaces the file as a whole. Throws std::runtime_error, naming the file, if it cannot be written.
 void write_png(const Picture& picture, const std::filesystem::path& file);
 
 /// `indices` a pixel into `colours_rgb`, at most 256; otherwise the same.
@@ -18,9 +18,9 @@ void write_indexed_png(const glm::ivec2& size_px, std::span<const std::uint8_t> 
                        std::span<const std::array<std::uint8_t, 3>> colours_rgb,
                        const std::filesystem::path& file);
 
-/// Throws std::runtime_error naming the file where it cannot be read.
+/// Throws std::runtime_error, naming the file, if it cannot be read.
 Picture read_png(const std::filesystem::path& file);
-/// The same of a file's bytes.
+/// Reads a PNG file's bytes.
 Picture read_png(std::span<const std::uint8_t> bytes);
 
 }  // namespace osteomill

@@ -11,9 +11,9 @@
 
 namespace osteomill {
 
-/// Takes away the points of patient space with dot(normal, p) > offset_mm, for the eye only.
+/// A cut hides the points of patient space with dot(normal, p) > offset_mm, for the eye only.
 struct CutPlane {
-    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit, patient LPS, towards what is taken away
+    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit, patient LPS, towards the part taken away
     double offset_mm = 0.0;
 
     bool operator==(const CutPlane&) const = default;
@@ -31,12 +31,12 @@ struct SceneAppearance {
     glm::vec3 background_high{0.115f, 0.130f, 0.150f};
 
     bool ambient_occlusion = true;    ///< bone near by takes light away. Not on surface voxels
-    bool thin_bone = true;            ///< thin bone shows what is behind it (thin_bone.h)
+    bool thin_bone = true;            ///< thin bone shows tissue behind it (thin_bone.h)
     bool smooth_silhouettes = false;  ///< antialiased. Not of slices, nor where one sees through bone
     /// Highlights of the lamps on the bone, as on wet bone: 0 matt, 1 as bright as the lamps. Not on surface
     /// voxels.
     float specular = 0.0f;
-    bool light_field = false;  ///< only what is in a microscope's round field is lit
+    bool light_field = false;  ///< only a microscope's round field is lit
 
     bool operator==(const SceneAppearance&) const = default;
 };

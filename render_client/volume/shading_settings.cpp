@@ -92,7 +92,7 @@ std::array<std::uint8_t, 256> shown_part_by_code(const TransferTable& table) {
         const float part = table.mode == TransferMode::surface ? opacity : std::ceil(opacity);
         parts[code] = static_cast<std::uint8_t>(std::lround(255.0f * part));
     }
-    // Code 0 is a voxel of which the channel knows nothing: it may be bone all the same.
+    // Code 0 is a voxel of which the channel knows nothing, but it may be bone.
     if (table.codes.exist()) parts[0] = 255;
     return parts;
 }

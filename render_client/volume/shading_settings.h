@@ -1,5 +1,4 @@
-// Settings of how a bone is shown: how its surface is lit, and what colour and opacity its tissues or its
-// stiffness give it.
+// Settings of a bone's picture: the light on its surface, and colour and opacity by tissue or stiffness.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -12,7 +11,7 @@
 
 namespace osteomill {
 
-/// Where the light on a surface comes from.
+/// Source of a surface's shading.
 enum class Shading {
     gradient,       ///< the gradient of the fraction in every pixel, and ambient occlusion
     surface_voxels  ///< as published: once for each surface voxel, into a texture (see surface_voxels.h)
@@ -20,14 +19,14 @@ enum class Shading {
 
 struct ShadingSettings {
     Shading shading = Shading::gradient;
-    /// Colour and opacity by stiffness. Absent: the colours and opacities of the tissues where the bone is
-    /// labelled, in shades by stiffness, else the colours of its stiffness.
+    /// Colour and opacity by stiffness. Absent: if the bone is labelled, the colours and opacities of the
+    /// tissues, in shades by stiffness; else the colours of its stiffness.
     std::optional<TransferFunction> transfer{};
 
     bool operator==(const ShadingSettings&) const = default;
 };
 
-/// A look, worked out for one bone's codes.
+/// Colours and opacities, worked out for one bone's codes.
 struct TransferTable {
     VoxelCodes codes{};                    ///< without any all bone looks like code 0
     std::array<glm::vec4, 256> by_code{};  ///< linear RGB and opacity
@@ -35,7 +34,7 @@ struct TransferTable {
     std::optional<SeenTissues> seen{};  ///< what thin bone shows; none: it shows nothing
 };
 
-/// Throws std::invalid_argument like require_valid where the look's transfer function is none.
+/// Throws std::invalid_argument, like require_valid, for an invalid transfer function.
 TransferTable transfer_table(const BoneContent& content, std::span<const TissueColour> tissues,
                              const ShadingSettings& look);
 
@@ -45,8 +44,8 @@ TransferTable transfer_table(const BoneContent& content, std::span<const TissueC
 /// the next.
 double colour_depth_voxels(const TransferTable& table);
 
-/// How much of a voxel of each code counts, 0 to 255: its opacity where bone is a solid surface, all or
-/// nothing where one sees through it.
+/// Share of a voxel of each code that counts, 0 to 255: its opacity if bone is a solid surface, all or
+/// nothing if it is seen through.
 std::array<std::uint8_t, 256> shown_part_by_code(const TransferTable& table);
 
 }  // namespace osteomill

@@ -1,7 +1,7 @@
 // Long work done a step at a time: a coroutine that stops after each step and reports the completed share.
 //
-// The owner decides when and on which thread it continues, and may do other work in between; dropping it ends
-// the work. All data that the work refers to must stay at its address until then.
+// The owner decides when and on which thread it continues, and may do other work in between; destroying it
+// ends the work. All data that the work refers to must keep their addresses until then.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace osteomill {
 
 class Steps {
   public:
-    // The names in here are the language's.
+    // The names in here are prescribed by the language.
     struct promise_type {
         double part_done = 0.0;
 
@@ -52,13 +52,13 @@ class Steps {
     std::coroutine_handle<promise_type> work_;
 };
 
-/// All of it at once.
+/// Does all of the work at once.
 inline void finish(Steps steps) {
     while (steps.step()) {
     }
 }
 
-/// What a part of some work makes of all of it, which goes from `before` to `after` meanwhile.
+/// Completed share of the whole work, which rises from `before` to `after` during this part.
 inline double part_of(const Steps& part, double before, double after) {
     return before + part.done() * (after - before);
 }

@@ -17,8 +17,8 @@ namespace osteomill {
 
 enum class Eye { left, right };
 
-/// How the two pictures are put into one. Those of half the pixels are what a 3D display takes by that name:
-/// it stretches each to its whole size.
+/// Layouts of the two pictures in one. The layouts of half the pixels are a 3D display's of the same name: it
+/// stretches each to its whole size.
 enum class StereoLayout {
     off,           ///< one eye in the middle
     side_by_side,  ///< left eye left, each half as wide
@@ -27,7 +27,7 @@ enum class StereoLayout {
     quad_buffer    ///< the driver has a back buffer for each eye; each in full
 };
 
-/// Of an operating microscope: 24 mm between its paths of light, 300 mm above the bone.
+/// Share of an operating microscope: 24 mm between its paths of light, 300 mm above the bone.
 inline constexpr double interpupillary_part = 0.08;
 
 struct StereoSettings {

@@ -13,7 +13,7 @@ namespace {
 /// The normal is that of the bone within so many voxels: a burr stands on more than one voxel.
 constexpr int normal_reach_voxels = 6;
 
-/// From the middle of the bone round a voxel to the voxel: out of it.
+/// From the middle of the bone round a voxel to the voxel, which leads out of the bone.
 glm::dvec3 normal_at(const Bone& bone, const glm::ivec3& voxel, const glm::dvec3& towards_eye) {
     glm::dvec3 sum(0.0);
     for (int z = -normal_reach_voxels; z <= normal_reach_voxels; ++z)

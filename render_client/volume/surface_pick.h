@@ -15,7 +15,7 @@ struct SurfacePoint {
     glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit, out of the bone, of what is within a millimetre or so
 };
 
-/// Where the ray through a pixel first meets bone that no cut takes away; nothing where it meets none.
+/// Place where the ray through a pixel first meets bone that no cut hides; nothing if it meets none.
 std::optional<SurfacePoint> pick_surface(const Bone& bone, const Camera& camera, const glm::dvec2& pixel,
                                          const glm::ivec2& size_px, std::span<const CutPlane> cuts);
 

@@ -25,10 +25,11 @@ namespace osteomill {
 
 /// Absorption over the depth.
 inline constexpr double thin_bone_absorption = 3.0;
-/// How much more light is absorbed that turns aside.
+/// Factor by which light that turns aside is absorbed more.
 inline constexpr double thin_bone_aside = 2.0;
 
-/// Of a tissue behind bone: 0 to its strength, by the way of light through the bone, in depths.
+/// Share of a tissue's colour behind bone: 0 to its strength, by the way of light through the bone, in
+/// depths.
 inline double share_through_bone(double strength, double way_in_depths) {
     const double least = std::exp(-thin_bone_absorption);
     const double light = std::exp(-thin_bone_absorption * std::max(way_in_depths, 0.0));

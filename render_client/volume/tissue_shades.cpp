@@ -17,7 +17,7 @@ constexpr float darkest_ratio = 0.45f, brightest_ratio = 1.6f;
 
 using StiffnessCounts = std::array<std::size_t, 256>;
 
-/// How often each stiffness code occurs, by label.
+/// Count of each stiffness code, by label.
 std::map<std::uint8_t, StiffnessCounts> counts_by_label(const BoneContent& content) {
     std::map<std::uint8_t, StiffnessCounts> counts;
     const std::size_t bricks = content.tissue.size();
@@ -47,7 +47,7 @@ struct Range {
     std::size_t shades = 1;
 
     bool varies() const { return hard >= soft + 2 && hard >= least_variation * soft; }
-    /// Which of its shades a stiffness has, from 0.
+    /// Number of the shade of a stiffness, from 0.
     std::size_t shade_of(std::size_t stiffness) const {
         const std::size_t above = std::clamp<std::size_t>(stiffness, soft, hard) - soft;
         return shades == 1 ? 0 : (above * (shades - 1) + (hard - soft) / 2) / (hard - soft);

@@ -22,10 +22,10 @@ struct TissueShades {
     std::array<std::uint8_t, 256> label{};  ///< of each code
 };
 
-/// Shades for the tissues of a bone. None where the bone lacks labels or stiffness, or no tissue's stiffness
-/// varies by a tenth or more between its softer and its harder voxels: then labels alone say as much. Bone
-/// without a label is shaded like a tissue that has no colour of its own. Which stiffness is how frequent is
-/// taken from a thousand bricks at most, evenly spread.
+/// Shades for the tissues of a bone. None if the bone lacks labels or stiffness, or if no tissue's stiffness
+/// varies by a tenth or more between its softer and its harder voxels: then labels alone are enough. Bone
+/// without a label is shaded like a tissue that has no colour of its own. The frequencies of stiffness are
+/// counted in a thousand bricks at most, evenly spread.
 std::optional<TissueShades> tissue_shades(const BoneContent& content, std::span<const TissueColour> tissues);
 
 }  // namespace osteomill

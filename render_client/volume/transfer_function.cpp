@@ -81,8 +81,8 @@ TransferFunction ct_window(double centre_hu, double width_hu) {
         return TransferPoint{relative_stiffness(relation, hu), {grey, grey, grey}, opacity};
     };
     // Many points, because grey levels are even in HU and on the display, while stiffness is a power of HU
-    // and colours blend in linear light. Opacity rises over more than one code of stiffness: else the edge of
-    // what is hidden would be stairs.
+    // and colours blend in linear light. Opacity rises over more than one code of stiffness, or the edge of
+    // hidden bone would be stairs.
     constexpr int points = 25;
     constexpr double hidden_part = 0.2, opaque_part = 0.28;
     TransferFunction window{.name = "ct-window"};
@@ -91,7 +91,7 @@ TransferFunction ct_window(double centre_hu, double width_hu) {
         const TransferPoint point =
             grey_point(black_hu + part * width_hu, part,
                        std::clamp((part - hidden_part) / (opaque_part - hidden_part), 0.0, 1.0));
-        // The relation is flat where there is no bone: of points of equal stiffness the last one counts.
+        // The relation is flat below bone: of points of equal stiffness the last one counts.
         if (!window.points.empty() && point.value <= window.points.back().value) window.points.pop_back();
         window.points.push_back(point);
     }

@@ -22,13 +22,13 @@ struct TransferPoint {
     bool operator==(const TransferPoint&) const = default;
 };
 
-/// What opacity means.
+/// Meaning of opacity.
 enum class TransferMode {
-    /// How much of a voxel counts: bone ends where fraction times opacity crosses one half, and is solid
-    /// there. A ramp from 0 to 1 peels off what is softer, smoothly. Fast.
+    /// The share of a voxel that counts: bone ends where fraction times opacity crosses one half, and is
+    /// solid there. A ramp from 0 to 1 peels off softer bone, smoothly. Fast.
     surface,
-    /// How much light a millimetre of bone takes away: one sees through it, at the price of every sample on
-    /// the way. 0 hides.
+    /// The share of light that a millimetre of bone absorbs: bone is seen through, at the price of every
+    /// sample on the way. 0 hides.
     translucent
 };
 
@@ -48,13 +48,13 @@ glm::vec4 look_of(const TransferFunction& function, double value);
 /// opacities are within 0 to 1.
 void require_valid(const TransferFunction& function);
 
-/// "bone": all bone in its own colours. "tooth": what is softer than dentine is seen through, enamel and
+/// "bone": all bone in its own colours. "tooth": tissue softer than dentine is seen through, enamel and
 /// dentine stand in it. "ct-window": grey levels of a bone window.
 std::span<const TransferFunction> transfer_presets();
 
-/// A CT window as radiology knows it, HU: black at centre - width / 2, white at centre + width / 2; what is
-/// darker than a fifth of the window is hidden. Stiffness counts as the HU that it has by the default
-/// relation; bone has more than 0, and so must the window's upper end. Width is positive.
+/// A CT window as in radiology, HU: black at centre - width / 2, white at centre + width / 2; bone darker
+/// than a fifth of the window is hidden. Stiffness counts as the HU that it has by the default relation; bone
+/// has more than 0, and so must the window's upper end. Width is positive.
 TransferFunction ct_window(double centre_hu, double width_hu);
 
 }  // namespace osteomill

@@ -31,7 +31,7 @@ double distance_from(const HeadSweep& sweep, const glm::dvec3& point) noexcept;
 void carve_head(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings, ChangeSink& changes,
                 RemovalSink& removed) noexcept;
 
-/// Does for a head what preview_carve() of carve.h does for a ball.
+/// The preview_carve() of carve.h for a head.
 void preview_carve(Bone& bone, const HeadSweep& sweep, const CarveSettings& settings,
                    RemovalSink& would_go) noexcept;
 

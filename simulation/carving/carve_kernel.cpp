@@ -75,7 +75,7 @@ struct CarveKernel::Loops {
     [[gnu::always_inline]] std::size_t list_voxels(const std::uint8_t* fractions) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < to.row_count_; ++i) {
-            // Sixteen voxels are written for each row, of which the next row overwrites what is too many.
+            // Sixteen voxels are written for each row; the next row overwrites the surplus.
             const Row row = to.rows_[i];
             const Ints voxels = static_cast<std::int32_t>(row.first()) + simd::counting();
             simd::store(&to.list_[count], voxels);
@@ -129,7 +129,7 @@ struct CarveKernel::Loops {
         }
     }
 
-    /// Adds eight voxels and what they lose to a batch that has room for them.
+    /// Adds eight voxels and their losses to a batch that has space for them.
     [[gnu::always_inline]] static void append(RemovedVoxels& out, const EightVoxels& voxels,
                                               const Floats& levels, const Ints& slot) {
         const std::size_t n = out.count;
@@ -251,7 +251,7 @@ void CarveKernel::write_back(std::int32_t slot) noexcept {
         const unsigned changed = simd::bits_of_unequal(before, after);
         if (changed != 0) {
             simd::store(brick_row, after);
-            // With what lies between: a gap would cost more to send.
+            // Voxels in between are included: a gap would cost more to send.
             const auto first = static_cast<std::size_t>(std::countr_zero(changed));
             change.voxels.set_run(row->first() - x + first,
                                   static_cast<std::size_t>(std::bit_width(changed)) - first);

@@ -24,8 +24,8 @@ class CarveKernel {
     CarveKernel(Bone& bone, const glm::ivec3& base, const SweepSeenFrom& sweep, const CarveSettings& settings,
                 ChangeSink* changes, RemovalSink& removed) noexcept;
 
-    /// Lowers what the sweep covers of the bricks in row `brick_y` of a layer. `z`: the slices of the layer
-    /// that there are.
+    /// Lowers the voxels that the sweep covers of the bricks in row `brick_y` of a layer. `z`: the slices of
+    /// the layer that there are.
     void carve_bricks(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                       const VoxelRange& z) noexcept;
 
@@ -40,7 +40,7 @@ class CarveKernel {
                             const VoxelRange& z) noexcept;
     void carve_bricks_avx2(const CrescentRows& rows, const BrickLayer& layer, int brick_y,
                            const VoxelRange& z) noexcept;
-    /// Writes what is left of the listed rows into their brick and reports its change, if any.
+    /// Writes the listed rows' fractions into their brick and reports its change, if any.
     void write_back(std::int32_t slot) noexcept;
     std::uint8_t* left_of_list() { return &left_[brick_edge_voxels]; }
 

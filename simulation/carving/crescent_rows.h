@@ -1,5 +1,5 @@
-// Rows of voxels that can lie in the crescent that a burr cuts in one short step. A superset, quickly
-// found: for a step of length L from a to b, what changes lies
+// Rows of voxels that can lie in the crescent that a burr cuts in one short step. A superset, quickly found:
+// for a step of length L from a to b, the changed voxels lie
 //
 //     ahead of the plane through a across the step   (behind it, the nearest point of the step is a),
 //     within sqrt((R + rim)^2 + L^2) of b            (beyond, no voxel ahead of the plane is covered),
@@ -27,8 +27,8 @@ struct VoxelRange {
 class CrescentRows {
   public:
     static constexpr double longest_step_voxels = 2.0;
-    /// The burr that fits, and the rows that it may have in a slice, with room for a base that is up to 15
-    /// voxels farther away than it need be. A multiple of 16.
+    /// The burr that fits, and the rows that it may have in a slice, with a margin for a base that is up to
+    /// 15 voxels farther away than it need be. A multiple of 16.
     static constexpr double largest_radius_voxels = 250.0;
     static constexpr int most_rows = 528;
 

@@ -1,6 +1,6 @@
 // The published way to find the bone that a burr removes: the burr is a set of voxels, and every step takes
 // every one of them, some 65 000 for a 5 mm burr at 0.1 mm, turns it into the burr's frame, tests it against
-// the burr's shape and the bone, and lowers what is left. No empty brick is passed over, and no crescent is
+// the burr's shape and the bone, and lowers its fraction. No empty brick is passed over, and no crescent is
 // known. The fraction that a sweep leaves in a voxel follows the same rule as in carve.h, so the bone is the
 // same; only the search for its voxels differs. The speed of carve() is compared with it.
 #pragma once

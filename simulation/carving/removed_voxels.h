@@ -42,7 +42,7 @@ struct RemovedVoxels {
     }
 };
 
-/// Takes what a carve removed. Called in the middle of a step: real-time safe.
+/// Receives the voxels that a carve removed. Called in the middle of a step: real-time safe.
 class RemovalSink {
   public:
     virtual ~RemovalSink() = default;

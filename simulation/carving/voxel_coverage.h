@@ -6,7 +6,7 @@
 //
 // with the distance of the voxel's centre from the path of the burr's centre.
 //
-// A ramp of one voxel is what a cube is covered by a plane along its faces. Aslant, a plane takes up to sqrt
+// A ramp of one voxel is the coverage of a cube by a plane along its faces. Aslant, a plane takes up to sqrt
 // 3 voxels to cover it, and chips thinner than a voxel show the corners of the ramp as a ripple. Smoothed
 // coverage has the ramp's mean over b = 1 / sqrt 2 voxel: with u = (R - distance) / h and a = min(|u|, 1/2 +
 // b/2),

@@ -14,22 +14,23 @@ double touching_share(double gap_voxels) {
     return std::clamp((BurrProxy::surely_apart_voxels - gap_voxels) / width, 0.0, 1.0);
 }
 
-/// With which bone sets a burr that it drives apart from the hand; below 0 where it does not.
+/// Energy with which bone separates the burr that it drives from the hand; below 0 if it does not.
 double drive_mj(const glm::dvec3& cutting_force_n, const glm::dvec3& step_mm,
                 const glm::dvec3& hand_step_mm) {
     return std::min(glm::dot(cutting_force_n, step_mm), glm::dot(cutting_force_n, step_mm - hand_step_mm));
 }
 
-/// What the hidden damper ties the burr to: the hand's step, less as it goes where the spring pulls the hand.
+/// The step that the hidden damper lets the burr follow: the hand's, shorter the more the hand goes where the
+/// spring pulls it.
 glm::dvec3 followed_mm(const glm::dvec3& hand_step_mm, const glm::dvec3& on_hand_n) {
     const double lengths = glm::length(hand_step_mm) * glm::length(on_hand_n);
     if (lengths == 0.0) return hand_step_mm;
     return hand_step_mm * (1.0 - std::clamp(glm::dot(hand_step_mm, on_hand_n) / lengths, 0.0, 1.0));
 }
 
-/// The step of a burr that a wall holds back by friction, too: `solved` without it. What the pull would move
-/// it along the wall is shortened by what friction takes, or does not happen. Exact for a flat wall, since
-/// the pull is alike in every direction.
+/// The step of a burr that a wall also holds back by friction; `solved` is the step without it. Friction
+/// shortens the motion along the wall, or stops it. Exact for a flat wall, since the pull is alike in every
+/// direction.
 glm::dvec3 with_friction(const ContactStep& solved, double pull_n_per_mm, double friction) {
     const double normal_n = glm::length(solved.bone_force_n);
     const glm::dvec3 normal = solved.bone_force_n / normal_n;
@@ -158,8 +159,8 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
     const auto solve = [&] {
         damped.offset_n = pull.offset_n + damping_n_per_mm * damper_follows_mm;
         damped.damping_n_per_mm = damping_n_per_mm;
-        // From rest where edges rub, which finds the balance nearby. From where a contact begins Newton may
-        // not get away; then the other start does.
+        // If edges rub, from rest, which finds the balance nearby. Newton may be caught where a contact
+        // begins; then the other start succeeds.
         const glm::dvec3 free_mm = damped.free_step_mm();
         const glm::dvec3 rest_mm(0.0);
         const ContactStep first =
@@ -180,7 +181,7 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
         ++counts_.fallbacks;
     double without_balance_n_per_mm = least_damping_n_s_per_mm / tick_s;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
-        // What the damping does not make up for yet.
+        // The drive that the damping does not make up for yet.
         const glm::dmat3 drive =
             driving_part(solved.resistance_n_per_mm + damping_n_per_mm / drive_to_damping);
         const double sum_n_per_mm = drive[0][0] + drive[1][1] + drive[2][2];
@@ -225,7 +226,7 @@ void BurrProxy::cut_toward(const glm::dvec3& target_mm, const glm::dvec3& hand_m
     ContactStep solved{.step_mm = pull_mm};
     if (!contacts.empty()) {
         solved = balance_with_bone(pull, hand_step_mm, tick_s, contacts, engagement);
-        // Without bone exactly there, so that nothing is felt.
+        // Without bone the burr is exactly at the target, so that nothing is felt.
         if (solved.bone_force_n == glm::dvec3(0.0)) solved.step_mm = pull_mm;
     }
     counts_.max_residual_n = std::max(counts_.max_residual_n, solved.residual_n);

@@ -10,36 +10,38 @@
 //         F(d) = - sum of k A_i n_i max(0, n_i . (p + d - p_map) - gap_i)
 //
 // C_i, n_i, gap_i and A_i as in engagement.h, with gaps counted from p in the first; cut_i is how far the
-// patch may advance in what the proxy has cut since the map was sampled, so no bone is felt twice. Gaps of
-// freshly carved bone scatter by about a tenth of a voxel, more than a burr advances in a tick: a patch whose
-// gap is near a fifth of a voxel may touch or not, and counts as touching by the weight w_i, which falls from
-// 1 to 0 between a tenth and three tenths. A threshold would let it come and go with the lattice. Piecewise
-// linear: Newton on the set of patches in contact (contact_solve.h). With a spring alone and in one
+// patch may advance in bone that the proxy has cut since the map was sampled, so no bone is felt twice. Gaps
+// of freshly carved bone scatter by about a tenth of a voxel, more than a burr advances in a tick: a patch
+// whose gap is near a fifth of a voxel may touch or not, and counts as touching by the weight w_i, which
+// falls from 1 to 0 between a tenth and three tenths. A threshold would let it come and go with the lattice.
+// Piecewise linear: Newton on the set of patches in contact (contact_solve.h). With a spring alone and in one
 // dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for any B.
 //
 // Edges that rub give a patch a force that does not go with its advance: it is there as soon as the patch
 // touches, and holds the burr until the pull overcomes it, as dry friction does. It is made elastic: each
 // patch gives way by edge_yields_mm before it cuts, and the burr that carves trails the proxy by up to
-// carving_trails_mm, so that what is pressed in is still there when the next map comes.
+// carving_trails_mm, so that the pressed-in depth is still there when the next map comes.
 //
-// The shank is a wall, with the spindle on and off, and so is bone that no burr cuts to the head:
+// The shank meets bone as a wall, with the spindle on and off, and so does the head at bone that no burr
+// cuts:
 //
 //     F(d) = - sum of k A_j n_j max(0, n_j . (p + d - p_map) - gap_j)
 //
-// in the same balance. The hand tilts a shank without meeting resistance, and a rim between two rings of its
-// samples is met late: so a shank may be deeper in bone than anything pressed it. Bone pushes it out no
-// faster than most_push_out_mm_per_s; at once, it would throw the hand. It is not a cutting force: the gain
-// that compares those with the model's leaves it out and, since a wall returns no more energy than it took,
-// so does the store of the energy with which bone drives the burr. The hand sets the tool's direction, which
-// is not solved.
+// in the same balance. The hand tilts a shank without resistance, and a rim between two rings of samples is
+// met late, so a shank may be deeper in bone than any force pressed it. Bone pushes it out no faster than
+// most_push_out_mm_per_s; at once, it would throw the hand. The push is no cutting force, so the gain that
+// compares cutting forces with the model's leaves it out. The store of the energy with which bone drives the
+// burr leaves it out, too, since a wall returns no more energy than it took. The hand sets the tool's
+// direction, which is not solved.
 //
-// The pull is that of coupling_spring.h, with its damper. So the hand feels exactly the force of the bone on
-// the burr, with two exceptions.
+// The pull is the spring's and damper's of coupling_spring.h, so the hand feels exactly the force of the bone
+// on the burr, with two exceptions.
 //
 // First, a massless burr that breaks through would reach the hand within a tick, and the hand would feel the
-// spring relax all at once. The same happens when a spindle stops and the bone that pulled the burr along
-// becomes a wall. A real handpiece has mass, and a spindle slows down: so the burr moves no farther than
-// most_release_n_per_s lets the force of spring and damper fall, and they relax over some ticks.
+// spring relax all at once. The same would happen when a spindle stops and the bone that pulled the burr
+// along becomes a wall. A real handpiece has mass, and a real spindle slows down. So the force of spring and
+// damper falls no faster than most_release_n_per_s: the burr moves no farther in a tick, and they relax over
+// some ticks.
 //
 // Second, edges pull sideways, so bone can drive the burr along: the symmetric part of its resistance may
 // have a negative eigenvalue -N. Then the burr may run away from the hand, and a ring of such contacts may
@@ -80,25 +82,26 @@ class BurrProxy {
     /// Puts the proxy somewhere, without any known contact.
     void place(const glm::dvec3& position_mm) noexcept;
 
-    /// One tick of `tick_s` toward `target_mm` (patient LPS), where the proxy follows to in free air; `pull`
-    /// is the coupling's on the burr. `hand_mm` is where the hand is: by its step bone is held to give it no
-    /// energy, and the spring to let go gently. Real-time safe.
+    /// One tick of `tick_s` toward `target_mm` (patient LPS), which the proxy reaches in free air; `pull` is
+    /// the coupling's on the burr. `hand_mm` is the hand's position; its step limits the energy that bone may
+    /// give it, and how fast the spring may let go. Real-time safe.
     void advance(const glm::dvec3& target_mm, const glm::dvec3& hand_mm, const LinearPull& pull,
                  double tick_s, bool spindle_on, const MillingResult& latest) noexcept;
 
-    /// The same with only the bone that no burr cuts, spindle on or off, toward the hand: for couplings whose
-    /// burr is otherwise free.
+    /// One tick toward the hand against only the bone that no burr cuts, spindle on or off: for couplings
+    /// whose burr is otherwise free.
     void advance_on_walls(const glm::dvec3& hand_mm, const LinearPull& pull, double tick_s,
                           const MillingResult& latest) noexcept;
 
     const glm::dvec3& position_mm() const { return position_mm_; }
-    /// Position of the carving burr: the proxy's, less the part of a patch that yields before its edges cut.
+    /// Position of the carving burr: the proxy's, less the depth by which a patch yields before its edges
+    /// cut.
     const glm::dvec3& carving_mm() const { return carving_mm_; }
     /// Iterations that the last advance took, for benchmarks.
     int iterations() const { return iterations_; }
     const SolveCounts& counts() const { return counts_; }
-    /// Whether, in the last advance, bone pushed on the shank, or on the head without being cut. With the
-    /// spindle off only the first is reported.
+    /// Whether bone, in the last advance, pushed on the shank, or on the head without being cut. With the
+    /// spindle off only a push on the shank is reported.
     bool touches_wall() const { return walls_.force_n != glm::dvec3(0.0); }
     /// Moment of the push on the shank about the burr's centre, N mm, patient axes.
     const glm::dvec3& shank_torque_n_mm() const { return walls_.torque_n_mm; }
@@ -106,52 +109,52 @@ class BurrProxy {
     /// Between these gaps a patch counts as touching by a share.
     static constexpr double surely_touching_voxels = 0.1;
     static constexpr double surely_apart_voxels = 0.3;
-    /// Depth by which a patch gives way before its edges cut, and how far the carving burr may trail: that of
-    /// a patch nearly along the motion yields, too.
+    /// Depth by which a patch gives way before its edges cut, and how far the carving burr may trail, since a
+    /// patch that lies nearly along the motion yields, too.
     static constexpr double edge_yields_mm = 0.001;
     static constexpr double carving_trails_mm = 0.005;
     /// Wall pressure per depth with the spindle off, N/mm^3: a 1 mm burr pressed with 3 N sinks in by 0.04
     /// mm, and no farther at the arm either.
     static constexpr double wall_n_per_mm3 = 1000.0;
-    /// How fast bone pushes a shank out that is deeper in it than the pull presses it, at the arm: slower
-    /// than a hand that yields.
+    /// Speed, at the arm, with which bone pushes out a shank that is deeper in it than the pull presses it:
+    /// slower than a hand that yields.
     static constexpr double most_push_out_mm_per_s = 5.0;
-    /// How fast spring and damper may let go: 0.15 N a tick, half of what is felt as a knock.
+    /// Rate at which spring and damper may let go: 0.15 N a tick, half of a knock that is felt.
     static constexpr double most_release_n_per_s = 150.0;
 
     // Energies are the hand's, at the arm.
     static constexpr double apart_memory_s = 0.05;
     static constexpr double allowed_apart_mj = 0.05;
     static constexpr double most_apart_mj = 1.0;
-    /// Hidden damping for what drives the burr, both in N s/mm; 1 would only just do.
+    /// Hidden damping over the drive of the bone, both in N s/mm; 1 would be just enough.
     static constexpr double drive_to_damping = 2.0;
-    /// Where a tick has no balance although nothing seems to drive the burr.
+    /// Damping for a tick that has no balance although nothing seems to drive the burr.
     static constexpr double least_damping_n_s_per_mm = 0.02;
     static constexpr int most_attempts = 6;
     /// Far below any spring's stiffness.
     static constexpr double negligible_drive_n_per_mm = 1e-3;
 
   private:
-    /// Of bone that is a wall: the moment is that on the shank.
+    /// Force of bone that is a wall, and its moment on the shank.
     struct WallReaction {
         glm::dvec3 force_n{0.0};
         glm::dvec3 torque_n_mm{0.0};
     };
 
     void take_over(const MillingResult& latest) noexcept;
-    /// What of the head's surroundings a step may meet.
+    /// The kinds of contact at the head that a step may meet.
     enum class Meets : std::uint8_t { chips, walls_only, all_as_walls };
 
-    /// Contacts that a step of `step_s` may meet that is no longer than `longest_mm`; `pull_n` is the pull on
-    /// the burr at rest.
+    /// Contacts that a step of `step_s`, no longer than `longest_mm`, may meet; `pull_n` is the pull on the
+    /// burr at rest.
     std::span<const Contact> gather_contacts(double longest_mm, double step_s, Meets meets,
                                              const glm::dvec3& pull_n, const Engagement& engagement) noexcept;
-    /// At the end of a step from where the proxy is, for which contacts were gathered.
+    /// Reaction at the end of a step of the proxy for which contacts were gathered.
     WallReaction wall_reaction(const glm::dvec3& step_mm, const Engagement& engagement) const noexcept;
     void remember_cuts(const Engagement& engagement) noexcept;
-    /// Takes the burr that carves along with the proxy, which bone holds or does not.
+    /// Moves the carving burr along with the proxy, which bone holds or does not.
     void trail(bool is_held, const Engagement& engagement) noexcept;
-    /// The balance of a tick, damped where bone drives the burr.
+    /// The balance of a tick, damped if bone drives the burr.
     ContactStep balance_with_bone(const LinearPull& pull, const glm::dvec3& hand_step_mm, double tick_s,
                                   std::span<const Contact> contacts, const Engagement& engagement) noexcept;
     /// With the spindle on.
@@ -160,7 +163,7 @@ class BurrProxy {
     /// Without cutting.
     void press_toward(const glm::dvec3& target_mm, const LinearPull& pull, double tick_s, Meets meets,
                       const Engagement& engagement) noexcept;
-    /// By a step toward the target, or as much of it as spring and damper may let go of in a tick.
+    /// Moves by a step toward the target, or by as much of it as spring and damper may release in a tick.
     void move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, const LinearPull& pull,
               double tick_s) noexcept;
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_iterations = 24;
 constexpr double smallest_share = 0.02;
-/// Where the iteration ends: far below balance_tolerance_n.
+/// Residual at which the iteration ends: far below balance_tolerance_n.
 constexpr double residual_goal_n = 1e-7;
 
 struct State {

@@ -48,20 +48,20 @@ struct ContactStep {
     glm::dvec3 bone_force_n{0.0};  ///< on the burr, at the step's end
     double residual_n = 0.0;       ///< force that is left over
     int iterations = 0;
-    /// Of the contacts that touch: minus the derivative of their force.
+    /// Minus the derivative of the force of the contacts that touch.
     glm::dmat3 resistance_n_per_mm{0.0};
 };
 
-/// Where bone drives the burr, and how strongly: the symmetric part of its resistance, without the
-/// eigenvectors that resist, and positive. Adding it leaves no direction that is driven. Real-time safe.
+/// Directions in which bone drives the burr, and how strongly: the symmetric part of its resistance without
+/// the eigenvectors that resist, with a positive sign. Added to the resistance, it leaves no direction that
+/// is driven. Real-time safe.
 glm::dmat3 driving_part(const glm::dmat3& resistance_n_per_mm) noexcept;
 
-/// A residual below this is a balance: a hundredth of what a hand can tell.
+/// A residual below this is a balance: a hundredth of the force that a hand can tell.
 inline constexpr double balance_tolerance_n = 1e-3;
 
 /// Newton's method on the set of contacts that touch, from `first_mm`, halving a step that does not reduce
-/// the residual; at most 24 iterations. Where it ends without a balance, the residual says so. Real-time
-/// safe.
+/// the residual; at most 24 iterations. If it ends without a balance, the residual says so. Real-time safe.
 ContactStep balance(const LinearPull& pull, std::span<const Contact> contacts,
                     const glm::dvec3& first_mm) noexcept;
 /// From the free step.
@@ -69,11 +69,11 @@ inline ContactStep balance(const LinearPull& pull, std::span<const Contact> cont
     return balance(pull, contacts, pull.free_step_mm());
 }
 
-/// The balance with each contact's force along its normal alone, and only resisting. That is the minimum of a
-/// strictly convex, piecewise quadratic function, which Newton's method with a line search that must reduce
-/// it reaches in a finite number of steps. Bone that only resists takes energy out of the burr: force . step
-/// <= 0, where no contact is entered at the start. Should 24 iterations not do, the burr stays (step 0).
-/// `residual_n` is of the relaxed contacts. Real-time safe.
+/// The balance if each contact only resists, along its normal alone. It is the minimum of a strictly convex,
+/// piecewise quadratic function. Newton's method reaches it in a finite number of steps, with a line search
+/// that must reduce the function. Bone that only resists takes energy out of the burr: force . step <= 0, if
+/// no contact is entered at the start. If 24 iterations are not enough, the burr stays (step 0). `residual_n`
+/// is of the relaxed contacts. Real-time safe.
 ContactStep relaxed_step(const LinearPull& pull, std::span<const Contact> contacts) noexcept;
 
 }  // namespace osteomill

@@ -37,23 +37,23 @@ class Coupling {
     /// One haptic tick. `latest` is the milling loop's newest result (step 0: none yet). Real-time safe.
     virtual CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept = 0;
 
-    /// Outcomes of the solves so far; zero for a coupling that solves none.
+    /// Outcomes of the solves so far; zero for a coupling that does not solve.
     virtual SolveCounts solve_counts() const noexcept { return {}; }
 
     /// Clears all state, as after a fault or a jump of the device: the next tick starts from the hand's pose.
     virtual void reset() noexcept = 0;
 
-    /// Another that goes on from here alike. Between ticks.
+    /// A copy that goes on from here alike. Between ticks.
     virtual std::unique_ptr<Coupling> copy() const = 0;
 };
 
 struct CouplingOptions {
     PatientLimits device;
     double milling_period_s = 0.001;
-    /// The model's force is the wall, too, and it has no cutting law: with the spindle off a coupling renders
-    /// that force, makes no wall of its own and leaves the burr where the hand is.
+    /// The model has no cutting law, and its force is the wall, too: with the spindle off a coupling renders
+    /// that force, makes no wall of its own and leaves the burr at the hand.
     bool model_holds_wall = false;
-    /// Coulomb's, of a burr at rest on bone; of couplings that solve one.
+    /// Coulomb's coefficient of a burr at rest on bone, for couplings that solve a balance.
     double wall_friction = 0.0;
 };
 

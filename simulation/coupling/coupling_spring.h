@@ -46,7 +46,7 @@ class CouplingSpring {
     glm::dvec3 follow_burr(const glm::dvec3& burr_mm, double tick_s) noexcept {
         burr_.follow(burr_mm, tick_s, burr_filter_s_);
         if (hand_.position_mm == burr_mm) {
-            // Out of contact nothing is felt of what the filters remember, but no force ends in one tick.
+            // Out of contact the hand does not feel the filters' memory, but no force ends within one tick.
             burr_ = hand_;
             const double before_n = glm::length(on_hand_n_);
             return on_hand_n_ *=

@@ -37,7 +37,7 @@ CouplingFactory with_passivity(CouplingFactory base) {
     };
 }
 
-/// What NAME+ADDITION adds to a coupling that takes it.
+/// An addition to a coupling, chosen as NAME+ADDITION.
 struct CouplingAddition {
     std::string name;
     CouplingFactory (*add_to)(CouplingFactory base);

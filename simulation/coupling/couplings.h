@@ -27,11 +27,11 @@ struct CouplingEntry {
 const std::vector<CouplingEntry>& couplings();
 std::vector<std::string> coupling_names();
 
-/// What --coupling takes, in one line: the names, and how some are combined with a virtual damper
+/// The choices of --coupling in one line: the names, and how some are combined with a virtual damper
 /// (NAME+damper) or passivity control (NAME+passivity).
 std::string coupling_choices();
 
-/// Of a name or a combination. Throws std::invalid_argument with the choices for what is neither.
+/// The entry of a name or a combination. Throws std::invalid_argument with the choices for anything else.
 CouplingEntry find_coupling(const std::string& name);
 
 /// Throws as find_coupling does, and std::invalid_argument for a coupling that needs a cutting law with a

@@ -27,7 +27,7 @@ const glm::dvec3& DirectCoupling::follow_wall(const HandState& hand, const Milli
 }
 
 CouplingOutput DirectCoupling::tick(const HandState& hand, const MillingResult& latest) noexcept {
-    // With the spindle on what no burr cuts is still a wall, beside the model's force.
+    // With the spindle on, bone that no burr cuts is still a wall, in addition to the model's force.
     const bool is_wall = !model_holds_wall_ && (!hand.spindle_on || latest.engagement.has_walls);
     ToolPose burr = hand.pose;
     if (is_wall) {

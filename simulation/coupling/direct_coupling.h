@@ -7,10 +7,10 @@
 // damper on a mass m is stable only below about 2 m / T: none of these can hold every cut. They are here to
 // be compared.
 //
-// With the spindle off bone is a wall: a proxy stays on the surface (burr_proxy.h) and a spring that the
-// device claims to render pulls the hand to it. The proxy moves at every tick, the spring's force is sampled
-// with the model's results, and the same reconstruction renders it, so that what is known of sampled walls
-// (hold: K < 2 b / T) holds for each of these. A force model that holds the wall itself
+// With the spindle off bone is a wall: a proxy stays on the surface (burr_proxy.h), and a spring as stiff as
+// the device claims to render pulls the hand to it. The proxy moves at every tick. The spring's force is
+// sampled with the model's results and rendered by the same reconstruction, so the known limits of sampled
+// walls (hold: K < 2 b / T) apply to each. A force model that holds the wall itself
 // (CouplingOptions::model_holds_wall) is rendered alike with the spindle on and off.
 #pragma once
 
@@ -31,7 +31,7 @@ class DirectCoupling final : public Coupling {
     std::unique_ptr<Coupling> copy() const override { return std::make_unique<DirectCoupling>(*this); }
 
   private:
-    /// Where the wall lets the burr be.
+    /// The place that the wall leaves to the burr.
     const glm::dvec3& follow_wall(const HandState& hand, const MillingResult& latest) noexcept;
 
     double wall_n_per_mm_;

@@ -1,18 +1,18 @@
-// Correction of a predicted cutting force by what the carve then really removed. The engagement map's patches
-// are coarse for a shallow cut, and it sees a rim of bone as in contact a little early or late: the force
-// comes out a few per cent too long or too short and a degree off its direction, and a soft hand swings on
-// that. The milling model's force, which comes from the removed voxels themselves, does not have the error.
-// The gain G that makes the two agree is followed slowly. It knows no direction but the spindle a: a stretch
-// and a turn across it, a stretch along it,
+// Correction of a predicted cutting force by the bone that the carve then really removed. The engagement
+// map's patches are coarse for a shallow cut, and it sees a rim of bone as in contact a little early or late:
+// the force comes out a few per cent too long or too short and a degree off its direction, and a soft hand
+// swings on that. The milling model's force, which comes from the removed voxels themselves, does not have
+// the error. The gain G that makes the two agree is followed slowly. It knows no direction but the spindle a:
+// a stretch and a turn across it, a stretch along it,
 //
 //     G = re (1 - a a^T) + im [a]x + along a a^T
 //     re    = <m . p>_across / <p . p>_across      p the predicted force without G, m the model's,
 //     im    = <a . (p x m)>  / <p . p>_across      <> means over a sliding window
 //     along = <m_a p_a> / <p_a p_a>
 //
-// Impulses are compared, not forces: at 300 Hz three haptic ticks make one of the model's steps here and four
-// there. re and along stay within [0.5, 1.5], im within +-0.3; where there is little force to compare, G
-// returns to 1. What was learnt in one contact says nothing of the next: after 20 ms in air it is forgotten.
+// Impulses are compared, not forces: at 300 Hz one of the model's steps takes three haptic ticks, the next
+// takes four. re and along stay within [0.5, 1.5], im within +-0.3; while there is little force to compare, G
+// returns to 1. A gain learnt in one contact does not fit the next: after 20 ms in air it is forgotten.
 #pragma once
 
 #include <algorithm>

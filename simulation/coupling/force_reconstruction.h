@@ -9,16 +9,16 @@
 //
 // A hold returns more energy than it took, since its force is that of the period's beginning. The estimates
 // hold the mean of the period to come instead: the trapezoid of F_k and F_{k+1} = 2 F_k - F_{k-1}, an
-// extrapolation; `corrected` adds what the last estimate got wrong. After Ellis, Sarkar and Jenkins (ASME
-// 1996; J. Dyn. Sys. Meas. Control 119:768, 1997), derived anew from that idea. They are for the model's
-// rate: after a line of ten strides an estimate gains 5 %.
+// extrapolation; `corrected` adds the error of the last estimate. After Ellis, Sarkar and Jenkins (ASME 1996;
+// J. Dyn. Sys. Meas. Control 119:768, 1997), derived anew from that idea. They suit the model's rate only:
+// after a line of ten strides an estimate gains 5 %.
 //
 // A line lags by half a period on the average. A tick's force acts until the next, so the tick gives the
 // line's value at its own end: the first stride comes when u_k arrives, and a model at the haptic rate is
 // held, not delayed.
 //
-// Nothing resists before the first sample; for the estimates that first force counts as having always been,
-// so that a start in the middle of bone does not overshoot.
+// Nothing resists before the first sample. The estimates assume that this first force was always there, so
+// that a start in the middle of bone does not overshoot.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -17,14 +17,14 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 /// Gaps of freshly carved bone scatter by a tenth of a voxel.
 constexpr double touching_voxels = 0.2;
-/// A longer one in a tick is a jump of the device, not the way of a hand.
+/// A longer step in a tick is a jump of the device, not the motion of a hand.
 constexpr double longest_move_mm = 5.0;  // at the arm
 
 double tooth_hz(const Burr& burr) {
     return burr.edges * burr.spindle_rev_per_s;
 }
 
-/// Feed that turns with the spindle and makes the chips that run-out makes.
+/// A feed that turns with the spindle and makes the same chips as run-out.
 double whirl_mm_per_s(const Burr& burr) {
     return burr.run_out_mm * std::sin(std::numbers::pi / burr.edges) * tooth_hz(burr);
 }
@@ -37,8 +37,8 @@ bool renders_tooth(const Burr& burr) {
     return tooth_hz(burr) <= HandpieceVibration::highest_hz;
 }
 
-/// cos and sin of `times` the azimuth of a direction across the spindle, that of a point on the axis taken as
-/// x.
+/// cos and sin of `times` the azimuth of a direction across the spindle; a point on the axis has the azimuth
+/// of x.
 std::complex<double> unit_power(double x, double y, int times) {
     const double length = std::hypot(x, y);
     if (length == 0.0) return 1.0;

@@ -21,7 +21,7 @@
 // harmonics (of a tooth period that is longer than 7 ms, or of edges that leave the cut), and edges that
 // leave the cut and do not rub meanwhile.
 //
-// The sum is kept within the room that the mean leaves below the device's limit, and within most of the
+// The sum stays within the margin that the mean leaves below the device's limit, and within most of the
 // allowed rate of change; otherwise the safety monitor would clip it, which makes other frequencies. At 167
 // Hz and 1000 N/s that is 0.76 N.
 //
@@ -93,7 +93,7 @@ class HandpieceVibration {
     void follow_hand(const glm::dvec3& hand_mm) noexcept;
     void silence() noexcept;
     void look_at_cut(const MillingResult& latest, const Burr& burr) noexcept;
-    /// What the sines shall be. Columns of `frame`: the burr's axes in patient axes.
+    /// Sets the sines to aim for. Columns of `frame`: the burr's axes in patient axes.
     void aim(const Engagement& engagement, const glm::dmat3& frame, const Burr& burr) noexcept;
     /// The sines, within all limits.
     glm::dvec3 allowed_n(const Burr& burr, double tick_s, double mean_n) const noexcept;
@@ -101,7 +101,7 @@ class HandpieceVibration {
     TurningBurrs burrs_;
     VibrationLimits limits_;
     double turned_rev_ = 0.0;  // within a turn
-    Sine turn_;                // what is felt, and what the cut would have it be
+    Sine turn_;                // the felt sines, and those that the cut asks for
     Sine turn_target_;
     Sine tooth_;
     Sine tooth_target_;

@@ -1,6 +1,7 @@
 // Implicit coupling, the default: the burr is a proxy (burr_proxy.h) on a spring and damper that the device
-// can render (coupling_spring.h), and the hand feels those. The steady force is the milling model's; hard
-// bone becomes a wall, air nothing. The burr lags the hand by F / K_c, as a real handpiece yields.
+// can render (coupling_spring.h), and the hand feels spring and damper. The steady force is the milling
+// model's; hard bone becomes a wall, air nothing. The burr lags the hand by F / K_c, as a real handpiece
+// yields.
 //
 // The proxy is solved against the engagement map that the milling loop last sampled, a local linear model of
 // the bone, and not by running the milling model within the haptic tick. A milling step with its map takes
@@ -9,7 +10,7 @@
 // would miss its deadline whenever a carve does not (a long sweep, a large burr, pages of bone first
 // touched), and a milling rate of 100 Hz would be out of the question. On the map a late or heavy carve costs
 // no haptic deadline, and the mean force differs from the model's by 0.1 to 0.6 %, since force_correction.h
-// feeds back what the carve really removed.
+// feeds back the bone that the carve really removed.
 #pragma once
 
 #include "simulation/coupling/burr_proxy.h"
@@ -28,8 +29,8 @@ class ImplicitCoupling final : public Coupling {
     std::unique_ptr<Coupling> copy() const override { return std::make_unique<ImplicitCoupling>(*this); }
     SolveCounts solve_counts() const noexcept override { return proxy_.counts(); }
 
-    /// On the burr's side of the damping, ten times the hand's: the proxy moves unevenly, as its map is
-    /// refreshed and contacts come and go, and none of that should be felt.
+    /// Filter on the burr's side of the damping, ten times the hand's: the proxy moves unevenly, as its map
+    /// is refreshed and contacts come and go, and the hand should not feel that.
     static constexpr double burr_filter_s = ArmSpring::burr_filter_s;
 
   private:

@@ -1,6 +1,6 @@
 // Passivity observer and controller around another coupling, in the time domain (Hannaford and Ryu, IEEE
-// Trans. Robotics and Automation 18:1, 2002): watches the energy that the rendered force has taken from the
-// hand, and where it has given more than it took, damps for as long as that lasts.
+// Trans. Robotics and Automation 18:1, 2002): it watches the energy that the rendered force has taken from
+// the hand, and damps for as long as the force has given more than it took.
 //
 //     W_k  = W_{k-1} - F_{k-1} . s_k                      s_k = x_k - x_{k-1}
 //     F_k  = F_base - alpha s_k / T   where W_k < 0, with
@@ -11,9 +11,9 @@
 // the account, so an unpaid debt stays. The bound keeps it a damper that is stable on a sampled arm of
 // apparent mass m, even one tick late.
 //
-// When contact ends, credit is forgotten, as in the paper, so that what one contact took does not hide what
-// the next one gives; a debt is kept. Within a long contact that dissipates (a cut) the observer may still
-// hold much credit when chatter begins: the method's known weakness, not mended here.
+// When contact ends, credit is forgotten, as in the paper, so that energy taken in one contact does not hide
+// energy given in the next; a debt is kept. Within a long contact that dissipates (a cut) the observer may
+// still hold much credit when chatter begins: the method's known weakness, not mended here.
 //
 // Positions come through the observer of position_observer.h: whole encoder counts would be paid in blows.
 #pragma once

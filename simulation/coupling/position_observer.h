@@ -1,5 +1,5 @@
-// Observer of the hand's position between the steps of its encoder: a predictor that is corrected only by
-// what the reading proves.
+// Observer of the hand's position between the steps of its encoder: a predictor, corrected only by as much as
+// the reading proves.
 //
 //     p = x^ + v^ dt + (x - x^) dt / tau           prediction
 //     r = x - p,  o = r - clamp(r, -q/2, q/2)      how far p lies outside the encoder's cell around x
@@ -8,16 +8,15 @@
 //     |v^| <= q / t                                t: for which the reading has stayed within half a step
 //
 // Within a cell nothing is proven, and the estimate is drawn to its middle, from which it strays by no more
-// than v^ tau. Left at the edge where the last motion brought it, it would have to jump a whole step when the
-// hand leaves by the other one. A hand that moved on would have reached the next cell: so v^ falls the longer
-// the reading stays, or the burr would stand v^ tau ahead of a hand that stands still, for good.
+// than v^ tau. If it stayed at the edge where the last motion brought it, it would have to jump a whole step
+// when the hand leaves by the other edge. A hand that moved on would have reached the next cell, so v^ falls
+// the longer the reading stays; otherwise the burr would stay v^ tau ahead of a hand that stands still.
 //
 // A steadily moving hand reads as a staircase; rendered by a spring of 1.5 N/mm each step of 0.055 mm would
-// be felt as 0.08 N. The estimate glides instead. Where bone is cut, a step that was not expected is made up
-// for within some ten ticks and not at once, which would be a tap: c = 0.1, a = 0.01. It strays from the cell
-// by no more than a step, so a fast hand is followed without a low-pass filter's lag. On a wall the arm would
-// swing on that lag, and there c = 1, a = b: the estimate never leaves the cell. With q = 0 it is the
-// reading.
+// be felt as 0.08 N. The estimate glides instead. While bone is cut, an unexpected step is made up for within
+// some ten ticks (c = 0.1, a = 0.01); at once, it would be felt as a tap. It strays from the cell by no more
+// than a step, so a fast hand is followed without a low-pass filter's lag. On a wall the arm would swing on
+// that lag, and there c = 1, a = b: the estimate never leaves the cell. With q = 0 it is the reading.
 #pragma once
 
 #include <algorithm>
@@ -33,20 +32,20 @@ class PositionObserver {
   public:
     /// b: share of a correction that goes into the velocity; 1 / b ticks of memory.
     static constexpr double velocity_share = 0.05;
-    /// c and a, where bone is cut.
+    /// c and a, while bone is cut.
     static constexpr double gentle_share = ArmSpring::share_of_step;
     static constexpr double gentle_velocity_share = 0.01;
     /// tau, s: longer than the swing of an arm on a stiff wall, shorter than the stops of a hand that sticks
     /// and slips.
     static constexpr double settling_s = 0.02;
 
-    /// `resolution_mm` is the encoder's step along each axis, 0 where it has none to speak of.
+    /// `resolution_mm` is the encoder's step along each axis, 0 if it is negligible.
     explicit PositionObserver(double resolution_mm) : half_step_mm_(0.5 * resolution_mm) {}
 
     void reset() noexcept { placed_ = false; }
 
     /// Takes the reading of a tick of `tick_s` > 0 and returns the estimate. `on_wall`: bone, if there is
-    /// any, is a wall and is not cut, or may be. The first reading after a reset is taken as it is. Real-time
+    /// any, is or may be a wall that is not cut. The first reading after a reset is taken as it is. Real-time
     /// safe.
     const glm::dvec3& update(const glm::dvec3& reading_mm, double tick_s, bool on_wall = true) noexcept {
         if (!placed_) {

@@ -4,9 +4,9 @@
 //     M (w' - w) / T = F_tie(w' T) + F_bone(w' T)     F_tie = K_c e + B_c de/dt, e = x_hand - p
 //     p' = p + T w'                                   F_hand = -F_tie      (coupling_spring.h)
 //
-// Solved at the tick's end, on the engagement map (burr_proxy.h): to the tool a mass is one more pull that
-// grows with its step, M / T^2 for each mm. So bone may resist as it likes. Advanced with a force that is
-// held and a tick late, the tool would chatter above about 90 N s/m.
+// Solved at the tick's end, on the engagement map (burr_proxy.h): the mass is one more pull that grows with
+// the tool's step, M / T^2 for each mm. So bone may resist as strongly as it likes. If it were advanced with
+// a force that is held and a tick late, the tool would chatter above about 90 N s/m.
 //
 // M is the device's own apparent mass, which the hand moves anyway: the price in air is twice the inertia.
 //

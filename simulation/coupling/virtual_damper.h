@@ -2,8 +2,8 @@
 //
 //     F = F_base - B min(1, |F_base| / F_full) v          v of the device, as its driver estimates it
 //
-// It makes up for the energy that a hold returns (a wall of stiffness K: K T / 2) and does nothing for a
-// force that is a damper already: there the sampled sum is only stronger. The damping grows with the contact
+// It makes up for the energy that a hold returns (a wall of stiffness K: K T / 2). It does not help a force
+// that is a damper already: that only becomes a stronger sampled damper. The damping grows with the contact
 // force up to F_full, so that touching bone at speed is not a jump.
 #pragma once
 
@@ -15,8 +15,8 @@ namespace osteomill {
 
 class VirtualDamper final : public Coupling {
   public:
-    /// 5 N s/m. More buzzes: one encoder count (0.055 mm) a millisecond is 55 mm/s, 9 mm/s after a driver's
-    /// filter of 5 ms.
+    /// 5 N s/m. More would buzz: one encoder count (0.055 mm) a millisecond is 55 mm/s, 9 mm/s after a
+    /// driver's filter of 5 ms.
     static constexpr double damping_n_s_per_mm = 0.005;  // at the arm
     static constexpr double full_at_n = 0.2;
 

@@ -24,7 +24,7 @@ struct AxisKernel {
     Real inverse;  ///< mean of 1 / r
 };
 
-/// Where the disc does not reach the axis: r at least axis_disc_voxels. `per_r` is 1 / r.
+/// Means if the disc does not reach the axis: r at least axis_disc_voxels. `per_r` is 1 / r.
 template <typename Real>
 [[gnu::always_inline]] inline AxisKernel<Real> far_axis_kernel(Real per_r) {
     const Real per_t = per_r * per_r * (axis_disc_voxels * axis_disc_voxels);
@@ -32,7 +32,7 @@ template <typename Real>
             per_r * (1.0f + per_t * (0.0025f - per_t * (0.00893f + per_t * per_t * 0.01229f)))};
 }
 
-/// Anywhere. `per_r`: 1 / r, which may be anything finite where r is below 0.1.
+/// Means at any r. `per_r`: 1 / r, which may be anything finite if r is below 0.1.
 template <typename Real>
 [[gnu::always_inline]] inline AxisKernel<Real> axis_kernel(Real r_squared, Real per_r) {
     constexpr float per_a = 1.0f / axis_disc_voxels;
@@ -46,9 +46,9 @@ template <typename Real>
 }
 
 /// Part of the swirl that is missing on a face that ends in a straight line at the axis, such as the face on
-/// which the edges of an upright burr rub. There the disc reaches over the line, and so do voxels, which
-/// count only for the part on the face: 0.52 voxels of each edge are lost, pi / 2 times the mean distance
-/// from the line of the disc's weight spread over a voxel. Times (x, y) the correction is zero at the axis,
+/// which the edges of an upright burr rub. There the disc reaches over the line, and so do voxels, of which
+/// only the part on the face counts. So 0.52 voxels of each edge are lost: pi / 2 times the mean distance,
+/// from the line, of the disc's weight spread over a voxel. Times (x, y), the correction is zero at the axis,
 /// and adds up to the lost part.
 template <typename Real>
 [[gnu::always_inline]] inline Real swirl_lost_at_line(Real r_squared) {
@@ -57,7 +57,7 @@ template <typename Real>
     return rest > 0.0f ? 3.85f * per_a_squared * rest * rest : rest * 0.0f;
 }
 
-/// How much of that a line lacks that passes the axis at a distance, voxels.
+/// Share of that loss at a line that passes the axis at a distance, voxels.
 inline float share_lost_at_line(float distance_voxels) {
     return std::max(0.0f, 1.0f - 2.0f * distance_voxels);
 }

@@ -31,7 +31,7 @@ class BinnedForce {
     void add_edges(const CuttingStep& edges, const RemovedVoxels& rubbed,
                    std::span<const float> weights) noexcept;
 
-    /// As of MeanForce.
+    /// As MeanForce::edges_n.
     const glm::dvec3& edges_n() const noexcept { return edges_n_; }
     void correct_edges(const glm::dvec3& by_n) noexcept { edges_n_ += by_n; }
 
@@ -41,7 +41,8 @@ class BinnedForce {
 
     /// Equation (2): mean over a tooth period of sum T(i,j,k) [K_t K_r K_a]^T t(i,j,k) dz over edges and
     /// slices; N, patient axes. Each edge passes each bin once a revolution, so the mean over instants is a
-    /// sum over bins times N_phi dpsi / 2 pi. Edge forces, which are not of that method, as in chip_force.h.
+    /// sum over bins times N_phi dpsi / 2 pi. The published method has no edge forces; they are those of
+    /// chip_force.h.
     glm::dvec3 force_n() const noexcept;
 
   private:

@@ -164,7 +164,7 @@ CuttingStep CuttingStep::of_edges(const Burr& burr, const glm::dvec3& from_voxel
     step.is_of_edges = true;
     step.path_direction = glm::vec3(glm::transpose(frame) * path_voxels / path);
     step.half_path_voxels = static_cast<float>(0.5 * path);
-    // Under a ball whose path is off the plane across its spindle the face ends that far from the axis.
+    // If a ball's path is off the plane across its spindle, the face ends that far from the axis.
     step.line_lost = head != nullptr ? 0.0f
                                      : share_lost_at_line(static_cast<float>(burr.radius_mm() / spacing_mm) *
                                                           std::abs(step.path_direction.z));

@@ -13,15 +13,15 @@
 //
 // A voxel of the crescent is up to a voxel off the burr's surface. Its force is computed at its own position,
 // at a distance d from the burr's centre: r = d sin kappa. The loss of a shell grows with d^2 and the force
-// with 1 / d, so that the mean over the ramp of voxel_coverage.h, in which d is R on average, equals that of
-// the surface; voxels first moved to r = R sin kappa would add up to too much by the ramp's variance over
-// R^2, 0.5 % for a burr of ten voxels. With K_r n + K_a e_kappa written out, sin kappa / r = 1 / d leaves
-// only e_psi / r, e_r / r, e_r and 1 / r that vary quickly near the spindle's axis: these are replaced by the
-// means of axis_singularity_kernel.h.
+// with 1 / d. In the ramp of voxel_coverage.h d is R on average, so the mean over it equals that of the
+// surface. If voxels were first moved to r = R sin kappa, the sum would be too large by the ramp's variance
+// over R^2, 0.5 % for a burr of ten voxels. With K_r n + K_a e_kappa written out, sin kappa / r = 1 / d
+// leaves only e_psi / r, e_r / r, e_r and 1 / r that vary quickly near the spindle's axis: these are replaced
+// by the means of axis_singularity_kernel.h.
 //
 // A cutting edge also rubs (Altintas's linear edge model; Lee and Altintas 1996): dF = (K_te, K_re, K_ae) ds
 // for each mm of it, however thin the chip. So this force belongs to the face that is cut, not to the bone
-// removed by a step, which at a slow feed is only single levels of a voxel's 255. It is summed over the
+// that a step removes: at a slow feed, that is only single levels of a voxel's 255. It is summed over the
 // voxels that the burr would cut if it advanced by d, a voxel or more; each has V / (n . d) of the face
 // (edge_advance.h):
 //
@@ -44,14 +44,14 @@ namespace osteomill {
 
 /// A milling step for the force sum: of its chips, or of its edges.
 struct CuttingStep {
-    /// Of chips. `middle_voxels` is the burr's centre half-way through the step, in voxel coordinates:
+    /// A step of chips. `middle_voxels` is the burr's centre half-way through the step, in voxel coordinates:
     /// directions taken from the step's end would leave a bias that no refinement removes. `elapsed_s` > 0;
     /// `spindle_axis` is a unit vector. `head_profile`: in voxels, null for a ball; outlives the step.
     CuttingStep(const Burr& burr, const glm::dvec3& spindle_axis, const glm::dvec3& middle_voxels,
                 double spacing_mm, double elapsed_s, const BurrProfile* head_profile = nullptr);
 
-    /// Of the edges in such a step: what it takes is bone that the burr would cut on `path_voxels` (not zero)
-    /// from `from_voxels`.
+    /// A step of the edges meanwhile: its bone is the bone that the burr would cut on `path_voxels` (not
+    /// zero) from `from_voxels`.
     CuttingStep of_edges(const Burr& burr, const glm::dvec3& from_voxels,
                          const glm::dvec3& path_voxels) const;
 
@@ -80,8 +80,7 @@ struct ChipForces {
     alignas(64) std::array<float, RemovedVoxels::capacity> z;
 };
 
-/// `weights`: what each voxel counts for, relative stiffness times the fraction removed; zero for padding.
-/// Real-time safe.
+/// `weights`: of each voxel, relative stiffness times the fraction removed; zero for padding. Real-time safe.
 void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::span<const float> weights,
                  InstructionSet instructions, ChipForces& out) noexcept;
 

@@ -1,31 +1,31 @@
-// Edges rub on the face that the burr has, but voxels show it only over a look ahead of the burr, a voxel
-// long or more (chip_force.h): that is the face which the burr will have half a look ahead. A burr that dives
-// has a larger one there, by half in a shallow cut, and meets it half a voxel early. So a look of half the
-// length is taken, too, and the line through the two leads to the face in the middle of the step:
+// Correction of the edge force for the distance ahead at which it is sampled. Edges rub on the burr's present
+// face, but voxels show a face only over a sampled path ahead of the burr, a voxel long or more
+// (chip_force.h): the face that the burr will have half-way along it. For a burr that dives that face is
+// larger, by half in a shallow cut, and is met half a voxel early. So a path of half the length is sampled,
+// too, and the line through the two forces leads to the face in the middle of the step:
 //
-//     F = F_1 + a b (F_h - F_1)             F_1, F_h: force over the whole look and over its first half
-//     a = 2 (1 - step / look)               how far the line is followed
+//     F = F_1 + a b (F_h - F_1)             F_1, F_h: force over the whole path and over its first half
+//     a = 2 (1 - step / path)               how far the line is followed
 //     b = g^2 / (g^2 + q^2)                 g: growth of the volume that would go, V_1 - 2 V_h
 //     q^2 = (0.04 V_h)^2 + (1 voxel)^2      growth that is the lattice's
 //
-// Rows of the lattice enter half a look unevenly: along a surface its volume is off by a fiftieth, or by a
-// voxel in a thin cut, and b leaves the whole look alone. Where the line ends before there is a face, the
-// burr is still short of the bone, and nothing rubs.
+// Rows of the lattice enter half a path unevenly: along a surface its volume is off by a fiftieth, or by a
+// voxel in a thin cut, and then b leaves the force over the whole path as it is. If the line ends before
+// there is a face, the burr has not reached the bone, and nothing rubs.
 #pragma once
 
 #include <glm/vec3.hpp>
 
 namespace osteomill {
 
-/// What edges rub on over a look ahead: the force, in a unit that both looks share, and the bone that would
-/// go.
+/// Edge force over a path ahead, in a unit that both paths share, and the bone that would go.
 struct EdgeLook {
     glm::dvec3 force{0.0};
     double voxels = 0.0;
 };
 
-/// What is to be added to the force over the whole look. `step_share`: the step, as a share of the look; from
-/// 1 on nothing is.
+/// Correction to add to the force over the whole path. `step_share`: the step, as a share of that path; from
+/// 1 on the correction is zero.
 inline glm::dvec3 edge_look_correction(const EdgeLook& whole, const EdgeLook& half,
                                        double step_share) noexcept {
     constexpr double uneven_share = 0.04;

@@ -17,10 +17,11 @@ glm::dvec3 position_of(const CuttingStep& step, const RemovedVoxels& removed, st
     return glm::transpose(step.frame) * (voxel - step.middle_voxels);
 }
 
-/// What edge_advance() is of a ball, from the voxel's distances from the surface at the path's start,
-/// half-way and at its end, between which it runs as a parabola: where the surface comes nearer all the way,
-/// how far; else half of how far it would at its first slope. As a share of the path; faces that lie along
-/// the path within half a degree count as if they were half a degree off: voxels tell no finer.
+/// Advance of the surface toward a voxel, as a share of the path; edge_advance() is the same for a ball. The
+/// voxel's distance from the surface is a parabola through its values at the path's start, half-way and at
+/// its end. If the surface comes nearer all the way, the advance is how far; else it is half of how far it
+/// would come at its first slope. A face within half a degree of the path counts as half a degree off: voxels
+/// resolve no less.
 double advance_share(const CuttingStep& step, const glm::dvec3& position, double half_way) {
     constexpr double least = 0.01;
     const glm::dvec3 half_path = static_cast<double>(step.half_path_voxels) * glm::dvec3(step.path_direction);

@@ -28,7 +28,7 @@ class InstantaneousForce {
     /// Everything from here on is real-time safe.
     void turn(const Burr& burr, double elapsed_s) noexcept;
 
-    /// What add() takes from now on was cut in `step`, which may have lasted for several turns.
+    /// Voxels that add() takes from now on were cut in `step`, which may have lasted for several turns.
     void begin_step(const CuttingStep& step) noexcept;
 
     /// As MeanForce::add and add_edges.
@@ -36,11 +36,11 @@ class InstantaneousForce {
     void add_edges(const CuttingStep& edges, const RemovedVoxels& rubbed,
                    std::span<const float> weights) noexcept;
 
-    /// As of MeanForce; a correction goes evenly to all phases.
+    /// As MeanForce::edges_n; a correction goes evenly to all phases.
     const glm::dvec3& edges_n() const noexcept { return edges_n_; }
     void correct_edges(const glm::dvec3& by_n) noexcept;
 
-    /// Empties the bins: what was cut so far says nothing of the teeth to come.
+    /// Empties the bins: the cut so far does not tell how the coming teeth cut.
     void forget() noexcept;
 
     /// Mean of F(j) over the angles that the edges passed in the last turn, N, patient axes. A turn of a

@@ -18,13 +18,13 @@ class MeanForce {
         sum_ += sum_of_chip_forces(step_, removed, weights, instructions_);
     }
 
-    /// What `edges` of the same step rub on.
+    /// Adds the voxels on which `edges` of the same step rub.
     void add_edges(const CuttingStep& edges, const RemovedVoxels& rubbed,
                    std::span<const float> weights) noexcept {
         edges_n_ += edges.newton_per_unit * sum_of_chip_forces(edges, rubbed, weights, instructions_);
     }
 
-    /// Of the edges so far, N, burr axes; and what is to be added to it.
+    /// Force of the edges so far, N, burr axes, and a correction to it.
     const glm::dvec3& edges_n() const noexcept { return edges_n_; }
     void correct_edges(const glm::dvec3& by_n) noexcept { edges_n_ += by_n; }
 

@@ -75,9 +75,9 @@ double feed_per_tooth_mm(const SteadyMotion& motion) {
 }
 
 /// Integrates along the outline from tip to shank: calls `visit(point, stiffness, ds)` for each part of a
-/// cell. `psi_at` gives the psi of a point of the outline. Where the bone changes within a cell,
-/// its edge is found by bisection and the cell split there: without that a sum over 1440 cells is no better
-/// than 0.2 %.
+/// cell. `psi_at` gives the psi of a point of the outline. If the bone changes within a cell, the edge is
+/// found by bisection and the cell is split there: without that a sum over 1440 cells is no better than 0.2
+/// %.
 template <typename PsiAt, typename Visit>
 void along_outline(const SteadyMotion& motion, const glm::dmat3& frame, const BoneFunction& bone, int cells,
                    PsiAt&& psi_at, Visit&& visit) {

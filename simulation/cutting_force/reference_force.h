@@ -8,7 +8,7 @@
 // the chip's thickness in the burr's cylindrical coordinates, so that t dz = (normal thickness) x (arc R
 // dkappa), as in Lee and Altintas 1996. Edges that rub add (K_te, K_re, K_ae) for each mm where t > 0. T is 1
 // where the bone function says bone, else 0. Sums over k and over instants are midpoint quadratures over
-// kappa and psi. Of a head that is no ball, kappa is the angle of its outline's normal and R dkappa the
+// kappa and psi. For a head that is no ball, kappa is the angle of its outline's normal and R dkappa the
 // outline's ds.
 #pragma once
 
@@ -27,9 +27,9 @@ struct SteadyMotion {
     glm::dvec3 velocity_mm_per_s{0.0};
 };
 
-/// Relative stiffness of the bone at a point, 0 where there is none. Asked for points of the burr's surface
-/// only: what the burr itself has cut before must already be missing there where it matters (a groove of an
-/// earlier pass), and need not be elsewhere, since only the half of the burr that faces the motion cuts.
+/// Relative stiffness of the bone at a point, 0 where there is none. Called for points of the burr's surface
+/// only. Bone that the burr has cut in an earlier pass (a groove) must be missing. Bone behind the burr need
+/// not be, since only the half of the burr that faces the motion cuts.
 using BoneFunction = std::function<double(const glm::dvec3& position_mm)>;
 
 /// Points of the quadrature along the outline (of a ball: along kappa) and along psi.
@@ -55,7 +55,7 @@ double reference_removal_mm3_per_s(const SteadyMotion& motion, const BoneFunctio
 /// Bone of relative stiffness 1 below the plane z = 0.
 BoneFunction flat_bone();
 
-/// The same after a burr of `radius_mm` has passed along the line through `position_mm` in direction
+/// That bone after a burr of `radius_mm` has passed along the line through `position_mm` in direction
 /// `direction` (unit).
 BoneFunction flat_bone_with_groove(const glm::dvec3& position_mm, const glm::dvec3& direction,
                                    double radius_mm);

@@ -60,7 +60,7 @@ double stiffest_wall_n_per_mm(double mass_kg, double damping_n_s_per_mm, double 
 /// Not real-time safe.
 ArmSpring stiffest_spring(const ArmFigures& arm);
 
-/// With that spring in place of what it claims.
+/// With that spring in place of the claimed one.
 DeviceLimits with_stiffest_spring(DeviceLimits arm, double delay_s,
                                   std::optional<double> friction_n = std::nullopt);
 

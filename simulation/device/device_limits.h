@@ -1,5 +1,5 @@
-// Limits of what an arm can do, in its own space and in the patient's: two types, so that one is not taken
-// for the other. arm_scale.h says how a figure converts.
+// Limits of an arm's abilities, in its own space and in the patient's: two types, so that one is not confused
+// with the other. arm_scale.h says how a figure converts.
 #pragma once
 
 #include "common/scene/arm_scale.h"
@@ -24,7 +24,7 @@ struct PatientLimits {
     double apparent_mass_kg = DeviceLimits{}.apparent_mass_kg;
     double position_resolution_mm = DeviceLimits{}.position_resolution_mm;
     double damping_n_s_per_mm = DeviceLimits{}.damping_n_s_per_mm;
-    ArmScale scale{};  ///< for what a coupling itself asks of the arm
+    ArmScale scale{};  ///< for a coupling's own demands on the arm
 };
 
 constexpr PatientLimits in_patient_space(const DeviceLimits& arm, ArmScale scale) {

@@ -19,7 +19,7 @@
 namespace osteomill {
 
 /// A device's report of its pedal, and the time of the report. The loop's latch (safety/pedal_latch.h)
-/// decides what the pedal permits. A device only reports the pedal's state, never holds a pedal down or up by
+/// decides the pedal's permission. A device only reports the pedal's state, never holds a pedal down or up by
 /// itself, and lets the report grow old while it knows nothing.
 struct PedalStatement {
     bool is_down = false;
@@ -47,8 +47,7 @@ class HapticDevice {
     virtual std::string name() const = 0;
     virtual DeviceLimits limits() const = 0;
 
-    /// Opens the device. Throws std::runtime_error with one line that says what is missing and what would
-    /// help.
+    /// Opens the device. Throws std::runtime_error with one line about the missing part and the remedy.
     virtual void start() = 0;
 
     /// Newest state at session time `now_s` (seconds since the session began; never decreases). Real-time

@@ -1,4 +1,4 @@
-// Bricks around a ball, looked up once so that many samples near it need not.
+// Bricks around a ball, looked up once for many samples near it.
 #pragma once
 
 #include <array>
@@ -32,12 +32,12 @@ inline std::uint64_t cube_at(const std::uint8_t* f) {
 
 class BrickNeighbourhood {
   public:
-    /// Room for balls of up to `largest_radius_voxels`. Allocates.
+    /// Holds balls of up to `largest_radius_voxels`. Allocates.
     explicit BrickNeighbourhood(double largest_radius_voxels);
 
-    /// Looks up the bricks that hold the voxels within `radius_voxels` (no larger than there is room for) of
-    /// `centre_voxels`, and one voxel more. False where none of them is stored: then nothing else may be
-    /// asked. `bone` must outlive the questions. Real-time safe.
+    /// Looks up the bricks that hold the voxels within `radius_voxels` (at most the constructor's) of
+    /// `centre_voxels`, and one voxel more. False if none of them is stored: then no other function may be
+    /// called. `bone` must outlive these calls. Real-time safe.
     bool gather(const Bone& bone, const glm::dvec3& centre_voxels, double radius_voxels) noexcept;
 
     /// Voxel that positions are counted from: the corner of the first brick, which may lie outside the grid.
@@ -53,8 +53,9 @@ class BrickNeighbourhood {
     /// x, then y, then z, the first lowest.
     std::uint64_t corners(const glm::ivec3& first) const;
 
-    /// The same of the voxel with the index `in_brick` in the brick x + edge() (y + edge() z), bricks counted
-    /// from the base's: where it is not the last of its brick along any axis, and where it is.
+    /// The corners of the voxel with the index `in_brick` in the brick x + edge() (y + edge() z), bricks
+    /// counted from the base's: for a voxel that is not the last of its brick along any axis, and for one
+    /// that is.
     std::uint64_t corners_within(std::int32_t brick, std::int32_t in_brick) const {
         const std::uint8_t* const fractions = fractions_[static_cast<std::size_t>(brick)];
         return fractions == nullptr ? 0 : detail::cube_at(fractions + in_brick);
@@ -65,10 +66,10 @@ class BrickNeighbourhood {
     /// Fraction, 0 to 255, trilinear between the centres of voxels, at a position within the ball.
     float fraction(const glm::vec3& position) const;
 
-    /// Relative stiffness of the bone of the voxel nearest to a position within the ball; 0 where no brick is
+    /// Relative stiffness of the bone of the voxel nearest to a position within the ball; 0 if no brick is
     /// stored.
     double stiffness(const glm::vec3& position) const;
-    /// Likewise its tissue's label; 0 where no brick is stored.
+    /// Label of that voxel's tissue; 0 if no brick is stored.
     std::uint8_t tissue(const glm::vec3& position) const;
 
   private:

@@ -23,7 +23,7 @@ unsigned order_on_sphere(const glm::dvec3& normal) {
     return order;
 }
 
-/// A ring's forces across the spindle cancel where all of it touches: a plunge along the spindle feels none.
+/// A ring's forces across the spindle cancel if all of it touches: a plunge along the spindle feels none.
 constexpr int patches_a_ring = 16;
 constexpr int fewest_rings = 48;
 constexpr int most_rings = static_cast<int>(Engagement::max_patches) / patches_a_ring;

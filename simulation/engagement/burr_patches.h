@@ -19,10 +19,10 @@ struct BurrPatch {
 };
 
 /// Rings about the spindle, 16 patches a ring, each ring turned against the next by half a patch; 768 to 1024
-/// patches, about 1.5 voxels wide where that suffices. A ball's rings are equal in angle, those of another
-/// head share out the length and the turn of its outline evenly. 1/r is its mean over the ring: (asin z2 -
-/// asin z1) / (z2 - z1) / R for a ball's from z1 to z2 on the unit sphere; a ring of an outline that is ds
-/// long has 2 pi ds for its integral. In an order in which neighbours in the list are neighbours on the burr.
+/// patches, about 1.5 voxels wide if so many suffice. A ball's rings are equal in angle; those of another
+/// head divide the length and the turn of its outline evenly. 1/r is its mean over the ring: (asin z2 - asin
+/// z1) / (z2 - z1) / R for a ball's ring from z1 to z2 on the unit sphere; its integral over a ring of an
+/// outline that is ds long is 2 pi ds. Neighbours in the list are neighbours on the burr.
 std::vector<BurrPatch> burr_patches(const Burr& burr, double spacing_mm);
 
 }  // namespace osteomill

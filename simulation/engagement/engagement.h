@@ -22,8 +22,8 @@ struct EngagedPatch {
     /// -(sigma K_te e_psi + K_re n + K_ae e_kappa) s N_phi dA / (2 pi r).
     glm::dvec3 edge_n{0.0};
     double area_mm2 = 0.0;
-    /// Bone that no burr cuts is in front of it: with the spindle on, too, it is a wall, and the forces above
-    /// are zero.
+    /// Bone that no burr cuts is in front of the patch: it is a wall even with the spindle on, and the forces
+    /// above are zero.
     bool is_wall = false;
 };
 
@@ -40,8 +40,8 @@ struct ShankPatch {
 struct Engagement {
     static constexpr std::size_t max_patches = 1024;
     static constexpr std::size_t max_shank_patches = 64;
-    /// How far beyond and inside the burr's surface the map looks, voxels. Bone farther out is not seen;
-    /// where bone lies deeper inside, the gap says no more than this.
+    /// Reach of the map beyond and inside the burr's surface, voxels. Bone farther out is not seen; if bone
+    /// lies deeper inside, the gap is no more than this.
     static constexpr double reach_voxels = 1.5;
 
     glm::dvec3 burr_position_mm{0.0};  ///< patient LPS; the position for which the gaps hold

@@ -83,7 +83,7 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
 
 bool EngagementProbe::is_uncut(const glm::vec3& surface, const glm::vec3& outward,
                                const PatchCrossing& crossing) const noexcept {
-    // Where bone begins, rather than behind: a layer on top of it is still to be cut.
+    // The label is read where bone begins, not behind: a layer on top of uncut bone is still to be cut.
     return uncut_.of_label[bricks_.tissue(surface + (crossing.offset_voxels + 0.5f) * outward)];
 }
 

@@ -28,7 +28,7 @@ class EngagementProbe {
     /// fraction crosses one half. Real-time safe.
     void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
                 double speed_share, InsideBurr inside, Engagement& out) noexcept;
-    /// Likewise at the burr's own speed, with any bone inside.
+    /// Samples at the burr's own speed, with any bone inside.
     void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
                 Engagement& out) noexcept {
         sample(bone, position_mm, spindle_axis, 1.0, InsideBurr::any, out);
@@ -38,7 +38,7 @@ class EngagementProbe {
     void sample_burr(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
                      double speed_share, InsideBurr inside, Engagement& out) noexcept;
 
-    /// Whether what begins at a crossing is bone that no burr cuts.
+    /// Whether no burr cuts the bone that begins at a crossing.
     bool is_uncut(const glm::vec3& surface, const glm::vec3& outward,
                   const PatchCrossing& crossing) const noexcept;
 

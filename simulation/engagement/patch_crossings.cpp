@@ -14,7 +14,7 @@ using simd::Ints;
 
 namespace {
 
-/// Where along a patch's normal the bone is looked at, from the burr's surface.
+/// Places along a patch's normal at which the bone is sampled, from the burr's surface.
 constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::reach_voxels), -0.5f, 0.5f,
                                               static_cast<float>(Engagement::reach_voxels)};
 /// Half of a voxel's 255 levels: the bone's surface.
@@ -85,7 +85,8 @@ struct PatchCrossings::Loops {
         return simd::bits_of(fractions[i] >= half);
     }
 
-    /// Of patches `first` to `first` + 7; writes them to `found` and returns how many.
+    /// Finds the crossings of patches `first` to `first` + 7, writes them to `found` and returns their
+    /// number.
     [[gnu::always_inline]] std::size_t find_eight(const Look& look, std::size_t first,
                                                   PatchCrossing* found) const {
         const Floats3 outward = along_axes(look.frame, load3(to.normals_, first));
@@ -100,7 +101,7 @@ struct PatchCrossings::Loops {
         constexpr unsigned all = 0xff;
         unsigned in_bone = 0;
         if (look.inside == InsideBurr::carved) {
-            // From half a voxel outside it is known to which side bone begins.
+            // The sample half a voxel outside tells to which side bone begins.
             in_bone = sample(look, surface, outward, 2, fractions);
             if (in_bone != 0) sample(look, surface, outward, 1, fractions);
             if (in_bone != all) in_bone |= sample(look, surface, outward, 3, fractions);
@@ -109,7 +110,7 @@ struct PatchCrossings::Loops {
                 in_bone |= sample(look, surface, outward, i, fractions);
         }
         if (in_bone == 0) return 0;
-        // From without inward: the innermost is left.
+        // From the outside inward, so the innermost crossing remains.
         Floats offset = simd::floats(0.0f);
         Floats bone_offset = offset;
         Ints is_found{};

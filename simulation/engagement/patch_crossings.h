@@ -15,14 +15,14 @@
 
 namespace osteomill {
 
-/// What may be taken for granted about the bone inside the burr.
+/// Assumption about the bone inside the burr.
 enum class InsideBurr {
     any,    ///< nothing
     carved  ///< the burr has carved where it is, and there is nothing that it does not cut
 };
 
-/// Between two of the positions along a patch's normal that are looked at, the outer of them in bone. Offsets
-/// from the patch outward, voxels.
+/// Crossing between two of the sampled positions along a patch's normal, of which the outer is in bone.
+/// Offsets from the patch outward, voxels.
 struct PatchCrossing {
     std::int32_t patch = 0;
     float offset_voxels = 0.0f;
@@ -35,9 +35,9 @@ class PatchCrossings {
     PatchCrossings(std::span<const BurrPatch> patches, double spacing_mm,
                    InstructionSet instructions = best_instruction_set());
 
-    /// Of the patches that have bone within Engagement::reach_voxels, in their order; until the next call.
-    /// The surface of the bone is where the trilinear fraction crosses one half, the innermost time. `frame`:
-    /// burr axes in patient axes; `centre_voxels` from the bricks' base. Real-time safe.
+    /// Crossings of the patches that have bone within Engagement::reach_voxels, in their order; valid until
+    /// the next call. The surface of the bone is where the trilinear fraction crosses one half, the innermost
+    /// time. `frame`: burr axes in patient axes; `centre_voxels` from the bricks' base. Real-time safe.
     std::span<const PatchCrossing> find(const BrickNeighbourhood& bricks, const glm::mat3& frame,
                                         const glm::vec3& centre_voxels, float radius_voxels,
                                         InsideBurr inside) noexcept;

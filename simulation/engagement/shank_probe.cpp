@@ -32,8 +32,8 @@ std::vector<int> rings_by_cone(const ShankProfile& shank, int rings) {
     return counts;
 }
 
-/// From a sample at `position` in voxels outward along `normal` to the bone, looked at from `inmost`
-/// (negative) on; nothing where there is none within reach.
+/// Distance from a sample at `position`, in voxels, outward along `normal` to the bone, searched from
+/// `inmost` (negative) on; nothing if there is none within reach.
 std::optional<float> gap_voxels(const BrickNeighbourhood& bricks, const glm::vec3& position,
                                 const glm::vec3& normal, float inmost) {
     const std::array<float, 4> offsets{inmost, std::max(inmost, -0.5f), 0.5f,

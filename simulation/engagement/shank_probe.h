@@ -12,16 +12,16 @@
 namespace osteomill {
 
 /// Eight rings of eight samples about the spindle, each ring turned against the next by half a sample. Every
-/// cone of the profile has one at least; the others lie where rings are far apart for their height, so that
-/// they are dense near the burr, where holes are deep. A rim between two rings is met within the tilt times
-/// their distance. What lies within the burr's ball has no sample. Allocates when constructed, nothing for a
-/// burr without a shank.
+/// cone of the profile has at least one ring; the others go where rings are far apart for their height, so
+/// that they are dense near the burr, where holes are deep. A rim between two rings is met late by at most
+/// the tilt times their distance. The part within the burr's ball has no sample. Allocates when constructed,
+/// nothing for a burr without a shank.
 class ShankProbe {
   public:
     explicit ShankProbe(const Burr& burr);
 
     /// Fills the shank's part of `out` for a burr at `position_mm` with its spindle along `spindle_axis`
-    /// (unit). A sample with no brick of bone near is passed over. Real-time safe.
+    /// (unit). A sample with no brick of bone near is skipped. Real-time safe.
     void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
                 Engagement& out) noexcept;
 

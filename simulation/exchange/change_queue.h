@@ -39,13 +39,13 @@ class ChangeQueue final : public ChangeSink {
 
     /// Producer only. The change's brick must be stored. Real-time safe.
     void push(const BrickChange& change, BrickFractions fractions) noexcept override;
-    /// Producer only, after each step. Sends bricks that overflowed before, as far as there is room.
-    /// Real-time safe.
+    /// Producer only, after each step. Sends bricks that overflowed before, as far as they fit. Real-time
+    /// safe.
     void resend_overflowed(const Bone& bone) noexcept;
     /// Producer only. True while some brick waits to be sent again.
     bool has_overflowed() const noexcept { return !overflowed_.empty(); }
 
-    /// Producer only, for callers that can wait: false, and nothing is queued, if there is no room. Real-time
+    /// Producer only, for callers that can wait: false, and nothing is queued, if it does not fit. Real-time
     /// safe.
     [[nodiscard]] bool try_push(const BrickChange& change, BrickFractions fractions) noexcept {
         return send(change, fractions);
@@ -70,7 +70,7 @@ class ChangeQueue final : public ChangeSink {
     std::size_t slot_of(const BrickChange& change) const noexcept {
         return static_cast<std::size_t>(content_->slot_of_brick.find(change.brick));
     }
-    /// All or nothing; false if there is no room.
+    /// All or nothing; false if it does not fit.
     bool send(const BrickChange& change, BrickFractions fractions) noexcept;
     /// Takes the next change, which is there. Returns its bytes.
     std::size_t receive() noexcept;

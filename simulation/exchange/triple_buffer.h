@@ -19,7 +19,7 @@ class TripleBuffer {
     /// `first`: the value that the reader finds before anything is published; back() holds the same.
     explicit TripleBuffer(const T& first) : values_{first, first, first} {}
 
-    /// Writer only. The value to fill; it holds what was written there three publications ago.
+    /// Writer only. The value to fill; it holds that of three publications ago.
     T& back() noexcept { return values_[back_]; }
     /// Writer only. Makes back() the latest value. Real-time safe.
     void publish() noexcept {
@@ -33,8 +33,7 @@ class TripleBuffer {
         front_ = middle_.exchange(front_, std::memory_order_acq_rel) & index_mask;
         return true;
     }
-    /// Reader only. The value last taken over; before the first, what the
-    /// buffer was made with.
+    /// Reader only. The value last taken over; before the first, the buffer's initial one.
     const T& front() const noexcept { return values_[front_]; }
 
   private:

@@ -10,14 +10,14 @@ namespace osteomill {
 
 inline constexpr float surface_fraction = 127.5f;  ///< of 255
 
-/// How far a ray that starts in bone (fraction of one half or more) goes before it leaves it, voxels;
-/// `longest` where it does not before. `direction` is of unit length. Steps of half a voxel: a gap narrower
-/// than that may be passed over. Real-time safe.
+/// Length of a ray from its start in bone (fraction of one half or more) to where it leaves it, voxels; at
+/// most `longest`. `direction` is of unit length. It steps by half a voxel, so a narrower gap may be missed.
+/// Real-time safe.
 float length_in_bone(const BrickNeighbourhood& bricks, const glm::vec3& start, const glm::vec3& direction,
                      float longest) noexcept;
 
-/// Unit vector out of the bone, against the gradient of the fraction over two voxels; zero where there is
-/// none, as deep within bone. Real-time safe.
+/// Unit vector out of the bone, against the gradient of the fraction over two voxels; zero if there is no
+/// gradient, as deep within bone. Real-time safe.
 glm::dvec3 outward_normal(const BrickNeighbourhood& bricks, const glm::vec3& position) noexcept;
 
 }  // namespace osteomill

@@ -52,7 +52,7 @@ class ContactLaw {
     /// Real-time safe; one thread at a time.
     virtual ContactReaction react(const BurrContact& contact) noexcept = 0;
 
-    /// Another that goes on from here alike.
+    /// A copy that goes on from here alike.
     virtual std::unique_ptr<ContactLaw> copy() const = 0;
 };
 

@@ -25,7 +25,7 @@ double largest_radius_voxels(const std::vector<Burr>& burrs, double spacing_mm) 
     return largest_mm / spacing_mm;
 }
 
-/// Enters what erosion takes.
+/// Enters eroded bone into the account.
 class ErosionEntry final : public ErosionSink {
   public:
     ErosionEntry(const BoneContent& content, RemovalAccount& account) noexcept

@@ -9,7 +9,7 @@ namespace osteomill {
 namespace {
 
 constexpr double steps_per_code = 65536.0;
-/// What every voxel starts with, so that levels are rounded to the nearest rather than down.
+/// Remainder that every voxel starts with, so that levels are rounded to the nearest rather than down.
 constexpr std::uint16_t half_a_code = 32768;
 
 int edge_around(double radius_voxels) {
@@ -64,7 +64,7 @@ void Erosion::erode(Bone& bone, const Ball& ball, double dose, ChangeSink& chang
             changed_slot = row.slot;
             change = {.brick = content.brick_of_slot[static_cast<std::size_t>(row.slot)]};
         }
-        // With what lies between: a gap would cost more to send.
+        // Voxels in between are included: a gap would cost more to send.
         change.voxels.set_run(row.row_offset + static_cast<std::size_t>(changed_first),
                               static_cast<std::size_t>(changed_last - changed_first + 1));
     });

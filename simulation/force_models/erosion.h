@@ -9,8 +9,9 @@
 // fully covered lasts 50 ms: a burr fed at 6 mm/s, as published, carries a layer of 6 / 20 = 0.3 mm of bone
 // within it, and so feels about the newton that milling at that feed asks for.
 //
-// A fraction has only 255 levels, and at 10 kHz a voxel loses half of one a step: what falls short of a whole
-// one is kept and added the next time, so that what goes in a second does not depend on the number of steps.
+// A fraction has only 255 levels, and at 10 kHz a voxel loses half a level a step. The part of a level that
+// remains is kept and added at the next step, so that the loss in a second does not depend on the number of
+// steps.
 #pragma once
 
 #include <cstdint>
@@ -36,15 +37,15 @@ class ErosionSink {
 
 class Erosion {
   public:
-    /// Softer bone wears no faster than this: a stiffness of 0 would vanish at once.
+    /// Softer bone wears no faster than this: bone of stiffness 0 would vanish at once.
     static constexpr double least_stiffness = 0.02;
 
     /// For balls of up to `largest_radius_voxels`. Allocates two bytes for each voxel of a cube around it.
     explicit Erosion(double largest_radius_voxels);
 
-    /// Erodes what `ball` (voxel coordinates) covers by `dose` = e dt, the share of a voxel of stiffness 1
-    /// that is fully covered. Pushes the change of each brick. Real-time safe.
-    /// Tissue of `uncut` stays.
+    /// Erodes the voxels that `ball` (voxel coordinates) covers by `dose` = e dt, the share of a voxel of
+    /// stiffness 1 that is fully covered. Pushes the change of each brick. Real-time safe. Tissue of `uncut`
+    /// stays.
     void erode(Bone& bone, const Ball& ball, double dose, ChangeSink& changes, ErosionSink& removed,
                const UncutTissues& uncut = {}) noexcept;
 

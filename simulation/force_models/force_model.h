@@ -23,17 +23,17 @@ class ForceModel {
     virtual void step(const BurrCommand& command, double time_s, ChangeSink& changes,
                       MillingResult& result) noexcept = 0;
 
-    /// Between steps: undoes what milling did to these voxels, or redoes it (restore_bone.h). Real-time safe.
+    /// Between steps: undoes milling of these voxels, or redoes it (restore_bone.h). Real-time safe.
     virtual void restore(const BrickChange& change, BrickFractions fractions,
                          ChangeSink& changes) noexcept = 0;
 
-    /// Another that goes on from here alike, with a copy of the bone. Between steps.
+    /// A copy that goes on from here alike, with a copy of the bone. Between steps.
     virtual std::unique_ptr<ForceModel> copy() const = 0;
 
     virtual const Bone& bone() const = 0;
-    /// Since the start, less what was restored.
+    /// Bone removed since the start, less bone restored.
     virtual RemovedByTissue removed_mm3() const = 0;
-    /// Of one tissue, below 256.
+    /// The same of one tissue, with a label below 256.
     virtual double removed_mm3(std::size_t label) const = 0;
 };
 

@@ -12,8 +12,8 @@
 
 namespace osteomill {
 
-/// Makes a model of `burrs` and `tissues` as in the scene. Throws std::invalid_argument for what the model
-/// refuses.
+/// Makes a model of `burrs` and `tissues` as in the scene. Throws std::invalid_argument for anything that the
+/// model refuses.
 using ForceModelFactory = std::function<std::unique_ptr<ForceModel>(Bone bone, std::vector<Burr> burrs,
                                                                     const std::vector<Tissue>& tissues)>;
 

@@ -18,11 +18,11 @@
 // (trust_in_direction()).
 //
 // Erosion, too, is the paper's: all work against friction goes into removing bone, mu P |w × r| = alpha phi
-// with phi the volume that goes per area and second and alpha an energy per volume. Here the whole power W =
-// mu integral of P |w × r| is spread over the bone that the burr covers as in erosion.h: W / alpha = e
-// integral of cover over voxels with bone. In bone of stiffness s, alpha is s times as large. The
-// rate is that at a step's end, held over the step: steps of 1 ms remove what steps of 0.1 ms do within 1 %,
-// steps of 10 ms 3 % more.
+// with phi the volume removed per area and second and alpha an energy per volume. Here the whole power W = mu
+// integral of P |w × r| is spread over the bone that the burr covers as in erosion.h: W / alpha = e integral
+// of cover over voxels with bone. In bone of stiffness s, alpha is s times as large. The rate is that at a
+// step's end, held over the step: steps of 1 ms remove what steps of 0.1 ms do within 1 %, steps of 10 ms 3 %
+// more.
 #pragma once
 
 #include <array>

@@ -22,19 +22,20 @@ namespace {
 /// Directions are taken from the middle of a substep: the force of one as long as the burr's
 /// radius would be 10 % off, that of an eighth of it 0.2 %.
 constexpr double longest_substep_radii = 0.125;
-/// The outline of another head has narrow bends: its edges rub on what the surface passes in a voxel or so.
+/// The outline of another head has narrow bends: its edges rub on the bone that the surface passes within a
+/// voxel or so.
 constexpr double longest_head_substep_voxels = 1.0;
-/// At 10 kHz a burr moves by less than one of a voxel's 255 levels at a time. Below five of them, and for no
-/// longer than a haptic tick, milling waits: the bone comes out the same and so does the mean force.
+/// At 10 kHz a burr moves by less than one of a voxel's 255 levels at a time. Below five levels, and for no
+/// longer than a haptic tick, milling waits: bone and mean force come out the same.
 constexpr double shortest_path_voxels = 0.02;
 constexpr double longest_wait_s = 0.001 - 1e-7;
 
-/// How far ahead a burr's edges look for bone at least. So far the line where the face ends passes while they
-/// look, and a row of voxels enters the face by and by: of half of it a burr along the lattice feels a
-/// ripple.
+/// Least length of the path ahead on which edges sample bone (edge_look.h). Along it, the line where the face
+/// ends moves so far that a row of voxels enters the face gradually; with half of it, a burr along the
+/// lattice feels a ripple.
 constexpr double least_look_voxels = 1.0;
 
-/// The full scan keeps each voxel of a burr: 64 MiB of the largest.
+/// The full scan keeps each voxel of a burr: 64 MiB for the largest.
 constexpr double most_scanned_voxels_across = 200.0;
 
 /// Nobody feels the direction of a step that crosses the whole bone.
@@ -54,7 +55,7 @@ void require_scannable(const Burr& burr, double spacing_mm) {
                                     "full scan takes: take the force model 'milling'");
 }
 
-/// Of a spindle that tilts on its way.
+/// Axis of a spindle that tilts along the path.
 glm::dvec3 axis_between(const glm::dvec3& from, const glm::dvec3& to, double share) {
     const glm::dvec3 axis = glm::mix(from, to, share);
     const double length = glm::length(axis);
@@ -171,7 +172,7 @@ void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting,
                                 .instructions = settings_.instructions,
                                 .uncut = uncut_.has_any ? &uncut_ : nullptr};
     const glm::dvec3 path = sweep.to - sweep.from;
-    // Where the burr has not carved yet, its own place is full of bone.
+    // A burr that has not carved yet may stand in bone, so its edges are not sampled.
     if (burrs_[burr_].has_edge_force() && carved_at_position_ && path != glm::dvec3(0.0)) {
         const double length = glm::length(path);
         const double look = std::clamp(length, least_look_voxels, CrescentRows::longest_step_voxels);

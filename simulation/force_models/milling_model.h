@@ -1,5 +1,5 @@
-// Milling model, the default force model: it owns the bone, carves it along the path of the burr and sums the
-// cutting force of what went, and samples the engagement. One thread at a time.
+// Milling model, the default force model: it owns the bone, carves it along the path of the burr, sums the
+// cutting force of the removed bone, and samples the engagement. One thread at a time.
 #pragma once
 
 #include <memory>
@@ -34,7 +34,7 @@ class MillingModel final : public ForceModel {
     MillingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
                  const MillingSettings& settings = {});
 
-    /// Moves the burr, carves what it passes through (only while the spindle is on), reports the changes and
+    /// Moves the burr, carves the bone on its path (only while the spindle is on), reports the changes and
     /// overwrites `result`. The first step, and the first with another burr, starts at the command's pose
     /// without a sweep. A command that is not finite, of no duration or of an unknown burr leaves bone and
     /// burr alone and makes the result invalid. Real-time safe.
@@ -50,11 +50,10 @@ class MillingModel final : public ForceModel {
     double removed_mm3(std::size_t label) const override { return account_.removed_mm3(label); }
 
   private:
-    /// How far the farthest point of the burr moves from where it is to the command's pose: along the path
-    /// and, for a head that is no ball, by the spindle's tilt.
+    /// Motion of the burr's farthest point to the command's pose: along the path and, for a head that is no
+    /// ball, by the spindle's tilt.
     double motion_mm(const BurrCommand& command) const noexcept;
-    /// Whether so little lies between position_mm_ and the command's position that it can wait for the next
-    /// step.
+    /// Whether the command's position is so near to position_mm_ that milling can wait for the next step.
     bool can_wait(const BurrCommand& command) const noexcept;
     /// From position_mm_ to the command's position, in substeps.
     void mill(const BurrCommand& command, ChangeSink& changes, MillingResult& result) noexcept;
@@ -62,7 +61,7 @@ class MillingModel final : public ForceModel {
     /// as `to` has it; adds to `result`, force weighed by `share` of the path.
     void cut(const BurrCommand& command, const ToolPose& to, double share, ChangeSink& changes,
              MillingResult& result) noexcept;
-    /// Adds what edges rub on from the step's start to `ahead` of it.
+    /// Adds the bone on which edges rub, from the step's start to `ahead` of it.
     template <typename Force>
     EdgeLook look_ahead(const Sweep& sweep, const CuttingStep& cutting, const glm::dvec3& ahead,
                         const CarveSettings& carving, Force& force) noexcept;

@@ -1,5 +1,5 @@
-// Settings of the milling model, how it carves and how it sums: what --force-model chooses, and what studies
-// vary.
+// Settings of the milling model, how it carves and how it sums: --force-model chooses them, and studies vary
+// them.
 #pragma once
 
 #include "simulation/carving/instruction_set.h"
@@ -17,7 +17,7 @@ enum class ForceSummation {
 
 /// How a step finds the bone that it removes.
 enum class VoxelSearch {
-    crescent,  ///< only what two positions of the burr do not share (carve.h)
+    crescent,  ///< only voxels that two positions of the burr do not share (carve.h)
     full_scan  ///< every voxel of the burr, as published (full_scan.h)
 };
 

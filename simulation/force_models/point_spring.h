@@ -8,9 +8,9 @@
 // volume itself, its direction from the gradient (abstract read; equations from general knowledge of the
 // paper). Hard and soft bone push alike.
 //
-// One point knows one wall: where two are equally near, in a slot or a corner, the direction jumps from one
-// to the other, and it is lost once the centre lies within bone (no force where there is no gradient). The
-// models with many points were made to mend that.
+// One point knows one wall. If two walls are equally near, in a slot or a corner, the direction jumps from
+// one to the other. Once the centre lies within bone, the direction is lost (no force without a gradient).
+// Models with many points were made to mend that.
 #pragma once
 
 #include "simulation/force_models/contact_law.h"

@@ -21,7 +21,7 @@ class RemovalAccount {
         for (const Tissue& tissue : tissues) protected_[tissue.label] = tissue.is_protected;
     }
 
-    /// Numbers the step and empties `result` of what the last one left there. Real-time safe.
+    /// Numbers the step and clears the last step's values from `result`. Real-time safe.
     void begin_step(double time_s, MillingResult& result) noexcept {
         step_levels_ = 0.0;
         step_touches_protected_ = false;
@@ -50,7 +50,7 @@ class RemovalAccount {
         total_levels_ -= levels;
     }
 
-    /// Enters the step into the total and into `result`, with where the burr now is. Real-time safe.
+    /// Enters the step into the total and into `result`, with the burr's pose. Real-time safe.
     void end_step(const BurrCommand& command, MillingResult& result) noexcept {
         result.removed_mm3 = step_levels_ * mm3_per_level_;
         total_levels_ += step_levels_;
@@ -71,7 +71,7 @@ class RemovalAccount {
   private:
     double mm3_per_level_;
     std::array<bool, 256> protected_{};
-    // In levels, which are whole numbers: what is undone leaves nothing behind.
+    // In levels, which are whole numbers, so that an undo leaves no remainder.
     std::array<double, 256> levels_{};  // by tissue
     double total_levels_ = 0.0;
     std::uint64_t step_ = 0;

@@ -7,8 +7,8 @@
 
 namespace osteomill {
 
-/// Gives the voxels of the change what `fractions` has for them, enters the difference into the account and
-/// pushes the change as restored. One that does not fit the bone changes nothing. Real-time safe.
+/// Gives the voxels of the change their values in `fractions`, enters the difference into the account and
+/// pushes the change as restored. A change that does not fit the bone has no effect. Real-time safe.
 void restore_bone(const BrickChange& change, BrickFractions fractions, Bone& bone, RemovalAccount& account,
                   ChangeSink& changes) noexcept;
 

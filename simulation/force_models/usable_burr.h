@@ -8,7 +8,7 @@
 
 namespace osteomill {
 
-/// A burr may be this many voxels across, so that what a model keeps for each of its rows has room.
+/// Most voxels across a burr, so that the values a model keeps for each row fit.
 inline constexpr double most_voxels_across_burr = 500.0;
 
 /// Throws std::invalid_argument, naming the burr, unless diameter, edges and spindle speed are above zero,
@@ -20,8 +20,8 @@ void require_valid(const Burr& burr, double spacing_mm);
 /// head.
 void require_ball(const Burr& burr, const char* model);
 
-/// Whether a command is finite, lasts, and names one of `burr_count` burrs; its axis must be of unit length.
-/// Real-time safe.
+/// Whether a command is finite, has a duration, and names one of `burr_count` burrs; its axis must be of unit
+/// length. Real-time safe.
 bool is_usable(const BurrCommand& command, std::size_t burr_count) noexcept;
 
 }  // namespace osteomill

@@ -97,7 +97,7 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
                      .holds_still = holds_still(latest) || is_placed,
                      .clearance = clearance_of(latest, reading_mm)});
 
-    // From where the burr was: the room that the milling loop found reaches beyond this tick's motion.
+    // From where the burr was: the free space that the milling loop found reaches beyond this tick's motion.
     burr_.tick(device.burr, spindle_turned_ || safety_.is_pedal_good(), burr_pose_.position_mm, latest);
 
     HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_.burr()};
@@ -167,7 +167,7 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
 void HapticLoop::settle(double total_removed_mm3) noexcept {
     if (std::exchange(is_settled_, true)) return;
     const double removed_mm3 = options_.removed_before_mm3 + total_removed_mm3;
-    // On the real clock the state has gone out with what the tick knew.
+    // On the real clock the state has gone out with the tick's values.
     if (std::exchange(tool_.removed_mm3, removed_mm3) != removed_mm3) show();
     log();
 }

@@ -48,7 +48,7 @@ class MillingLoop {
     /// The step that ends at session time `time_s` and lasted `elapsed_s` since the last. Before the first
     /// command there is nothing to do. `missed`: so many periods were skipped before it. Real-time safe.
     void step(double time_s, double elapsed_s, std::uint64_t missed = 0) noexcept;
-    /// By all steps so far, less what was given back.
+    /// By all steps so far, less bone given back.
     double total_removed_mm3() const { return total_removed_mm3_; }
 
     /// A tool so fast that it needs a larger margin is not examined: that would take too long.
@@ -64,7 +64,7 @@ class MillingLoop {
     /// With the spindle off, applies as much of the queue of restored bone as a step has time for.
     void restore(double elapsed_s) noexcept;
     /// MillingResult::room_for_change_mm. Looks beyond both burrs and their shanks by a voxel, and by twice
-    /// what the tool went since the last result: when this one is read it will have moved on.
+    /// the tool's motion since the last result: when this one is read it will have moved on.
     double room_for_change_mm(const BurrCommand& command) const noexcept;
     void note_step(std::uint64_t command, std::uint64_t missed) noexcept;
     void report_cut(const MillingResult& result, double speed_share) noexcept;

@@ -49,7 +49,7 @@ struct MillingSessionOptions {
     double duration_s = std::numeric_limits<double>::infinity();
     /// The removed volume of a bone that was carved before: the report continues from it.
     RemovedByTissue removed_before_mm3{};
-    /// Somebody may pause it, and undo what was milled: see SessionExchange.
+    /// Somebody may pause it, and undo milling: see SessionExchange.
     bool can_be_controlled = false;
     /// Somebody consumes the changes while the session runs. If not, none are queued.
     bool changes_are_consumed = false;
@@ -83,7 +83,7 @@ struct MillingSessionReport {
 class MillingSession {
   public:
     static constexpr double tick_s = 0.001;
-    /// Ticks after which a loop has touched what it works with.
+    /// Ticks after which a loop has touched all its memory.
     static constexpr std::uint64_t settling_ticks = 100;
     /// `device` and the logs (may be null) outlive the session. Throws std::invalid_argument for a milling
     /// rate out of range, a processor that this process may not use, an unknown coupling or force model, a
@@ -111,7 +111,7 @@ class MillingSession {
     // Or, on the virtual clock, in steps: start(), advance() any number of times, end(). The session is the
     // same to the bit however its ticks are divided.
 
-    /// Throws what device.start() throws.
+    /// Throws as device.start() does.
     void start();
     /// Makes so many ticks, fewer if the duration is over or `stop` is set; returns how many.
     std::uint64_t advance(std::uint64_t ticks, const OnProgress& on_progress = {},
@@ -127,7 +127,7 @@ class MillingSession {
     /// When the next tick is due, s.
     double next_tick_s() const noexcept { return haptic_ticks_.due_s(); }
 
-    /// Stops the device, and gives away what is left to consume.
+    /// Stops the device, and passes the remaining data to their consumers.
     void end(const OnProgress& on_progress = {});
 
     /// After run() or end().

@@ -15,13 +15,13 @@ struct RealTimeRights {
 
 RealTimeRights real_time_rights() noexcept;
 
-/// One line that says what is missing, what that means and what to run; empty if nothing is. `program` is
-/// the file that was started.
+/// One line with the missing right, its consequence and the command to run; empty if none is missing.
+/// `program` is the file that was started.
 std::string advice_on_rights(const RealTimeRights& rights, const std::string& program);
 
 /// Keeps every page of the process in memory, those of today and those to come, so that no tick waits for
-/// one. Only with the right to do so without limit: under a limit, what is allocated later would fail.
-/// Returns whether it is so.
+/// one. Only with the right to do so without limit: under a limit, later allocations would fail. Returns
+/// whether it is so.
 bool lock_memory() noexcept;
 
 /// Touches as much of the calling thread's stack as its loop may ever use, so that its first deep call finds

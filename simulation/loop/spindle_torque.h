@@ -5,7 +5,7 @@
 //
 //     T = sum_p r_p f_p . e_psi
 //
-// and the spindle's power 2 pi n T. Of a head that is no ball r_p is taken as on a ball of its diameter.
+// and the spindle's power 2 pi n T. For a head that is no ball, r_p is that of a ball of its diameter.
 #pragma once
 
 #include <glm/geometric.hpp>

@@ -22,7 +22,7 @@ inline constexpr std::array all_faults{Fault::device_lost,    Fault::model_stall
                                        Fault::overrun,        Fault::device_jumped, Fault::in_bone,
                                        Fault::energy_to_hand, Fault::paused};
 
-/// In the order in which people are told of them, if there are several. Nothing else depends on it.
+/// In the order in which people learn of them, if there are several. Nothing else depends on it.
 inline constexpr std::array told_first{Fault::device_lost,  Fault::device_jumped,  Fault::model_stalled,
                                        Fault::not_a_number, Fault::energy_to_hand, Fault::paused,
                                        Fault::overrun,      Fault::in_bone};

@@ -18,7 +18,7 @@ class FaultSet {
     constexpr bool has(Fault fault) const noexcept { return (bits_ & bit_of(fault)) != 0; }
     constexpr bool is_empty() const noexcept { return bits_ == 0; }
 
-    /// The one that people are told of, by told_first; none if it is empty.
+    /// The one that people learn of, by told_first; none if the set is empty.
     constexpr Fault first() const noexcept {
         for (const Fault fault : told_first)
             if (has(fault)) return fault;

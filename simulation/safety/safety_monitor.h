@@ -71,7 +71,7 @@ class SafetyMonitor {
     /// device is there, `clearance` only while the force is off or untried.
     void begin(FaultSet found, PedalSeen pedal, Clearance clearance) noexcept;
 
-    /// Whether what the device reads can be used in this tick.
+    /// Whether the device's reading can be used in this tick.
     bool has_hand() const { return !found_.has(Fault::device_lost); }
     /// Whether the force is to be computed in this tick: no fault, and the hand may feel it.
     bool may_touch() const { return found_.is_empty() && guard_.is_engaged(); }
@@ -99,9 +99,9 @@ class SafetyMonitor {
     bool awaits_release() const { return pedal_.awaits_release(); }
     /// Nothing is known yet of bone in the burr, and there was no fault.
     bool is_untried() const { return is_untried_; }
-    /// Why the force is off, the one reason that people are told; none while it is not.
+    /// Why the force is off, the one reason shown to people; none while it is on.
     Fault fault() const { return guard_.fault(); }
-    /// How often each Fault was the reason that people were told when the force went off.
+    /// How often each Fault was the reason shown to people when the force went off.
     const std::array<std::uint64_t, fault_kinds>& fault_counts() const { return fault_counts_; }
 
   private:

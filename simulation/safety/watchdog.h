@@ -26,7 +26,7 @@ struct Observation {
 
 /// Bone is not its business: that is no fault by itself, see safety_monitor.h.
 /// Finds every fault of a tick, each by itself:
-///   device_lost     the device says that it is not connected, or reads what is not finite
+///   device_lost     the device is not connected, or reads values that are not finite
 ///   device_jumped   it moved farther than a hand can since the last tick
 ///   model_stalled   no new milling result for longest_model_age_s
 ///   not_a_number    the milling result is not valid
@@ -37,10 +37,10 @@ class Watchdog {
   public:
     /// DESIGN's limit: no fresh model result for 50 ms.
     static constexpr double longest_model_age_s = 0.05;
-    /// Twice as fast as a hand in surgery ever moves, and room for an encoder step or two.
+    /// Twice as fast as a hand in surgery ever moves, with a margin of an encoder step or two.
     static constexpr double fastest_hand_mm_per_s = 2000.0;
     static constexpr double jump_allowance_mm = 1.0;
-    /// A force older than this is no longer an answer to what the hand does.
+    /// A force older than this no longer answers the hand's motion.
     static constexpr double longest_overrun_s = 0.02;
 
     /// Net within EnergyMeter::window_s. The coupling's spring, drawn to the force of the device, holds 4 mJ.

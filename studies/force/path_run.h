@@ -1,4 +1,4 @@
-// Run of a model along a path, step by step, with what it reports and how long it took.
+// Run of a model along a path, step by step, with its results and its time.
 #pragma once
 
 #include <memory>

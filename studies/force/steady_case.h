@@ -1,5 +1,5 @@
-// A steady motion over a half space, and what an independent quadrature says of it: one entry of a case file
-// in the schema of tests/data/milling_forces.json.
+// A steady motion over a half space, and its force by an independent quadrature: one entry of a case file in
+// the schema of tests/data/milling_forces.json.
 #pragma once
 
 #include <filesystem>
@@ -54,8 +54,7 @@ BoneFunction bone_of(const SteadyCase& c);
 ///     mean_force_N                three numbers
 ///     removal_mm3_s               0 or more
 /// Throws std::runtime_error in one line that names the file, the case and the key, and says what would be
-/// right: for a file that cannot be read, is no JSON or holds no case, a missing or unknown key, a value that
-/// is none of the above.
+/// right: for a file that cannot be read, is no JSON or holds no case, a missing or unknown key, a bad value.
 std::vector<SteadyCase> read_steady_cases(const std::filesystem::path& file);
 
 }  // namespace osteomill::study

@@ -1,4 +1,4 @@
-// A run of a model through a steady motion, with what it reports.
+// A run of a model through a steady motion, with its results.
 #pragma once
 
 #include "studies/force/force_series.h"

@@ -23,7 +23,7 @@ namespace osteomill::study {
 
 namespace {
 
-/// Longer than any link needs that takes what milling gives it.
+/// Longer than any link needs that keeps up with milling.
 constexpr double longest_wait_for_rest_s = 60.0;
 
 class Nobody final : public RemovalSink {
@@ -87,7 +87,7 @@ class Client {
         return changed;
     }
     const Bone& bone() const { return own_ ? *own_ : replica_->bone(); }
-    /// When what it shows was; nothing before its first state.
+    /// Time of the state that it shows; nothing before its first.
     std::optional<double> shown_s() const { return shown_ ? std::optional(shown_->time_s) : std::nullopt; }
 
   private:

@@ -35,7 +35,7 @@ struct LinkChoice {
 struct LinkOutcome {
     double bytes_per_s = 0.0;             ///< sent, over the path, without the snapshot before it
     double most_bytes_in_a_second = 0.0;  ///< counted as bytes_per_s
-    double delay_mean_ms = 0.0;           ///< age of what the client shows, over all ticks
+    double delay_mean_ms = 0.0;           ///< age of the client's picture, over all ticks
     double delay_p99_ms = 0.0;
     double differing_voxels_mean = 0.0;  ///< between the two bones, over all ticks
     std::size_t differing_voxels_most = 0;

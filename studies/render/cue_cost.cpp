@@ -34,7 +34,7 @@ double distance_mm(const Camera& camera, const glm::ivec2& size_px, float window
     return projection[3][2] / (2.0 * static_cast<double>(window_depth) - 1.0 + projection[2][2]);
 }
 
-/// Of the squares of rays that are a pixel each: their mean, and whether depth leaps among them.
+/// Summary of the squares of rays, one for each pixel: their mean, and whether depth leaps among them.
 struct Supersampled {
     Picture picture;
     std::vector<bool> is_silhouette;

@@ -1,5 +1,5 @@
-// What each cue of the picture costs and gives: frames with it and without, drawn in turns in one run, and
-// how much nearer to a supersampled picture it makes silhouettes.
+// Cost and gain of each cue of the picture: frames with it and without, drawn in turns in one run, and how
+// much nearer to a supersampled picture it makes silhouettes.
 #pragma once
 
 #include <array>
@@ -23,13 +23,13 @@ SceneAppearance look_with(std::string_view cue, bool is_on);
 struct CueCost {
     double without_ms = 0.0;     ///< of a frame, median
     double with_ms = 0.0;        ///< likewise
-    double part_of_frame = 0.0;  ///< what it takes of a frame without it: the median of pairs that follow
+    double part_of_frame = 0.0;  ///< its share of a frame without it: the median of pairs that follow
                                  ///< one another
     double part_of_cpu = 0.0;  ///< the same of all threads' time, which others on the machine do not lengthen
     double changed_pixels = 0.0;  ///< share of the picture
 };
 
-/// Of so many pairs, at least one. Needs a current context.
+/// Cost over so many pairs, at least one. Needs a current context.
 CueCost cue_cost(std::string_view cue, const BoneTextures& bone, const Camera& camera,
                  const glm::ivec2& size_px, int pairs);
 

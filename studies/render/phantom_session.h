@@ -22,7 +22,7 @@ class PhantomSession final : public SessionSource {
     void mill(bool on) { mills_ = on; }
     /// The next poll brings the bone as it is now, as after a reconnection: for another picture of it.
     void begin_anew() { first_ = true; }
-    /// Carves and tells of it, all in one: not part of what a client does in a frame.
+    /// Carves and reports it, all in one: not part of a client's work in a frame.
     void step();
 
     LinkUpdate poll() override;

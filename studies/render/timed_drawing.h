@@ -1,4 +1,4 @@
-// Pictures and what they cost.
+// Pictures and their cost.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,11 +1,11 @@
 // The link's costs beside their targets: sizes, rates and the delay of a motion. Prints, and says which
 // target was missed; asserts nothing.
 //
-// Snapshot: the tooth phantom's, 512 x 512 x 128 voxels, as a new client is sent it. Its raw size: that of
+// Snapshot: the tooth phantom's, 512 x 512 x 128 voxels, as a new client receives it. Its raw size: that of
 // its voxels, a byte for each of fraction, stiffness and tissue.
-// Carving, idle: the session on the virtual clock, its state frames as a client that keeps up is sent them.
-// Carving: the 5 mm burr clears a cavity in the cube at 6 mm/s, which no force slows down; as a client is
-// told of it, in packed changes, and as it is recorded. Idle: a hand holds the tool still.
+// Carving, idle: the session on the virtual clock, its state frames as a client that keeps up receives them.
+// Carving: the 5 mm burr clears a cavity in the cube at 6 mm/s, which no force slows down; as sent to a
+// client in packed changes, and as recorded. Idle: a hand holds the tool still.
 // Motion: a device on the real clock that moves by 0.2 mm now and then; from the device's reading of that
 // to a client's having the frame that shows it, over loopback.
 #include <fmt/format.h>

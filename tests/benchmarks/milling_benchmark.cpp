@@ -12,8 +12,9 @@
 //
 // There a step takes 30 us, 10 ns for such a voxel. 21 % of it are the force (two roots and a division for
 // eight voxels, which wait for each other), 20 % writing rows back and reporting them (55 instructions a
-// row), 19 % coverage and another 4 % its double precision where single is not sure (24 voxels a step), 12 %
-// listing rows and voxels, 8 % finding rows, the rest moving voxels from one to the next (perf, cpu-clock).
+// row), 19 % coverage and another 4 % its double precision if single precision is not sure (24 voxels a
+// step), 12 % listing rows and voxels, 8 % finding rows, the rest moving voxels from one to the next (perf,
+// cpu-clock).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

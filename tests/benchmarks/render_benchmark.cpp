@@ -35,7 +35,7 @@ class Client {
   public:
     explicit Client(FrameQuality quality, StereoLayout layout = StereoLayout::off)
         : picture_(session_, panels_, size_px, quality, RendererChoice::raycast, {}, {.layout = layout}) {
-        // The first frame uploads, compiles and draws all of it: not what is measured.
+        // The first frame uploads, compiles and draws all of it, and is not measured.
         frame();
         frame();
         frame_s_.clear();

@@ -37,17 +37,17 @@ class TwoMachines {
 };
 
 struct FoundMachines {
-    std::unique_ptr<TwoMachines> machines;  ///< null where there can be none
-    std::string why_no_containers;          ///< empty where they are containers
-    std::string why_none;                   ///< empty where there are machines
+    std::unique_ptr<TwoMachines> machines;  ///< null if there can be none
+    std::string why_no_containers;          ///< empty if they are containers
+    std::string why_none;                   ///< empty if there are machines
 };
 
-/// `folder` is for files that go in and out; any user must be able to write there. `programs` is where
-/// namespaces find them.
+/// `folder` is for files that go in and out; any user must be able to write there. `programs`: the folder in
+/// which namespaces find them.
 FoundMachines find_machines(const std::filesystem::path& folder, const std::filesystem::path& programs);
 
 /// Two containers of the images that docker/build_images.sh makes of this commit's packages; throws
-/// std::runtime_error with one line where there can be none.
+/// std::runtime_error with one line if there can be none.
 std::unique_ptr<TwoMachines> make_containers(const std::filesystem::path& folder);
 
 }  // namespace osteomill::testing

@@ -34,7 +34,7 @@ nlohmann::json json_of(const std::filesystem::path& file) {
     return nlohmann::json::parse(bytes_of(file));
 }
 
-/// Waits, reading what the server says, until `happened`; false if it is far too late.
+/// Waits, reading the server's output, until `happened`; false if it is far too late.
 template <typename Happened>
 bool comes_true(ChildProcess& server, Happened&& happened) {
     const auto deadline = std::chrono::steady_clock::now() + far_too_long;
@@ -70,9 +70,9 @@ Progress progress_of(const ChildProcess& server) {
     return newest;
 }
 
-/// Drills a hole by pecking, for a loop that gets no core stops for safety and mills on once it is clear of
-/// the bone; then takes the burr out of the picture. It rests until both viewers are there, which open on the
-/// tool: their pictures would else differ by where it was. When it is out.
+/// Drills a hole by pecking, because a loop that gets no core stops for safety and mills on once it is clear
+/// of the bone; then takes the burr out of the picture. The burr rests until both viewers are there, which
+/// open on the tool, or their pictures would differ by its place. Returns the time when it is out.
 double write_drilling(const std::filesystem::path& file) {
     constexpr int pecks = 15;
     constexpr double first_peck_s = 12.0;

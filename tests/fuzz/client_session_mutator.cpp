@@ -1,4 +1,4 @@
-// Mutates what a server sends; behind the four frames of the target's own session, if that is played first.
+// Mutates a server's frames, behind the four frames of the target's own session if that is played first.
 #include "osteomill/v2/session.pb.h"
 #include "tests/fuzz/mutate_parts.h"
 

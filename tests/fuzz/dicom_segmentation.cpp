@@ -1,6 +1,6 @@
-// Segmentations that are well-formed DICOM and say what no segmentation should: sizes, frames, places,
-// segments and pixels are the input's. Damaged DICOM is the matter of the target dicom_header, and GDCM is
-// never given it.
+// Segmentations that are well-formed DICOM with values that no segmentation should have: sizes, frames,
+// places, segments and pixels are the input's. The target dicom_header covers damaged DICOM, which GDCM never
+// gets.
 #include "imaging/dicom/dicom_segmentation.h"
 
 #include <sys/mman.h>
@@ -31,7 +31,7 @@ class Taker {
         return value;
     }
     unsigned below(unsigned end) { return byte() % end; }
-    /// Numbers as DICOM writes them, and what is none.
+    /// Numbers as DICOM writes them, and texts that are no numbers.
     std::string number() {
         constexpr std::array<const char*, 8> odd{"nan", "inf", "1e308", "-1e30", "", "x", "1e-9", "0"};
         const unsigned kind = byte();

@@ -112,7 +112,7 @@ void write_dicom(const std::filesystem::path& folder) {
     write_bytes(folder / "bare", dicom_element(0x0008, 0x0060, "CS", "CT") + dicom_number(0x0028, 0x0010, 3));
 }
 
-/// See dicom_segmentation.cpp for what each byte says.
+/// See dicom_segmentation.cpp for the meaning of each byte.
 void write_segmentations(const std::filesystem::path& folder) {
     // Two frames of 4 x 3 pixels, of segments 1 and 2, at z = 0 and 1 mm, half a millimetre a pixel.
     const auto seed = [](char bits, const std::string& pixels) {

@@ -17,8 +17,8 @@ namespace osteomill::fuzz {
 /// Leaves a part out, tells it twice, swaps two, or lets libFuzzer change one of them.
 void mutate_parts(std::vector<std::string>& parts, std::mt19937& random);
 
-/// The messages of a stream of frames, up to where it makes no sense; and the stream of messages. Messages
-/// that do not fit a frame are left out.
+/// The messages of a stream of frames, up to the first bad frame; and the stream of messages. Messages that
+/// do not fit a frame are left out.
 std::vector<std::string> messages_of(std::string_view stream);
 std::string stream_of(const std::vector<std::string>& messages);
 
@@ -36,7 +36,7 @@ void renumber(std::vector<std::string>& messages, std::uint64_t first) {
 /// The message with a seal that holds, and without the length before it; as it was if it is no message.
 std::string resealed(const std::string& message);
 
-/// Writes `mutated` over `data`, or, if there is no room for it, lets libFuzzer mutate what is there.
+/// Writes `mutated` over `data`, or, if it does not fit, lets libFuzzer mutate `data`.
 std::size_t put(const std::string& mutated, std::uint8_t* data, std::size_t size, std::size_t most);
 
 }  // namespace osteomill::fuzz
@@ -45,8 +45,8 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 namespace osteomill::fuzz {
 
-/// Mutates what a session's target reads: a byte of how to feed it, then a stream of frames, which are
-/// numbered from `first` on half of the time.
+/// Mutates the input of a session's target: a byte that selects how the frames are passed, then a stream of
+/// frames, which are numbered from `first` on half of the time.
 template <typename Frame>
 std::size_t mutate_session(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed,
                            std::uint64_t first) {

@@ -15,7 +15,7 @@ namespace osteomill::fuzz {
 
 namespace {
 
-/// A file in memory alone: the disk is not what is tested, and would be slow.
+/// A file in memory alone: the disk is not tested, and would be slow.
 class MemoryFile {
   public:
     explicit MemoryFile(Bytes bytes) : descriptor_(::memfd_create("recording", MFD_CLOEXEC)) {
@@ -35,7 +35,7 @@ class MemoryFile {
 
 constexpr double for_ever_s = std::numeric_limits<double>::infinity();
 
-/// A tool makes of a tick what it likes: its numbers are finite and its burr is there.
+/// A tool may use a tick freely: its numbers are finite and its burr exists.
 void require_sound(const TickSample& tick, std::size_t burrs) {
     require(tick.burr < burrs, "a burr that the session has not");
     for (const TickQuantity& quantity : tick_quantities())

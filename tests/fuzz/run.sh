@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes with what the preset `asan` built, as many targets at once as there are cores.
+# Fuzzes with the targets built by the preset `asan`, as many at once as there are cores.
 #   tests/fuzz/run.sh SECONDS [TARGET...]     all of them, or some: frame_decoder server_session client_session recording scene
 #                                             haply_state nrrd_header meta_image_header nifti_header dicom_header
 #                                             dicom_segmentation
@@ -15,8 +15,8 @@ targets=("$@")
     dicom_header nrrd_header meta_image_header nifti_header dicom_segmentation)
 mkdir -p build/asan/fuzz/findings
 
-# Memory: a gigabyte, where the largest input makes tens of megabytes. One allocation may be as large as the largest bone
-# that a snapshot may announce, which costs addresses. A hang: ten seconds where an input takes milliseconds.
+# Memory: a gigabyte, although the largest input makes tens of megabytes. One allocation may be as large as the largest bone
+# that a snapshot may announce, which costs addresses. A hang: ten seconds, although an input takes milliseconds.
 fuzz_one() {
     local target=$1 seconds=$2 corpus=build/asan/fuzz/corpus/$1 log=build/asan/fuzz/findings/$1.log
     local longest options=()

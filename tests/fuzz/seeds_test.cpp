@@ -1,5 +1,5 @@
-// Every target on its seeds, and on these with a byte changed or cut off: the regression test of what fuzzing
-// found, in every build, without clang.
+// Every target on its seeds, and on these with a byte changed or cut off: the regression test of the findings
+// of fuzzing, in every build, without clang.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Mutates what a client sends.
+// Mutates a client's frames.
 #include "osteomill/v2/session.pb.h"
 #include "tests/fuzz/mutate_parts.h"
 

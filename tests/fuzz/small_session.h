@@ -1,5 +1,5 @@
 // A session small enough to be fuzzed thousands of times a second: three bricks of bone, the last of them cut
-// by the edge of the grid, and a grid with room for bricks that are not stored.
+// by the edge of the grid, and a grid that also has bricks that are not stored.
 #pragma once
 
 #include "common/bone/bone_builder.h"

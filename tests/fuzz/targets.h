@@ -1,7 +1,6 @@
-// Targets that hostile input is fed to. Each target takes any bytes at all and throws BrokenInvariant if
-// the program would do what it must not; a crash, a leak, undefined behaviour, a hang or memory over the
-// bound is found by what runs it: libFuzzer with the sanitizers (tests/fuzz/run.sh), or an ordinary test with
-// the seeds.
+// Targets for hostile input. Each target takes any bytes at all and throws BrokenInvariant if the program
+// would break its rules; a crash, a leak, undefined behaviour, a hang or memory over the bound is found by
+// the runner: libFuzzer with the sanitizers (tests/fuzz/run.sh), or an ordinary test with the seeds.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +25,8 @@ inline void require(bool holds, const std::string& what) {
 void frame_decoder(Bytes input);
 
 /// A client's messages, against ClientConnection, ClientFeed and ToolLease. Finding: a bone changed by a
-/// client; a tool moved to where no number is; an answer that is no frame, or more frames than the client may
-/// cause; a client dropped without a line.
+/// client; a tool moved to a place without numbers; an answer that is no frame, or more frames than the
+/// client may cause; a client dropped without a line.
 void server_session(Bytes input);
 
 /// A server's messages, against the decoder, SessionReceiver and VerifiedReplica. Finding: a copy with bone
@@ -43,13 +42,13 @@ void recording(Bytes input);
 /// come back from write_scene as it was.
 void scene(Bytes input);
 
-/// The messages of Haply's service, against parse_haply_state. Finding: any exception; an arm or a grip where
-/// no number is; an arm of another name than was requested; a force for it that is no JSON.
+/// The messages of Haply's service, against parse_haply_state. Finding: any exception; an arm or a grip at a
+/// place without numbers; an arm of another name than was requested; a force for it that is no JSON.
 void haply_state(Bytes input);
 
-/// The first bytes of an image file, against our own readers of headers (GDCM never sees what these
-/// refuse). Finding: any exception but a complaint of one line; voxels, files, sizes or a geometry beyond
-/// the limits that were to be held.
+/// The first bytes of an image file, against our own readers of headers (GDCM never sees a file that these
+/// refuse). Finding: any exception but an error of one line; voxels, files, sizes or a geometry beyond the
+/// limits.
 void nrrd_header(Bytes input);
 void meta_image_header(Bytes input);
 void nifti_header(Bytes input);

@@ -31,8 +31,8 @@ class ArrayJob : public ::testing::Test {
         return testing::run_program(words);
     }
 
-    /// The study, but for task 2: a limit of its files kills it in the middle of a line, after its first
-    /// case, and then the task sleeps until it is killed, too.
+    /// The study, except in task 2: there a limit of its files kills it in the middle of a line, after its
+    /// first case, and then the task sleeps until it is killed, too.
     std::string study_that_stops_in_task_2() const {
         const std::filesystem::path script = folder_ / "study.sh";
         std::ofstream(script) << "#!/bin/bash\n"

@@ -1,4 +1,4 @@
-// The way out: a session's bone as a surface that another program opens, and as what was removed of it.
+// Exports: a session's bone as a surface that another program opens, and the removed part of it.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -78,7 +78,7 @@ TEST_F(BoneExport, ThatIsStoppedLeavesNothingAndSaysSo) {
     ASSERT_EQ(large.status, 0) << large.err;
     std::filesystem::create_directory(file("out"));
     bool was_in_time = false;
-    // It may be told before it listens, or be done before it is told; then once more.
+    // The signal may come before the program listens, or after it is done; then once more.
     for (int attempt = 0; attempt < 20 && !was_in_time; ++attempt) {
         testing::ChildProcess exported({BONE_EXPORT, file("cube.nrrd"), file("out/a.stl")});
         std::this_thread::sleep_for(std::chrono::milliseconds(100 * (attempt + 1)));

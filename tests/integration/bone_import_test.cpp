@@ -38,7 +38,7 @@ class BoneImport : public ::testing::Test {
         for (std::string line; std::getline(file, line);) outcome.lines.push_back(line);
         return outcome;
     }
-    /// Exit 1 and nothing said but one line that names the input.
+    /// Exit 1 and no output but one line that names the input.
     void expect_refused(const std::filesystem::path& input, const std::string& reason,
                         const std::string& options = "") {
         const Outcome outcome = import(input, options);

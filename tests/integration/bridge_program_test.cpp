@@ -1,4 +1,4 @@
-// haptic_server and an arm in a process of its own, and what befalls either.
+// haptic_server and an arm in a process of its own, and failures of either.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -45,7 +45,7 @@ class BridgePrograms : public ::testing::Test {
         std::ifstream in(file("run.json"));
         return nlohmann::json::parse(in);
     }
-    /// The number before `unit` in what an arm says at its end.
+    /// The number before `unit` in an arm's last output.
     static double told(const std::string& text, const std::string& what) {
         std::smatch match;
         EXPECT_TRUE(std::regex_search(text, match, std::regex(what + " ([0-9.]+) N"))) << text;

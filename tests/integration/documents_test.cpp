@@ -1,4 +1,4 @@
-// The documents hold what they say: links lead somewhere, paths exist, and the programs have the options that
+// The documents are correct: links lead somewhere, paths exist, and the programs have the options that
 // commands use.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST(Documents, LinkToWhatIsThere) {
 
 TEST(Documents, NamePathsThatExist) {
     EXPECT_THAT(findings_in_all([](const Document& document) {
-                    // A changelog tells of what was.
+                    // A changelog is about the past.
                     return document.file == "CHANGELOG.md" ? Findings{}
                                                            : dead_paths(document, repository_folder);
                 }),
@@ -161,7 +161,7 @@ TEST(Documents, DescribeEveryMessageAndFieldOfTheProtocol) {
 TEST(Documents, DescribeEveryKeyOfAScene) {
     const std::string page = text_in_repository("docs/scenes.md");
     const std::regex key("([a-z]\\w*) = ");
-    // Only what differs from the defaults is written.
+    // Only values that differ from the defaults are written.
     Scene scene{.name = "all",
                 .bone = FileSource{.path = "bone.nrrd", .threshold_hu = 301.0, .segmentation = "s.nrrd"},
                 .stiffness = {.knots = {{1.0, 1.0}}},

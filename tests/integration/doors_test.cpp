@@ -49,7 +49,7 @@ Command drawing_client(const std::string& where) {
             "--frames",      "1"};
 }
 
-/// A client of the lab that does as it likes: it asks for the tool whatever the server has said.
+/// A client of the lab that ignores rules: it requests the tool whatever the server has answered.
 class Insistent {
   public:
     Insistent(std::uint16_t port, const TlsFiles& files) : tls_(files, TlsContext::Role::client) {
@@ -114,7 +114,7 @@ class Doors : public ::testing::Test {
             return tool && tool->driver == driver;
         });
     }
-    /// Until the server has said so.
+    /// Waits until the server's log says so.
     bool is_logged(const std::string& words) {
         return eventually([&] {
             server_->wait(0s);
@@ -182,8 +182,8 @@ TEST_F(Doors, OpenForOperatorsOnlyWhereItIsKnownWhoTheyAre) {
 }
 
 /// Strangers come 1000 times a second and stay; a client joins over a link with a round trip of 50 ms, as if
-/// behind the same address, and one over a far slower link from another. One may be turned away once where
-/// the machine was elsewhere.
+/// behind the same address, and one over a far slower link from another. If the machine was busy with other
+/// work, one may be turned away once.
 class DoorsInAFlood : public Doors, public ::testing::WithParamInterface<bool> {
   protected:
     std::optional<TlsFiles> files_of(const std::string& name) const {
@@ -193,7 +193,7 @@ class DoorsInAFlood : public Doors, public ::testing::WithParamInterface<bool> {
         if (GetParam()) return start_server(lab_->server("bench"));
         start_server({});
     }
-    /// How many of so many clients, one after the other, were turned away before they were in.
+    /// Number of `clients`, one after the other, that were turned away before they got in.
     int turned_away(int clients, std::uint16_t port) const {
         int away = 0;
         const auto files = files_of("viewer" + std::to_string(port));

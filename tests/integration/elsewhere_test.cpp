@@ -56,7 +56,7 @@ class FromElsewhere : public ::testing::Test {
         write(folder_ / "case/case.toml", toml);
         return session({"--case", file("case")});
     }
-    /// Wrong usage or a failure, told in one line that is fit for a terminal.
+    /// Wrong usage or a failure, with one line that is fit for a terminal.
     static void expect_refused(const Finished& run, const std::string& words) {
         EXPECT_TRUE(run.status == 1 || run.status == 2) << run.status << ' ' << run.err;
         EXPECT_THAT(run.err, HasSubstr(words));
@@ -196,7 +196,7 @@ TEST_F(FromElsewhere, ACaseReadsNoFileOutsideItsFolder) {
         const Finished run = session_of_case(toml);
         EXPECT_EQ(run.status, 1) << toml;
         EXPECT_THAT(run.err, HasSubstr("lies outside the folder of the case"));
-        // A scene that somebody writes by hand may name what it likes.
+        // A scene that somebody writes by hand may name any file.
         EXPECT_EQ(session({"--scene", file("case/case.toml")}).status, 0) << toml;
     }
     write(folder_ / "placement.toml", "position_mm = [0, 0, 9]\nspindle_axis = [0, 0, 1]\n");

@@ -1,5 +1,5 @@
-// Motions out of a hand's day at which the default coupling once failed: where bone ends. Each is a scene and
-// a motion in tests/data/haptics, played by the real server on its virtual clock.
+// Ordinary motions of a hand at the end of bone, at which the default coupling once failed. Each is a scene
+// and a motion in tests/data/haptics, played by the real server on its virtual clock.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// haptic_server and Haply's service, and what befalls the service and its arm.
+// haptic_server and Haply's service, and failures of the service and its arm.
 #include <gmock/gmock.h>
 
 #include <algorithm>

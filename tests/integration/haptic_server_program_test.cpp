@@ -101,7 +101,7 @@ TEST_F(HapticServerProgram, TakesUpACarvedBoneWhereItWasLeft) {
     std::ofstream(file("rest.csv")) << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,0,0,20,0,0,1,0\n";
     EXPECT_FALSE(json("a.json").contains("removed_before_mm3"));
     const double first_mm3 = json("a.json").at("removed_mm3").at("total");
-    // And once more, of what was saved over.
+    // And once more, from the file that was saved over.
     for (int generation = 0; generation < 2; ++generation) {
         const Outcome second = run("--bone " + file("carved.nrrd") + " --trajectory " + file("rest.csv") +
                                    " --clock virtual --duration-s 0.1 --save-bone " + file("carved.nrrd") +

@@ -38,7 +38,7 @@ TEST_P(Hardening, IsInTheProgram) {
     const std::string symbols = run_program({"/usr/bin/env", "readelf", "-W", "--dyn-syms", program}).out;
     EXPECT_THAT(symbols, HasSubstr("__stack_chk_fail"));
     EXPECT_THAT(symbols, ContainsRegex("__[a-z]+_chk@")) << "copies are checked";
-    const std::string mark("\xf3\x0f\x1e\xfa", 4);  // endbr64; what the C library brings along has a handful
+    const std::string mark("\xf3\x0f\x1e\xfa", 4);  // endbr64; the C library's own code has a handful
     if (run_program({"/bin/uname", "-m"}).out == "x86_64\n") {
         EXPECT_GT(count(text_of(program), mark), 500);
     }
@@ -59,7 +59,7 @@ TEST(Confinement, OfTheServiceIsWhatSystemdCallsOk) {
     EXPECT_THAT(judged.out, HasSubstr("Overall exposure level for osteomill.service"));
     EXPECT_THAT(judged.err, Not(HasSubstr("Unknown")))
         << "a directive that systemd does not know confines nothing";
-    // And yet it may do what its loops and its arm need.
+    // And yet its loops and its arm have the permissions that they need.
     const std::string text = text_of(unit);
     for (const char* needed :
          {"DeviceAllow=char-hidraw rw", "LimitRTPRIO=50", "LimitMEMLOCK=infinity", "RestrictRealtime=no",

@@ -37,7 +37,7 @@ Finished import(const std::filesystem::path& input, const std::filesystem::path&
 
 struct Attack {
     const char* name;
-    /// Writes the files of the attack into the folder; gives what to import.
+    /// Writes the files of the attack into the folder; returns the input to import.
     std::function<std::filesystem::path(const std::filesystem::path& folder)> write;
     const char* reason;  ///< a text that the refusal must contain
 
@@ -277,7 +277,7 @@ const std::vector<Attack> attacks{
      "holds no files"},
 };
 
-/// Found while the voxels are read, which is once: the estimate of memory and progress have been said by
+/// Found while the voxels are read, which is once: the estimate of memory and progress have been printed by
 /// then.
 const std::vector<Attack> spoiled_voxels{
     {"nrrd_gzip_wrong_crc", file("x.nrrd", gzip_nrrd + flipped(deflated(voxels), 6)), "damaged"},

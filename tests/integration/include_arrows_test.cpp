@@ -31,8 +31,8 @@ const std::vector<Room>& rooms() {
         {"haptic_server/", {"common/", "bridge/", "simulation/", "devices/", "imaging/", "analysis/"}},
         {"render_client/", {"common/"}},
         {"slicer/", {"common/", "render_client/link/"}},
-        // The pictures of the module of Python are a library of their own: its core knows no OpenGL. They see
-        // its sessions, and tell of them what a server would tell a client.
+        // The pictures of the module of Python are a library of their own: its core knows no OpenGL. They
+        // include its sessions, and describe them as a server would to a client.
         {"python/render/",
          {"common/", "haptic_server/streaming/live_session.h", "imaging/case/structures.h",
           "python/module/arrays.h", "python/module/exceptions.h", "python/module/released_lock.h",

@@ -1,5 +1,4 @@
-// Scans that are larger than what the importer may hold, and the real bone_import: it reads them slab by
-// slab.
+// Scans larger than the importer's memory may be, and the real bone_import: it reads them slab by slab.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>

@@ -37,7 +37,7 @@ class LinkFaults : public FolderTest {
   protected:
     LinkFaults() { write_block(file("block.nrrd"), 300); }
 
-    /// Mills slowly for minutes, until it is told to end; leaves server.json.
+    /// Mills slowly for minutes, until a signal ends it; leaves server.json.
     void start_server(const Command& options = {"--listen", "127.0.0.1:0"}) {
         write_milling_motion(file("motion.csv"));
         Command command{HAPTIC_SERVER,      "--bone", file("block.nrrd"), "--trajectory",
@@ -145,8 +145,8 @@ TEST_F(LinkFaults, OfStrangersNeitherKeepClientsOutNorFillTheMemory) {
     }
     EXPECT_TRUE(poll_until(links, is_live)) << "the 32nd client came in the middle of it";
     for (const auto& link : links) EXPECT_EQ(link->poll().connections, 1U);
-    // For each of 32 clients and 48 strangers, what it has yet to be told (see PendingChanges) of the block's
-    // 120 bricks, and two frames of 128 KiB.
+    // For each of 32 clients and 48 strangers, the pending changes (see PendingChanges) of the block's 120
+    // bricks, and two frames of 128 KiB.
     EXPECT_LT(server_memory_bytes() - before_bytes, 80U * (120U * 600U + 2U * 131'072U));
     expect_equal_bones_at_the_end(links);
 }
@@ -157,7 +157,7 @@ TEST_F(LinkFaults, OfAServerKilledWhileItRecordsLeaveAFileAndClientsForTheNext) 
     links.push_back(std::make_unique<BoneLink>("127.0.0.1", port_));
     ASSERT_TRUE(poll_until(
         links, [](const LinkUpdate& update) { return update.tool && update.tool->removed_mm3 > 0.1; }));
-    // Two seconds on, what the client was told of that is in the file, too.
+    // Two seconds later, the file has it as well as the client.
     const auto seen = links[0]->poll().checksums_verified;
     ASSERT_TRUE(
         poll_until(links, [&](const LinkUpdate& update) { return update.checksums_verified >= seen + 2; }));

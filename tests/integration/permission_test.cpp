@@ -56,7 +56,7 @@ class HostileClient {
         send(std::move(greeting));
     }
 
-    /// Reads what has come; whether a state has.
+    /// Reads the waiting frames; returns whether a state was among them.
     bool reads_state() {
         std::array<std::uint8_t, 65536> bytes;
         boost::system::error_code error;
@@ -131,7 +131,7 @@ class Permissions : public ::testing::Test {
         if (tool) clock_.note(*tool);
         return tool;
     }
-    /// An operator where the tool is, whose pedal is down.
+    /// An operator at the tool's place, whose pedal is down.
     void drive(BoneLink& link, bool pedal = true) {
         const auto tool = seen(link);
         if (!tool) return;
@@ -312,7 +312,7 @@ TEST_F(Permissions, IsNotHadByRepeatingMessagesNorByClientsThatNameNoState) {
     }
     HostileClient repeating(port_);
     ASSERT_TRUE(eventually([&] { return repeating.reads_state(); }));
-    // A message that was held back on a machine with much to do turns nothing, and is no answer to this.
+    // A message that was held back on a busy machine turns nothing, and is no answer to this one.
     bool has_turned = false;
     std::uint64_t number = 0;
     EXPECT_TRUE(eventually([&] {

@@ -158,7 +158,7 @@ TEST_F(Recording, GivesTheMotionForASessionThatMakesItAgain) {
     ASSERT_GT(a.at("t_s").size(), 2400U);
     ASSERT_NEAR(static_cast<double>(a.at("t_s").size()), static_cast<double>(b.at("t_s").size()), 2.0);
     // Logs have four decimals, and the motion that was made again was written with as many. The force of the
-    // burr's teeth makes a little more of what was rounded off.
+    // burr's teeth amplifies the rounding a little.
     const std::vector<std::pair<std::string, double>> bounds{
         {"t_s", 1e-9},         {"hand_x_mm", 2.1e-4}, {"hand_y_mm", 2.1e-4},
         {"hand_z_mm", 2.1e-4}, {"burr_x_mm", 0.02},   {"burr_y_mm", 0.02},
@@ -191,7 +191,7 @@ TEST_F(Recording, BecomesAFilm) {
                                        "-show_entries", "stream=width,height,nb_read_frames,r_frame_rate",
                                        "-of", "default=nokey=1:noprint_wrappers=1", film});
     ASSERT_EQ(seen.status, 0) << seen.err;
-    // The recording takes 2.4 s and what is left of its last frame.
+    // The recording takes 2.4 s and the rest of its last frame.
     const double duration_s = info("a.pcap").at("duration_s");
     const auto frames = static_cast<int>((duration_s - 1.0) / 2.0 * 30.0) + 1;
     EXPECT_EQ(seen.out, "102\n80\n30/1\n" + std::to_string(frames) + "\n") << "of an even width";
@@ -356,7 +356,7 @@ TEST_F(Recording, StandsStillWhileTheDiskIsFullAndTheSessionGoesOn) {
 
     const Finished too_little = record_on_disk_of(1, "b.pcap", "none.json");
     EXPECT_EQ(too_little.status, 1);
-    // The block is bone all through, which is said first.
+    // The block is solid bone; the first line says so.
     const auto last_line = [](const std::string& err) {
         return err.substr(err.find("haptic_server: /", err.find("all of it is bone\n")));
     };

@@ -71,7 +71,7 @@ class SavedBone : public testing::FolderTest {
         EXPECT_THAT(run.err, HasSubstr(std::filesystem::path(bone).stem().string()));
         return run.err;
     }
-    /// Mills for a time and saves; the checksum of what was left.
+    /// Mills for a time and saves; returns the checksum of the bone left.
     std::string saved(const std::string& from, const std::string& to, const std::string& duration_s) const {
         const Finished run = testing::run_program(server(
             {"--duration-s", duration_s, "--bone", from, "--save-bone", to, "--json", file("saved.json")}));
@@ -96,7 +96,7 @@ TEST_F(SavedBone, KilledAtAnyMomentIsTheOldOrTheNewOne) {
     ASSERT_EQ(loaded(file("carved.nrrd")), fresh);
     const std::uintmax_t whole_bytes = std::filesystem::file_size(file("carved.nrrd"));
 
-    // How far the save has come is seen from what it has written beside the old files.
+    // The new files beside the old ones show how far the save has come.
     const auto written = [&] {
         std::uintmax_t bytes = 0;
         for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {

@@ -19,9 +19,9 @@ using ::testing::HasSubstr;
 
 class Programs : public FolderTest {
   protected:
-    /// A motion that drills the tooth at once, down into the crown, across, out again, until it is told to
-    /// end: a machine so busy that a tick is late by 20 ms ends the milling until the burr is lifted, and
-    /// takes its time before a client has joined.
+    /// A motion that drills the tooth at once, down into the crown, across, out again, until a signal ends
+    /// it: on a busy machine a tick that is late by 20 ms ends the milling until the burr is lifted, and it
+    /// takes some time before a client has joined.
     std::string long_drilling() const {
         const std::string path = file("drilling.csv");
         std::ofstream csv(path);

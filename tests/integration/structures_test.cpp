@@ -112,7 +112,7 @@ TEST_F(StructuresProgram, LoseAsMuchInEveryTable) {
     EXPECT_NEAR(metrics.at("removed_of_tissue_mm3_of").at("nerve").get<double>(), removed_mm3, 1e-9);
     EXPECT_NEAR(metrics.at("structure_dose_mm3_of").at("nerve").get<double>(), removed_mm3, 1e-9);
     EXPECT_NEAR(metrics.at("plan_removed_mm3").get<double>(), removed_mm3, 1e-9);
-    // Half of the rod: where the bone ends, within a voxel of it, what is bone is the rod's own.
+    // Half of the rod: within a voxel of the bone's end, the bone is the rod's own.
     EXPECT_NEAR(metrics.at("plan_mm3").get<double>(), 0.5 * 3.14159 * 9.6, 0.05 * 0.5 * 3.14159 * 9.6);
 }
 

@@ -128,7 +128,8 @@ TEST_F(StudyProgram, PolishesQuickly) {
             numbers.push_back(std::strtod(cell.c_str(), nullptr));
         return numbers;
     };
-    // Reached the end; slide, s; depth, stray, mm; mean force, limit cycle, N; where it begins, mm; faults.
+    // Reached the end; slide, s; depth, stray, mm; mean force, limit cycle, N; depth at which it begins, mm;
+    // faults.
     const auto implicit = numbers_of("milling,implicit,1000,");
     ASSERT_EQ(implicit.size(), 8u);
     EXPECT_EQ(implicit[0], 1.0);

@@ -104,7 +104,7 @@ class TrackerPrograms : public ::testing::Test {
         }
         GTEST_SKIP() << "the machine is too busy for a tracker: no session of " << attempts << " was in time";
     }
-    /// The handpiece leans and turns while it goes; the marker is where that puts it.
+    /// The handpiece leans and turns while it moves, and takes the marker along.
     void send(const Moment& moment, double time_s) {
         const glm::dquat in_patient =
             glm::angleAxis(0.3 * std::sin(2.0 * time_s), glm::dvec3(0.6, 0.8, 0.0)) *

@@ -155,7 +155,7 @@ TEST_P(WaylandTest, CutsCopiesAndPastesToAndFromOtherPrograms) {
     };
     ChildProcess other_program(display_->shown_here({copier, "--foreground", "Zo\u00eb"}));
     ASSERT_TRUE(other_program_has("Zo\u00eb")) << other_program.err();
-    // The trainee's name, where hands and eyes of any scale find it.
+    // The trainee's name, at a place that is found at any scale.
     ASSERT_TRUE(xdotool({"mousemove", "380", GetParam() == 1 ? "618" : "596", "click", "1"}));
     press_and_wait("ctrl+a");
     press_and_wait("ctrl+v");

@@ -100,7 +100,8 @@ class WindowTest : public ::testing::Test {
             return false;
         });
     }
-    /// Until what was requested is on the screen, and nothing moves there but figures and a cursor of text.
+    /// Waits until the requested view is on the screen, and nothing moves there but figures and a cursor of
+    /// text.
     bool stands_still() const {
         return comes_true([&] {
             const Picture before = display_->screen();
@@ -362,7 +363,7 @@ TEST_F(WindowTest, IsRecordedFromWhereTheTraineeLooksAndSeenFromThereAgain) {
     ASSERT_EQ(picture.status, 0) << picture.err;
     EXPECT_LT(difference(read_png(folder("last.png")), seen), 0.1);
 
-    // In a window, and it is the person's to turn where the recording stands.
+    // In a window, and the person may turn the view while the recording stands.
     window_.emplace(
         display_->shown_here({RENDER_CLIENT, "--replay", folder("session.pcap"), "--camera", "trainee",
                               "--speed", "100", "--window-size", "480x360", "--no-panels"}));
@@ -399,7 +400,8 @@ TEST_F(WindowTest, ImportsAScanAndStartsASessionOfItByMouse) {
     const auto second_file = [&] { click(300, 212); };
     click(295, 643);  // Import a scan
     second_file();    // a torn one: nothing but a line
-    // The import takes the window but for a margin of 12 pixels; Back is there once the scan was looked at.
+    // The import fills the window except for a margin of 12 pixels; Back is there once the scan was
+    // previewed.
     const auto shows_import = [&] { return *display_->screen().at(20, 400) < 45; };
     ASSERT_TRUE(comes_true(shows_import));
     ASSERT_TRUE(comes_true([&] {

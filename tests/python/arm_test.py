@@ -1,4 +1,4 @@
-"""Arms of one's own: force, stiffness and delay are theirs; torque and power of the spindle are what cutting takes."""
+"""User-defined arms: force, stiffness and delay are theirs; torque and power of the spindle are those of the cut."""
 
 import pathlib
 import pickle
@@ -81,7 +81,7 @@ class ArmTest(unittest.TestCase):
 
 class SpindleTest(unittest.TestCase):
     def test_the_spindles_work_is_what_the_chips_take(self):
-        """Of a law without edges: K_t s for each mm^3, whatever the path."""
+        """By a law without edges: K_t s for each mm^3, whatever the path."""
         case = om.Case("cube", set=[f"force_scale={scale}" for scale in (1.0,)])
         burr = case.burrs[case.start_burr]
         session = om.Session(case, force_model="published", arm=om.Arm(**ROBOT))

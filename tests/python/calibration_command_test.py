@@ -1,4 +1,4 @@
-"""The command osteomill_study calibrate: what it wrote when it was C++ it writes still, and what it says of labs."""
+"""The command osteomill_study calibrate: it still writes the files of its C++ version, and its statements about labs."""
 
 import contextlib
 import io

@@ -1,4 +1,4 @@
-"""Whether the intervals of a calibration hold what they promise, over many simulated labs.
+"""The coverage of a calibration's intervals, over many simulated labs, is as promised.
 
 Each lab makes the 24 runs of the default design in random order, with noise of 0.05 N; its dynamometer drifts, or some of its
 runs go wrong: they were a fifth too deep or too shallow, and all three forces with it. `python3 calibration_coverage_test.py

@@ -1,4 +1,4 @@
-"""The table of runs of a calibration: what is read, and what is refused in one line."""
+"""The table of runs of a calibration: its columns, and errors in one line."""
 
 import pathlib
 import tempfile

@@ -1,4 +1,4 @@
-"""No more than a scene needs: what is chosen is what brute force finds, and the server takes the scene that is written."""
+"""No more than a scene needs: the choice is that of brute force, and the server accepts the written scene."""
 
 import itertools
 import json
@@ -45,7 +45,7 @@ width_mm = 5.0
 
 
 def voxels_a_second(way):
-    """A cost that no clock measures: voxels of the burr's surface, and what a coupling solves."""
+    """A cost that no clock measures: voxels of the burr's surface, and a coupling's solve."""
     times = {"milling": 1.0, "milling-partial": 0.9, "published": 0.95}[way.force_model]
     return way.milling_rate_hz * times / way.voxel_mm**2 * (3.0 if way.coupling == "implicit" else 1.0)
 

@@ -1,4 +1,4 @@
-"""Image sets of recordings, read by PIL and NumPy: what they hold is of one instant, and the same each time."""
+"""Image sets of recordings, read by PIL and NumPy: the contents of a frame are of one instant, and the same each time."""
 
 import hashlib
 import importlib.util

@@ -1,4 +1,4 @@
-"""Every line of Python in docs/python.md runs, from the first to the last; and the reference is what the docstrings say."""
+"""Every line of Python in docs/python.md runs, from the first to the last; and the reference equals the docstrings."""
 
 import contextlib
 import io

@@ -1,4 +1,4 @@
-"""The examples do what they say."""
+"""The examples work as they say."""
 
 import importlib.util
 import os
@@ -53,7 +53,7 @@ class ExamplesTest(unittest.TestCase):
         lines = self.run_example("compare_couplings.py", file, "implicit", "virtual-coupling").splitlines()
         self.assertEqual([line.split(":")[0] for line in lines], ["implicit", "virtual-coupling"])
         removed = [float(line.rsplit(" ", 2)[1]) for line in lines]
-        # The recorded motion had straight lines between its poses, and so has what is made of it.
+        # The recorded motion had straight lines between its poses, and so has the motion made from it.
         self.assertAlmostEqual(removed[0], ticks["removed_mm3"]["total"][-1], delta=0.05)
         self.assertNotEqual(lines[0].split(":")[1], lines[1].split(":")[1])
 

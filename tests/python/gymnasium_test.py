@@ -1,4 +1,4 @@
-"""The environment keeps to Gymnasium's published API: what its tools ask of one, asked without it."""
+"""The environment keeps to Gymnasium's published API: the checks of Gymnasium's tools, made without it."""
 
 import copy
 import inspect

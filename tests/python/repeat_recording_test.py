@@ -1,4 +1,4 @@
-"""Recordings repeat to the bit: what is recorded is what was used, whichever session it is of."""
+"""Recordings of any session repeat to the bit: they hold the values that were used."""
 
 import pathlib
 import subprocess

@@ -1,4 +1,4 @@
-"""Tables of a study that was repeated: what differs from those that were kept, by more than noise."""
+"""Tables of a repeated study: values that differ from the kept ones by more than noise."""
 
 import json
 import pathlib

@@ -1,4 +1,4 @@
-"""The study of several sessions: equal to the digit with that of version 0.3, and what it does with odd files."""
+"""The study of several sessions: equal to the digit with that of version 0.3, and its treatment of odd files."""
 
 import contextlib
 import html

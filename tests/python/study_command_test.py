@@ -1,4 +1,4 @@
-"""The program osteomill_study: what it says of a wrong command line, and the options that every study has."""
+"""The program osteomill_study: its errors for a wrong command line, and the options that every study has."""
 
 import os
 import pathlib

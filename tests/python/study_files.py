@@ -1,4 +1,4 @@
-"""Studies run in this process, and what they write held against files that were kept."""
+"""Studies run in this process, and their files compared with kept ones."""
 
 import contextlib
 import io
@@ -15,7 +15,7 @@ DATA = pathlib.Path(__file__).parents[1] / "data"
 
 @contextlib.contextmanager
 def run_of(name, module, *words, jobs=2):
-    """The folder that the study fills, and what it says."""
+    """The folder that the study fills, and its output."""
     options = parser_of(name, module).parse(list(words))
     said = io.StringIO()
     with tempfile.TemporaryDirectory() as folder:

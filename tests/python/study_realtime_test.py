@@ -1,4 +1,4 @@
-"""The studies `realtime` and `bridge`: latencies, and what is made of them; no time is asserted."""
+"""The studies `realtime` and `bridge`: latencies and their evaluation; no time is asserted."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""The study `render`: what is drawn is as true as it was (tests/data/render_study, by Mesa's llvmpipe); no time is asserted."""
+"""The study `render`: pictures are as accurate as before (tests/data/render_study, by Mesa's llvmpipe); no time is asserted."""
 
 import json
 import unittest

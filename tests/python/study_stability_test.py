@@ -1,4 +1,4 @@
-"""The study `stability`: its points, and what is made of a whole map and of sites, from outcomes that are made up."""
+"""The study `stability`: its points, and the evaluation of a whole map and of sites, from made-up outcomes."""
 
 import math
 import unittest

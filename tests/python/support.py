@@ -27,7 +27,7 @@ def program(name):
 
 
 def run_server(folder, *arguments):
-    """Runs haptic_server on the virtual clock; what it measured, and its log, column by column."""
+    """Runs haptic_server on the virtual clock; returns its measurements, and its log, column by column."""
     json_file, log = folder / "session.json", folder / "log.csv"
     subprocess.run(
         [program("haptic_server"), "--clock", "virtual", "--json", json_file, "--log-csv", log, *arguments],

@@ -12,7 +12,7 @@ KNOWN = np.array([230.0, 40.0, 20.0, 0.5, 0.8, 0.1])
 
 
 def settings_of(**varied):
-    """A table of settings; what is not given is that of a usual run."""
+    """A table of settings; those not given are a usual run's."""
     count = max(len(values) for values in varied.values())
     usual = {"diameter_mm": 4.0, "edges": 8, "turns": "clockwise", "rpm": 20_000.0, "feed_mm_per_s": 6.0, "depth_mm": 0.5,
              "tilt_deg": 0.0, "tilt_direction_deg": 0.0}

@@ -26,7 +26,7 @@ def types_of(text: str) -> set[str]:
         else:
             if match["type"] and all(inside):
                 found.add("::".join([*inside, match["type"]]))
-            inside.append("")  # neither what is in a type nor what is in a function
+            inside.append("")  # names within a type or a function do not count
     return found
 
 

@@ -1,4 +1,4 @@
-"""The stubs are what the module is, and the package keeps to its types."""
+"""The stubs match the module, and the package keeps to its types."""
 
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""Many environments in one call: to the bit what each is alone."""
+"""Many environments in one call: each is to the bit as it is alone."""
 
 import pickle
 import unittest

@@ -1,4 +1,4 @@
-"""The bill of materials against what the loader, dpkg and sha256sum say of the same programs."""
+"""The bill of materials against loader, dpkg and sha256sum for the same programs."""
 
 import json
 import os

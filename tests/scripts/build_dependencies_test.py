@@ -1,4 +1,4 @@
-"""debian/control builds with what scripts/packages.txt builds with: a library that joins one is missing in the other."""
+"""debian/control has the build dependencies of scripts/packages.txt: a library added to only one of them is found."""
 
 import pathlib
 import re

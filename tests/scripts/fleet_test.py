@@ -1,6 +1,6 @@
 """Sessions of several stations in one PostgreSQL database: a real server, started here, that two stations fill at once.
 
-    fleet_test.py HAPTIC_SERVER OSTEOMILL_STUDY     exits 77 where PostgreSQL is not installed"""
+    fleet_test.py HAPTIC_SERVER OSTEOMILL_STUDY exits 77 if PostgreSQL is not installed"""
 
 import csv
 import glob

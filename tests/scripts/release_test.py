@@ -1,5 +1,5 @@
-"""scripts/release.sh in a small repository of its own, with packages that are there already: what it makes and what it refuses. And what
-depends on the system beside the packages, by scripts/wheel_of_packages.sh."""
+"""scripts/release.sh in a small repository of its own, with packages that exist already: its products and its refusals. And the
+wheel, which depends on the system, by scripts/wheel_of_packages.sh."""
 
 import pathlib
 import shutil

@@ -3,11 +3,11 @@
 //
 //     soak HAPTIC_SERVER PACKET_REPLAY MINUTES [SEED]
 //
-// Exits 0 where every bone is the server's at the end, the recording's too, where every session on the
-// virtual clock left the same bone, and where the server's memory has not grown: its median over the last
-// tenth of the time against that over the second tenth. A long run allows a hundredth; one of minutes, in
-// which buffers reach their size, most_growth_mib. Ticks' latencies and missed deadlines are printed tenth by
-// tenth, so that a trend shows, and judged by who reads them: they are the machine's.
+// Exits 0 if every bone is the server's at the end, the recording's too, if every session on the virtual
+// clock left the same bone, and if the server's memory has not grown: its median over the last tenth of the
+// time against that over the second tenth. A long run may grow by a hundredth; one of minutes, in which
+// buffers reach their size, by most_growth_mib. Ticks' latencies and missed deadlines are printed tenth by
+// tenth, so that a trend shows; the reader judges them, since they depend on the machine.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -149,7 +149,7 @@ class Soak {
         if (!metrics || !address) throw std::runtime_error("the server did not begin: " + server_->err());
         const auto port = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
         for (std::size_t i = 0; i < clients; ++i) stations_.push_back(std::make_unique<Station>(port));
-        // All have come once: what the server holds for eight clients does not count as growth.
+        // All clients have joined once: the server's memory for eight of them does not count as growth.
         if (!all_become(&Station::is_live, true)) print_stations("not all came");
         let_them_come_and_go(*metrics);
         print_ticks();

@@ -33,7 +33,7 @@ class ChildProcess {
     std::optional<std::string> line_after(const std::string& prefix,
                                           std::chrono::seconds deadline = far_too_long);
 
-    /// Takes over what it has written since; waits up to 0.1 s for more.
+    /// Reads its output since the last call; waits up to 0.1 s for more.
     void read_output() { pump(std::chrono::milliseconds(100)); }
 
     /// Waits for the end; the exit status, 128 + the signal that ended it, or nullopt at the deadline.

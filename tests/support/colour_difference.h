@@ -62,7 +62,7 @@ inline double ciede2000(const glm::dvec3& lab1, const glm::dvec3& lab2) {
                      rt * dc / sc * dhh / sh);
 }
 
-/// Columns of what a protanope, a deuteranope and a tritanope see of red, green and blue.
+/// Columns: red, green and blue as a protanope, a deuteranope and a tritanope see them.
 inline const std::array<glm::dmat3, 3> dichromats{
     glm::transpose(glm::dmat3(0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882,
                               -0.048116, 1.051998)),

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A document's lines, sorted by what they are.
+/// A document's lines, sorted by kind.
 struct Parts {
     std::vector<std::string> prose;
     std::vector<std::string> bash;

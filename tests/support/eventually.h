@@ -1,5 +1,5 @@
-// Waits for what another thread or process does: until it is so, or far too late. No test asks how long
-// something took: the machine may be busy with other things.
+// Waits for the work of another thread or process: until a condition holds, or it is far too late. No test
+// measures how long something took: the machine may be busy with other things.
 #pragma once
 
 #include <chrono>

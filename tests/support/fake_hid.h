@@ -1,4 +1,4 @@
-// USB HID without USB: devices that a test plugs in and out, and what passes between them and the driver. Any
+// USB HID without USB: devices that a test plugs in and out, and the reports between them and the driver. Any
 // thread.
 #pragma once
 
@@ -19,7 +19,8 @@ namespace osteomill::testing {
 
 using Report = std::vector<std::uint8_t>;
 
-/// One device: a queue of reports to the host, and what is done with a report from it (leading byte and all).
+/// One device: a queue of reports to the host, and a function for each report from it (including the leading
+/// byte).
 struct FakeHidDevice {
     HidDeviceInfo info{"/dev/hidraw0", 0x1234, 0x0006, 0xFFAB, 0x0200, "Fake arm"};
     bool is_permitted = true;

@@ -1,4 +1,4 @@
-// Stands between a client and a server, and may change what the server says or leave frames out.
+// Proxy between a client and a server, which may change or drop the server's frames.
 #pragma once
 
 #include <array>

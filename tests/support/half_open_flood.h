@@ -1,5 +1,4 @@
-// One who connects as fast as it is told to, says nothing, and hangs on: an attack on a server's places for
-// handshakes.
+// Attack on a server's places for handshakes: it connects at a given rate, sends nothing, and stays.
 #pragma once
 
 #include <arpa/inet.h>
@@ -30,8 +29,7 @@ class HalfOpenFlood {
     HalfOpenFlood(const HalfOpenFlood&) = delete;
     HalfOpenFlood& operator=(const HalfOpenFlood&) = delete;
 
-    /// So many connections were begun a second, since it began: fewer than was requested where the machine is
-    /// busy.
+    /// Connections begun a second, since the start: fewer than requested if the machine is busy.
     double rate_per_s() const {
         const std::chrono::duration<double> time = Clock::now() - began_;
         return static_cast<double>(begun_) / time.count();

@@ -1,6 +1,6 @@
 // Haply's service for tests: a WebSocket server that speaks its documented messages, and that can fall
-// silent, talk nonsense, lose its devices and be killed. One client at a time. Its Inverse3 does what it is
-// told and feels what it is sent.
+// silent, talk nonsense, lose its devices and be killed. One client at a time. Its Inverse3 follows commands
+// and feels the forces that it receives.
 #pragma once
 
 #include <sys/socket.h>

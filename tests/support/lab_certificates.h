@@ -53,7 +53,7 @@ class LabCertificates {
         sign_anew(files, "keyUsage=critical,digitalSignature", "-days 9");
         return files;
     }
-    /// The list of revoked certificates, with one more where a name is given.
+    /// The list of revoked certificates, with one more if a name is given.
     std::filesystem::path revoke(const std::string& name = "") const {
         make("revoke " + name);
         return folder_ / "crl.pem";

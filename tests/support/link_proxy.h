@@ -100,7 +100,7 @@ class LinkProxy {
         }
 
       private:
-        /// One end has hung up: the other is told when it has all that was said before.
+        /// One end has hung up: the other learns it once it has all earlier data.
         void end() {
             has_ended_ = true;
             if (waiting_.empty()) close();

@@ -15,7 +15,7 @@ class Lockstep {
     Lockstep(Coupling& coupling, Bone bone, const Burr& burr, int ticks_per_step)
         : coupling_(coupling), model_(std::move(bone), {burr}, {}), ticks_per_step_(ticks_per_step) {}
 
-    /// One haptic tick with the hand at `position_mm`; returns what the coupling says.
+    /// One haptic tick with the hand at `position_mm`; returns the coupling's result.
     CouplingOutput tick(const glm::dvec3& position_mm, bool spindle_on) {
         const HandState hand{.now_s = tick_s * static_cast<double>(++ticks_),
                              .tick_s = tick_s,

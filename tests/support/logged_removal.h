@@ -1,5 +1,5 @@
-// Log of a running server, as a test follows it: how often it has said something in its log, and the bone
-// that it removed.
+// Log of a running server, as a test follows it: the number of times that a line occurred, and the bone that
+// it removed.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ inline int count(const std::string& text, const std::string& words) {
     return found;
 }
 
-/// True as soon as it has said so as often as that; false after a time that only a defect can take.
+/// True as soon as the line has occurred so often; false after a time that only a defect can take.
 inline bool has_logged(ChildProcess& server, const std::string& words, int times = 1) {
     return eventually([&] {
         server.read_output();

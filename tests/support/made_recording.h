@@ -1,4 +1,4 @@
-// A recording made as a server makes one, of a bone that is carved at random, and what is known of it.
+// A recording made as by a server, of a bone that is carved at random, and its known contents.
 #pragma once
 
 #include <cstdint>
@@ -103,7 +103,7 @@ inline void join(const std::filesystem::path& first, const std::filesystem::path
     write_bytes(joined, bytes_of(first) + bytes_of(second).substr(file_header_bytes));
 }
 
-/// Changes a byte within the frame that is so many before the last.
+/// Changes a byte within the frame that lies so many frames before the last.
 inline void spoil(const std::filesystem::path& file, std::size_t before_last) {
     std::vector<std::uint64_t> frame_at;
     PacketReader packets(file);

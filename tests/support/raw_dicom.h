@@ -19,7 +19,7 @@ inline std::string dicom_tag(std::uint32_t group, std::uint32_t element) {
     return little(group, 2) + little(element, 2);
 }
 
-/// Explicit, little endian. `length` stands in for the value's where it is not that.
+/// Explicit, little endian. `length` replaces the value's own length, to make a wrong one.
 inline std::string dicom_element(std::uint32_t group, std::uint32_t element,
                                  const std::string& representation, std::string value,
                                  std::int64_t length = -1) {
@@ -77,9 +77,9 @@ struct RawSlice {
     std::uint32_t pixel_representation = 1;
     std::string position = "0\\0\\0";
     std::string spacing = "1\\1";
-    std::string frames{};  ///< Number of Frames, where not empty
+    std::string frames{};  ///< Number of Frames, if not empty
     std::string pixels = std::string(24, '\0');
-    std::int64_t pixel_bytes = -1;  ///< stated instead of the pixels' own, where not below 0
+    std::int64_t pixel_bytes = -1;  ///< stated instead of the pixels' own, if not below 0
     bool is_encapsulated = false;   ///< the pixels are one fragment
 };
 
@@ -133,7 +133,7 @@ struct SegFrame {
     unsigned bits;
 };
 
-/// A segmentation; `bits_of_pixel` is 1 or 8. `shared` is said of all frames, too.
+/// A segmentation; `bits_of_pixel` is 1 or 8. `shared` also applies to all frames.
 inline std::string raw_seg(const std::vector<SegFrame>& frames, const std::vector<std::string>& names,
                            std::uint32_t bits_of_pixel = 1, const std::string& shared = "") {
     const auto group = [](std::uint32_t element, const std::string& content) {

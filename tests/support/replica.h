@@ -37,7 +37,7 @@ class Replica {
     std::size_t checksums() const { return checksums_; }
     /// Changes that gave bone back.
     std::size_t restored_bricks() const { return restored_bricks_; }
-    /// Session events that it was told.
+    /// Session events that it received.
     std::size_t events() const { return events_; }
     bool has_goodbye() const { return has_goodbye_; }
 

@@ -19,7 +19,7 @@ BodyDepth plane(double lean_deg);
 BodyDepth plate(double lean_deg, double thickness_mm);
 /// Its axis leans so much.
 BodyDepth rod(double lean_deg, double diameter_mm);
-/// Bone where the other has none.
+/// Bone at places where the other has none.
 BodyDepth without(const BodyDepth& body);
 /// A skull's vault: its outer radius, and where on z its top lies.
 BodyDepth shell(double radius_mm, double thickness_mm, double apex_mm);

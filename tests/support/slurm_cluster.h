@@ -13,7 +13,7 @@ namespace osteomill::testing {
 
 class SlurmCluster {
   public:
-    /// Empty if it can be had; else what is missing.
+    /// Empty if a cluster can run; else the missing part.
     static std::string why_not();
 
     /// Starts the daemons in `folder`, which is there, and waits until the node takes work. Throws
@@ -23,8 +23,8 @@ class SlurmCluster {
     SlurmCluster(const SlurmCluster&) = delete;
     SlurmCluster& operator=(const SlurmCluster&) = delete;
 
-    /// sbatch with these variables ("OUT=x") and words; the job's number. Throws std::runtime_error with what
-    /// it says where it refuses.
+    /// sbatch with these variables ("OUT=x") and words; the job's number. Throws std::runtime_error with its
+    /// message if it refuses.
     std::string submit(const std::vector<std::string>& variables, const std::vector<std::string>& words) const;
     /// Tasks of a job that wait or run, such as "7_2"; none once it has ended.
     std::vector<std::string> tasks(const std::string& job) const;

@@ -1,6 +1,6 @@
-// Times at which a server's spindle turned, by the server's own session time, and what session time it was
-// when something happened outside. So a test of "off within so many milliseconds" asks nothing of the machine
-// that it runs on but that the server's own ticks come.
+// Times at which a server's spindle turned, by the server's own session time, and the session time of an
+// event outside. So a test of "off within so many milliseconds" needs only that the server's own ticks come,
+// however busy the machine is.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Runs the milling model through a steady motion of the reference and averages what it reports.
+// Runs the milling model through a steady motion of the reference and averages its results.
 #pragma once
 
 #include "studies/force/steady_run.h"

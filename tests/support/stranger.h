@@ -1,4 +1,4 @@
-// One who connects to a server's port and is no client of its: a scan, or a program that stands still.
+// A stranger that connects to a server's port: a scan, or a program that stands still.
 #pragma once
 
 #include <boost/asio/buffer.hpp>

@@ -20,11 +20,11 @@ struct SyntheticSlice {
     double slope = 1.0;
     double intercept = -1024.0;
     std::string series_uid = "1.2.826.0.1.3680043.2.1125.1";
-    std::vector<std::int16_t> stored{};  ///< pixels as stored; all 0 where empty
+    std::vector<std::int16_t> stored{};  ///< pixels as stored; all 0 if empty
     std::uint16_t samples_per_pixel = 1;
     bool with_pixel_data = true;
     bool with_pixel_spacing = true;
-    std::string frames{};  ///< Number of Frames, where not empty
+    std::string frames{};  ///< Number of Frames, if not empty
 };
 
 void write_slice(const std::filesystem::path& file, const SyntheticSlice& slice);

@@ -1,4 +1,4 @@
-// A tracker for tests: the library's own server socket, which sends what it is told to whoever connects.
+// A tracker for tests: the library's own server socket, which sends a test's messages to every client.
 #pragma once
 
 #include <openigtlink/igtlServerSocket.h>

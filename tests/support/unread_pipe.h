@@ -16,7 +16,7 @@ namespace osteomill::testing {
 
 class UnreadPipe {
   public:
-    /// Who writes to it when it has gone is to be told so, as in the programs, and not killed.
+    /// Writing to it after its end gives an error, as in the programs, and does not kill.
     UnreadPipe() {
         std::signal(SIGPIPE, SIG_IGN);
         if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
@@ -42,7 +42,7 @@ class UnreadPipe {
 
     /// Until not a byte more fits.
     void fill() const {
-        // Opened anew: the writer itself is to go on waiting where it must.
+        // Opened anew: the writer's own descriptor stays blocking.
         const std::string same = "/proc/self/fd/" + std::to_string(writer());
         const int impatient = ::open(same.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
         const std::array<char, 4096> nothing{};

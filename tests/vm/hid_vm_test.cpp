@@ -64,8 +64,8 @@ const Tick& at(const std::vector<Tick>& ticks, double time_s) {
     return next == ticks.end() ? ticks.back() : *next;
 }
 
-/// Between two paths at the same times. Friction holds a hand and lets go of it: when it does is not the same
-/// twice, so that the largest distance tells of a moment only.
+/// Distance between two paths at the same times. The time at which friction holds a hand or lets go of it
+/// varies, so the largest distance describes a moment only.
 double rms_distance_mm(const std::vector<Tick>& path, const std::vector<Tick>& other) {
     double sum_mm2 = 0.0;
     for (const Tick& tick : path) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Boots a Debian kernel in QEMU without KVM, runs a script in it, and brings back what it left.
+# Boots a Debian kernel in QEMU without KVM, runs a script in it, and brings back its files.
 #
 #     run_in_vm.sh KERNEL_FOLDER WORK_FOLDER PROGRAM...
 #
@@ -7,7 +7,7 @@
 # among copies of all the files there; its files in /trial/out come back in WORK_FOLDER/out, its output in WORK_FOLDER/console.
 # PROGRAMs are copied to /bin with the libraries they need. The machine's clock counts instructions (-icount): however busy the
 # host is, time inside is what a machine of a fixed speed would see. Without random instructions, random addresses and another date
-# each time, programs there do for seconds what they did the last time.
+# each time, programs there behave for seconds as they did the last time.
 set -euo pipefail
 
 kernel=$1

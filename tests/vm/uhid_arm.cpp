@@ -7,7 +7,7 @@
 // trajectory, whose start is the scene's start pose. EVENTS is a list like garbage@5.0-5.1,unplug@6.5-7.2 in
 // trajectory time: garbage sends short reports and nonsense; unplug pulls the cable, and when the arm is
 // plugged in again its counters have forgotten and it is calibrated where the hand then is. LOG.csv: a line a
-// millisecond with what the arm really did. Ends when it is told to (SIGTERM).
+// millisecond with the arm's true motion. Ends on SIGTERM.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/uhid.h>
@@ -184,7 +184,7 @@ class Session {
         }
     }
 
-    /// Takes what comes, and answers nothing before: a report a millisecond, as USB has it.
+    /// Reads each request before it answers: a report a millisecond, as USB has it.
     void listen_until(double until_s) {
         do {
             cable_.listen(until_s, [this](auto report) {

@@ -1,4 +1,4 @@
-// The wait for an arm that is not there yet, with messages about what is missing.
+// The wait for an arm that is not there yet, with messages about the missing parts.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace osteomill {
 
-/// Passes on what the arm says meanwhile. False: a stop came first.
+/// Passes on the arm's messages meanwhile. False: a stop came first.
 template <typename Arm>
 bool has_come(Arm& arm, const DeviceContext& context) {
     std::string said;

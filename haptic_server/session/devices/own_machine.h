@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// Throws std::invalid_argument, naming the option, with what to do instead. `usual`: the server's port.
+/// Throws std::invalid_argument, naming the option and the alternative. `usual`: the server's port.
 inline void require_own_machine(const char* option, const char* why, const ListenAddress& server, int usual) {
     if (server.port == 0)
         throw std::invalid_argument(fmt::format("{}: port 0 is nowhere; {} is usual", option, usual));

@@ -1,13 +1,13 @@
-"""What an arm makes of the force: its encoder's steps, the coupling's spring, and speed and grip of the published slide.
+"""Effects of an arm on the force: its encoder's steps, the coupling's spring, and speed and grip of the published slide.
 
 - Encoders: the tooth scene, drilled by a firm hand with arms that differ in their encoder's step alone. Noise: rms of the
   force above 5 Hz, over the ticks with a force. A jump: more than 0.03 N between two ticks.
 - Response: a hand on rails whose feed swings, through a slot; the force on it over that on a burr that is rigidly the hand.
-- Springs: each shipped arm with softer and stiffer springs, and with that which it gets: up to which frequency 0.71 of the
-  force is passed, and the noise in the tooth scene.
-- Slide: the published experiment in strokes of 8 mm, by spindle speed and grip: the limit cycle of the force on the hand,
-  which nine tenths of half-second windows stay below, of what is left of the force beside its mean over 0.1 s; with the
-  arm as it is, and without friction and encoder steps, which hide limit cycles.
+- Springs: each shipped arm with its own spring and with softer and stiffer ones: the frequency up to which 0.71 of the force is
+  passed, and the noise in the tooth scene.
+- Slide: the published experiment in strokes of 8 mm, by spindle speed and grip: the limit cycle of the force on the hand. It is
+  the rms, below which nine tenths of half-second windows stay, of the force less its mean over 0.1 s; with the arm as it is, and
+  without friction and encoder steps, which hide limit cycles.
 """
 
 import argparse
@@ -29,7 +29,7 @@ LEAST_NOISE_HZ, LEAST_FORCE_N, FELT_JUMP_N = 5.0, 0.005, 0.03
 HALF_POWER = 0.71
 STEPS_MM = (0.0, 0.003, 0.006, 0.0125, 0.025, 0.055, 0.1)
 FREQUENCIES_HZ = (0.3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 30.0)
-# What the simulated arm can render, and what softer and stiffer ones would make of it.
+# Springs that the simulated arm can render, and softer and stiffer ones.
 RESPONSES = (("implicit", 0.5), ("implicit", 1.5), ("implicit", 5.0), ("implicit", 15.0), ("sample-estimate-hold", 1.5),
              ("interpolate", 1.5))
 SPRINGS_N_PER_MM = (0.5, 1.0, 1.5, 2.0, 3.0, 4.5)
@@ -37,7 +37,7 @@ UNSPRUNG = ("interpolate", "sample-estimate-interpolate")  # the published ones,
 # kg, N/mm, N s/mm: the simulator's two hands, one between them, one twice as stiff and heavy as the firm.
 GRIPS = {"light": (0.1, 0.1, 0.002), "medium": (0.3, 0.2, 0.0035), "firm": (0.5, 0.3, 0.005), "braced": (1.0, 0.6, 0.01)}
 SLIDE_RPM = (10_000.0, 20_000.0, 40_000.0, 80_000.0, 160_000.0, 320_000.0)
-# As named in the chart: coupling and milling rate.
+# Coupling and milling rate by name in the chart.
 SLIDE_WAYS = {"interpolate, 100 Hz (as published)": ("interpolate", 100.0),
               "sample-estimate-hold, 100 Hz": ("sample-estimate-hold", 100.0), "implicit, 1 kHz (default)": ("implicit", 1000.0)}
 WINDOW_S, SLOW_PART_S, CHATTER_N = 0.5, 0.1, 0.2
@@ -100,14 +100,14 @@ def _slide(case: dict[str, Any]) -> dict[str, float]:
 
 
 def noise_of(force_n: Forces) -> dict[str, float]:
-    """Without a force all 0."""
+    """Noise of a force; all 0 without a force."""
     from scipy import signal
 
     jumps_n = np.linalg.norm(np.diff(force_n, axis=0), axis=1)
     felt = np.linalg.norm(force_n, axis=1) >= LEAST_FORCE_N
     if not felt.any():
         return {"mean_force_n": 0.0, "noise_n": 0.0, "largest_jump_n": float(jumps_n.max(initial=0.0)), "jumps_per_s": 0.0}
-    # As if what came before the first value had been the same.
+    # The filter starts as if all values before the first had been equal to it.
     high_pass = signal.butter(2, LEAST_NOISE_HZ, "highpass", fs=1.0 / TICK_S, output="sos")
     before = signal.sosfilt_zi(high_pass)[:, :, None] * force_n[0]
     above_n, _ = signal.sosfilt(high_pass, force_n, axis=0, zi=before)
@@ -143,7 +143,7 @@ def _name_of(case: dict[str, Any]) -> str:
 
 
 def tables_of(choices: list[dict[str, Any]], outcomes: list[dict[str, float]]) -> dict[str, pd.DataFrame]:
-    """By name, each of NAME.csv."""
+    """Tables by name, each of NAME.csv."""
     def of(part: str) -> pd.DataFrame:
         return pd.DataFrame([{key: value for key, value in case.items() if key not in ("part", "longest_s")} | found
                              for case, found in zip(choices, outcomes) if case["part"] == part])

@@ -1,7 +1,7 @@
-"""The way to an arm in another process and back, beside a bare echo of the same size: over a Unix socket, over UDP within
-this machine, and between two network namespaces, each with the bridge's key and some without.
+"""Round trips to an arm in another process, beside a bare echo of the same size: over a Unix socket, over UDP within this
+machine, and between two network namespaces, each with the bridge's key and some without.
 
-A thousand of each a second, in turns, so that what else the machine does falls on both. Namespaces, which only root may
+A thousand of each a second, in turns, so that the machine's other work affects both. Namespaces, which only root may
 make, are left out with a line that says so.
 """
 

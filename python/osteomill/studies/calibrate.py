@@ -1,7 +1,7 @@
-"""The six coefficients of the milling law from runs on a dynamometer, or which runs a lab should make.
+"""The six coefficients of the milling law from runs on a dynamometer, or a choice of the runs that a lab should make.
 
-The runs of each material are fitted by themselves (calibration/fit.py). `--design` reads none, but chooses those that
-tell most (calibration/design.py). What the lab does in between: docs/calibration.md.
+The runs of each material are fitted by themselves (calibration/fit.py). `--design` reads none, but chooses the most informative
+ones (calibration/design.py). docs/calibration.md has the lab's work in between.
 """
 
 import argparse
@@ -23,7 +23,7 @@ from osteomill.studies.study_run import StudyRun
 
 WRITES = ("calibration.json", "calibration_*.svg", "residuals.csv", "runs.csv", "scene.toml")
 
-#: Lists of --design: each name, its bounds, what it is.
+#: 
 LISTS = {
     "diameters_mm": (0.2, 20.0, "burrs at hand"),
     "feeds_mm_per_s": (0.001, 1000.0, "feeds that can be set"),
@@ -69,7 +69,7 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
 
 
 def calibrate(options: argparse.Namespace, study: StudyRun) -> None:
-    """Fits each material of the table, in the order in which it names them."""
+    """Fits each material of the table, in the table's order."""
     tables = [table for _, table in read_runs(options.data).groupby("material", sort=False)]
     how = {"data": str(options.data), "drift": options.drift, "is_robust": options.robust}
     outcomes = study.sweep(
@@ -103,7 +103,7 @@ def fit_material(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def choose_runs(options: argparse.Namespace, study: StudyRun) -> None:
-    """Writes a table to fill in, and says how it compares with the obvious choice."""
+    """Writes a table to fill in, and compares it with the obvious choice."""
     case = {name: getattr(options, name) for name in OF_DESIGN}
     [chosen] = study.sweep(designed, [case], name=lambda case: "design")
     study.text("design.csv", chosen["table"])

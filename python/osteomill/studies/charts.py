@@ -14,7 +14,7 @@ import pathlib
 import re
 from typing import Any
 
-logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of its caches
+logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it prints lines about its caches
 
 import matplotlib  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
@@ -28,19 +28,19 @@ matplotlib.rcParams.update(matplotlib.rc_params_from_file(
 
 
 def figure(width_in: float = 10.0, height_in: float = 6.8, **settings: Any) -> Figure:
-    """An empty one, which belongs to no window; `settings` of matplotlib's."""
+    """An empty figure, which belongs to no window; `settings` of matplotlib's."""
     return Figure(figsize=(width_in, height_in), **settings)
 
 
 def svg_of(figure: Figure) -> str:
-    """The same text for the same figure, whenever it is drawn."""
+    """The figure as SVG: the same text for the same figure, at any time."""
     drawn = io.StringIO()
     figure.savefig(drawn, format="svg", metadata={"Date": None, "Creator": "osteomill_study"})
     return drawn.getvalue()
 
 
 def inline_svg(svg: str) -> str:
-    """The element alone, for a page that holds several: without names that would be there twice."""
+    """The element alone, for a page that holds several: without names that would occur twice."""
     element = svg[svg.index("<svg") :]
     element = re.sub(r"<metadata>.*?</metadata>", "", element, flags=re.DOTALL)
     return re.sub(r'(<g) id="[^"]*"', r"\1", element)

@@ -1,7 +1,8 @@
-"""No more than a scene needs: the cheapest settings with which a case is felt and seen truly enough, on this machine.
+"""Choice of no more than a scene needs: the cheapest settings with which force and picture of a case are true enough, on this
+machine.
 
-Each part says in its own file what it measures and what counts: choose_milling.py, choose_picture.py. `scene.toml` is the
-case's scene behind a block that says the settings, as the programs' options, and what the next cheaper one would lose.
+choose_milling.py and choose_picture.py each say what they measure and what counts. `scene.toml` is the case's scene behind a
+block with the settings, as the programs' options, and the loss by the next cheaper one.
 """
 
 import argparse
@@ -39,7 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 @functools.lru_cache(1)
 def _case(name: str) -> Case:
-    """A folder by its whole path, so that the scene that is written finds its files from everywhere."""
+    """A folder by its whole path, so that the written scene finds its files from everywhere."""
     return Case(os.path.abspath(name) if os.path.isdir(name) else name)
 
 

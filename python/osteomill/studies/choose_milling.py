@@ -1,16 +1,16 @@
-"""The cheapest voxel size, milling rate, force model and coupling with which a case is felt truly enough.
+"""The cheapest voxel size, milling rate, force model and coupling with which a case's force is true enough.
 
-Force: each burr of the case is run through the five motions of studied_motions.py, of the law that the case gives it. The
-error is that of the mean force against the analytical reference, the peak error the largest ripple of means over 10 ms;
-the burr that fares worst counts. Coupling: the case's own simulated hand, light and firm, mills for some seconds of
-session time. Its mean force, and its largest mean over 10 ms, may differ from those of the same hand with the default
-coupling, model and rate by no more than the errors that are wanted, and the safety monitor must not let go.
+Force: each burr of the case is run through the five motions of studied_motions.py, by the law that the case gives it. The error
+is that of the mean force against the analytical reference, the peak error the largest ripple of means over 10 ms; the burr that
+fares worst counts. Coupling: the case's own simulated hand, light and firm, mills for some seconds of session time. Its mean
+force, and its largest mean over 10 ms, may differ from those of the same hand with the default coupling, model and rate by no
+more than the allowed errors, and the safety monitor must not switch the force off.
 
 The cost is a share of a core: a milling step of the case's largest burr as often as the rate says, and a thousand haptic
 ticks. A coupling that solves with the bone needs its map at each step, which is part of the cost.
 
-All pairs of a way to mill and a coupling are gone through from the cheapest on, and the first that holds is it. An error is
-worked out when it is asked for and once.
+All pairs of a way to mill and a coupling are tried, from the cheapest on, and the first that holds is chosen. An error is
+computed on the first request, and once.
 """
 
 import dataclasses
@@ -28,7 +28,7 @@ from osteomill.studies.studied_motions import LATTICE_SHIFTS, StudiedMotion, err
 TICKS_HZ = 1000.0
 DEFAULT_COUPLING, DEFAULT_MODEL, DEFAULT_RATE_HZ = "implicit", "milling", 1000.0
 SOLVED_WITH_BONE = ("implicit", "virtual-coupling")
-# By the name of haptic_server's --force-model; without the edges: the burr has those of chips alone.
+# Force models by haptic_server's --force-model; without edges the burr has the coefficients of chips alone.
 MODELS: dict[str, dict[str, Any]] = {
     "milling": {},
     "milling-partial": {"coverage": "linear"},
@@ -42,7 +42,7 @@ QUICK_VOXELS_MM, QUICK_RATES_HZ, QUICK_COUPLINGS = (0.3, 0.2, 0.1), (100.0, 1000
 
 @dataclasses.dataclass(frozen=True)
 class Way:
-    """To mill, and to hand the force on."""
+    """A way to mill and to pass the force on."""
 
     voxel_mm: float
     milling_rate_hz: float
@@ -55,7 +55,7 @@ class Way:
 
 @dataclasses.dataclass(frozen=True)
 class Errors:
-    """In percent; infinite where the safety monitor let go."""
+    """In percent; infinite if the safety monitor switched the force off."""
 
     error_percent: float
     peak_percent: float
@@ -76,7 +76,7 @@ def ways(quick: bool) -> list[Way]:
 
 
 class Measured:
-    """What ways of milling a case cost and how they err, each measured when it is first asked for."""
+    """Costs and errors of the ways of milling a case, each measured on its first request."""
 
     def __init__(self, case: Case, quick: bool) -> None:
         self.case = case
@@ -93,12 +93,12 @@ class Measured:
         self._run = functools.cache(self._mean_and_peak_n)
 
     def core_percent(self, way: Way) -> float:
-        """Of one core."""
+        """Cost in percent of one core."""
         step_us = self.step_us(way.voxel_mm, way.milling_rate_hz, way.force_model, way.coupling in SOLVED_WITH_BONE)
         return 1e-4 * (way.milling_rate_hz * step_us + TICKS_HZ * self.tick_us(way.coupling))
 
     def errors(self, way: Way, wanted: Errors | None = None) -> Errors:
-        """Of the force, and where that is within what is wanted of the coupling as well."""
+        """Errors of the force, and, if these are within the wanted ones, of the coupling as well."""
         force = self.force_errors(way.voxel_mm, way.milling_rate_hz, way.force_model)
         if wanted is not None and not force.is_within(wanted):
             return force
@@ -141,7 +141,7 @@ class Measured:
         return worst
 
     def _mean_and_peak_n(self, hand: str, rate_hz: float, model: str, coupling: str) -> tuple[Any, float]:
-        """Of the force on the hand; the peak infinite where the monitor let go."""
+        """Mean and peak of the force on the hand; the peak is infinite if the monitor switched the force off."""
         names: dict[str, Any] = {"hand": hand, "coupling": coupling, "force_model": model}
         with Session(self.case, milling_rate_hz=rate_hz, **names) as session:
             ran = session.run(3000 if self.quick else 8000)
@@ -157,7 +157,7 @@ def _milling(model: str) -> _studies.Milling:
 
 
 def _felt_by(model: str, burr: Burr) -> Burr | None:
-    """The burr whose force a model computes, where it is not the burr's own."""
+    """The burr for which a model computes the force, if it is not the burr's own."""
     return _studies.chips_alone(burr) if model == "published" else None
 
 
@@ -172,7 +172,7 @@ class Choice:
 
 
 def cheapest(candidates: Iterable[Way], cost: Callable[[Way], float], errors: Callable[[Way], Errors], wanted: Errors) -> Choice:
-    """The first in the order of cost whose errors are within what is wanted."""
+    """The first in the order of cost whose errors are within the wanted ones."""
     by_cost = sorted(candidates, key=lambda way: (cost(way), dataclasses.astuple(way)))
     found: dict[Way, Errors] = {}
     chosen = None

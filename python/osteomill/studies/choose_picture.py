@@ -1,8 +1,8 @@
-"""The truest way to draw a case's bone within a frame's time, full size: what render_client can be told.
+"""The truest way to draw a case's bone within a frame's time, full size: settings of render_client.
 
-A way is tried in the overview and from near; its slower frame and its falser picture count (tradeoff_picture.py says how
-they are measured). Where none is fast enough in full, the picture is drawn at a lower resolution, as render_client does by
-itself while something moves; the window in which every pixel is drawn in time is so much smaller.
+A way is tried in the overview and from near; its slower frame and its less accurate picture count (tradeoff_picture.py says how
+they are measured). If none is fast enough in full, the picture is drawn at a lower resolution, as render_client does by itself
+while something moves; the window in which every pixel is drawn in time is smaller by as much.
 """
 
 import dataclasses
@@ -23,7 +23,7 @@ class Drawing:
     divisor: int
 
     def options(self, size_px: tuple[int, int]) -> list[str]:
-        """Of render_client, with the window in which every pixel is drawn in time."""
+        """Options of render_client, with the window in which every pixel is drawn in time."""
         width_px, height_px = (edge // self.divisor for edge in size_px)
         return ["--renderer", self.renderer, "--shading", self.shading, "--window-size", f"{width_px}x{height_px}"]
 
@@ -53,7 +53,7 @@ def size_px(quick: bool) -> tuple[int, int]:
 
 
 def measure(case: Case, quick: bool) -> dict[Drawing, Drawn]:
-    """Of each drawing. One trial at a time: a bone may fill a graphics card."""
+    """Measurement of each drawing. One trial at a time: a bone may fill a graphics card."""
     found: dict[Drawing, Drawn] = {}
     for shading in ("gradient", "surface-voxels"):
         for view in QUICK_VIEWS if quick else VIEWS:
@@ -75,7 +75,8 @@ def _worse(one: Drawn | None, other: Drawn) -> Drawn:
 
 
 def truest(found: dict[Drawing, Drawn], frame_ms: float) -> PictureChoice:
-    """Of those within the time; surface voxels are another look, taken only where light in every pixel is too slow."""
+    """The truest drawing within the time; surface voxels look different, and are chosen only if light in every pixel is too
+    slow."""
     by_worth = sorted(found, key=functools.partial(_worth, found))
     in_time = [drawing for drawing in by_worth if found[drawing].frame_ms <= frame_ms]
     chosen = in_time[0] if in_time else min(found, key=lambda drawing: found[drawing].frame_ms)

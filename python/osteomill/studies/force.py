@@ -1,8 +1,8 @@
 """The milling force: the voxel model against the analytical reference.
 
 Without options the whole study: random motions, curves over depth, feed and spindle speed, convergence with the size
-of voxels, the older contact models, what a step costs and what a bone weighs, edges and speeds. Or random motions alone, or those of a
-file.
+of voxels, the older contact models, the cost of a step and the memory of a bone, edges and speeds. Or random motions alone, or
+those of a file.
 """
 
 import argparse
@@ -115,8 +115,8 @@ def _run_file(options: argparse.Namespace, study: StudyRun) -> None:
 
 
 def report_of_case(case: dict[str, Any]) -> dict[str, Any]:
-    """The voxel model beside the reference and beside what the file says. An error against a force of zero that is not
-    met is null."""
+    """The voxel model beside the reference and beside the file's values. An error against a force of zero is null, unless it is
+    met."""
     motion = _studies.steady_cases(pathlib.Path(case["file"]))[case["index"]]
     path = {key: case[key] for key in ("voxel_mm", "milling_rate_hz", "travel_mm")}
     reference_n, reference_removal = motion.reference()

@@ -1,7 +1,7 @@
-"""What the force depends on, and what it costs: curves beside the reference, the older contact models, convergence
-with the size of voxels, cost against burr, bone and spindle, memory.
+"""Curves of the force and of its cost: beside the reference, the older contact models, convergence with the size of voxels, cost
+against burr, bone and spindle, memory.
 
-Each kind has its cases, what is measured of one, and its table.
+Each kind has its cases, its measurement of one, and its table.
 """
 
 import time
@@ -28,7 +28,7 @@ def burr_of(diameter_mm: float = 5.0, rpm: float = 10_000.0) -> Burr:
     return Burr(diameter_mm=diameter_mm, rpm=rpm, clockwise=False)
 
 
-# Force against depth, feed and spindle speed: an upright 5 mm burr, 1 mm deep at 6 mm/s and 10 000 rpm but for one.
+# Force against depth, feed and spindle speed: an upright 5 mm burr, 1 mm deep at 6 mm/s and 10 000 rpm, with one of these varied.
 
 
 def curve_cases(quick: bool) -> list[dict[str, Any]]:
@@ -76,8 +76,8 @@ def contact_table(cases: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -
     return pd.DataFrame([{"depth_mm": case["depth_mm"]} | found for case, found in zip(cases, outcomes)])
 
 
-# Error against the size of voxels. They divide the 0.8 mm of the layer of "two layers": this is about how voxels are
-# cut, not about where a voxel's one stiffness puts the border of a layer.
+# Error against the size of voxels. They divide the 0.8 mm of the layer of "two layers": the study is about the cut of voxels, not
+# about the border of a layer within a voxel of one stiffness.
 
 CONVERGING = {"smoothed": "smoothed", "in_part": "linear", "there_or_gone": "binary"}
 
@@ -104,8 +104,8 @@ def measure_convergence(case: dict[str, Any]) -> dict[str, float]:
 
 
 def convergence_table(cases: list[dict[str, Any]], outcomes: list[dict[str, float]]) -> pd.DataFrame:
-    """With the power law that fits each: a line through the logarithms, whose slope is 1 where the error is
-    proportional to the size."""
+    """A table with the power law that fits each: a line through the logarithms, whose slope is 1 if the error is proportional to
+    the size."""
     table = pd.DataFrame([{"voxel_mm": case["voxel_mm"]} | found for case, found in zip(cases, outcomes)])
     for name in CONVERGING:
         slope, at_one = np.polyfit(np.log(table["voxel_mm"]), np.log(table[f"{name}_error_percent"]), 1)
@@ -148,7 +148,7 @@ def scaling_table(cases: list[dict[str, Any]], outcomes: list[dict[str, float]])
     return pd.DataFrame([{case["varied"]: case["at"]} | found for case, found in zip(cases, outcomes)])
 
 
-# Memory of a bone, and how long it takes until it can be milled: it must follow the bone, not the box around it.
+# Memory of a bone, and the time until it can be milled: both must grow with the bone, not with the box around it.
 
 CUBES_VOXELS = (32, 64, 128, 256, 512)
 BOXES_VOXELS = (128, 256, 512, 1024)

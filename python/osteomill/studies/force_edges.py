@@ -1,4 +1,4 @@
-"""How the force of a slot depends on the number of the burr's edges and on the speed of its spindle.
+"""Dependence of a slot's force on the number of the burr's edges and on the speed of its spindle.
 
 A 5 mm burr, 6 mm/s, 1 mm deep. By edges: at 2500 rpm, so that a tooth period is long beside the 0.1 ms of a step, and
 within it (milling-instants). The mean is of the vector over whole revolutions, the peak the 99th percentile of the

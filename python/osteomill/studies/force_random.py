@@ -1,5 +1,5 @@
-"""Steady motions drawn at random, and the accuracy of the voxel model over them: the check of what the documents
-promise, on motions that nothing was tuned to.
+"""Steady motions drawn at random, and the accuracy of the voxel model over them: the check of the documents' promise, on
+motions to which nothing was tuned.
 
 A motion is of a burr of 1 to 5 mm, 4 to 12 edges, either sense of rotation, 5 000 to 80 000 rpm, its spindle leaning
 by up to 70 degrees, at 0.2 to 60 mm/s, one voxel to the equator deep, over a surface that lies anyhow. One in three
@@ -61,7 +61,7 @@ def table_of(cases: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> pd.
 
 
 def summary_of(drawn: Drawn, table: pd.DataFrame, outcomes: list[dict[str, Any]]) -> dict[str, Any]:
-    """Of all; of motions along the surface alone what a dive has not."""
+    """Summary of all; values that a dive does not have are of motions along the surface alone."""
     along = table[~table["dives"]]
     windows = [100.0 * share for found, dives in zip(outcomes, table["dives"]) if not dives for share in found["deviations"]]
     brisk = along[along["feed_mm_per_s"] >= 5.0]
@@ -87,7 +87,7 @@ def summary_of(drawn: Drawn, table: pd.DataFrame, outcomes: list[dict[str, Any]]
 
 
 def percentile(values: Any, share: float) -> float:
-    """0 where there are no values."""
+    """0 if there are no values."""
     return float(np.percentile(values, share)) if len(values) else 0.0
 
 

@@ -1,4 +1,4 @@
-"""A run of a milling model, step by step, and the few numbers that say how good it was."""
+"""A run of a milling model, step by step, and the few numbers that describe its quality."""
 
 import dataclasses
 import math
@@ -25,8 +25,8 @@ class ForceSeries:
         return float(self.removed_mm3.sum() / (self.step_s * len(self.removed_mm3)))
 
     def deviations(self, window_s: float = 0.01) -> Array:
-        """|F - mean| over |mean|, F being the mean force of each whole `window_s` (of each step where a step is
-        longer): what a hand that follows no faster than that feels. None for a mean of zero."""
+        """|F - mean| over |mean|, F being the mean force of each whole `window_s` (of each step if a step is
+        longer): the ripple for a hand that follows no faster than that. None for a mean of zero."""
         mean = self.mean_force_n()
         if not mean.any():
             return np.zeros(0)
@@ -47,7 +47,7 @@ class ForceSeries:
 
 
 def relative_error(value: Array | float, reference: Array | float) -> float:
-    """|value - reference| / |reference|; infinite where only the reference is zero, 0 where both are."""
+    """|value - reference| / |reference|; infinite if only the reference is zero, 0 if both are."""
     difference = float(np.linalg.norm(np.subtract(value, reference)))
     norm = float(np.linalg.norm(reference))
     if norm > 0.0:

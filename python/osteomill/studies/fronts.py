@@ -4,7 +4,8 @@ from collections.abc import Iterable
 
 
 def on_front(cost: Iterable[float], error: Iterable[float]) -> list[bool]:
-    """Of each, whether no other is at most as dear and as wrong, and one of both less."""
+    """Whether each is on the front: no other is at most as costly and as wrong, and less so in one of
+    both."""
     points = list(zip(cost, error))
     return [not any(c <= cost_of and e <= error_of and (c, e) != (cost_of, error_of) for c, e in points)
             for cost_of, error_of in points]

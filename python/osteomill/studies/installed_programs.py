@@ -14,7 +14,7 @@ from osteomill.studies.text import printable
 
 
 def own_program(name: str) -> pathlib.Path:
-    """Of the build or the installation that this package is of. RuntimeError where it is not there."""
+    """A program of the same build or installation as this package. RuntimeError if it does not exist."""
     package = pathlib.Path(_studies.__file__).resolve().parent
     # BUILD/python/osteomill and BUILD/bin; PREFIX/lib/python3/dist-packages/osteomill and PREFIX/bin
     folders = [package.parents[1] / "bin", *(parent / "bin" for parent in package.parents[3:4])]
@@ -27,7 +27,7 @@ def own_program(name: str) -> pathlib.Path:
 
 
 class ChildProgram:
-    """Runs, and what it says on both of its streams can be read; it ends with the block.
+    """A running program, whose output on both streams can be read; it ends with the block.
 
     with ChildProgram([program, "--quiet"]) as child:
         child.wait(60.0, lambda: "ready" in child.output())
@@ -59,17 +59,17 @@ class ChildProgram:
         return self._process.poll() is None
 
     def output(self) -> str:
-        said = self._said.fileno()  # whose place the program writes at, so that it must not be moved
+        said = self._said.fileno()  # the program writes at its position, so that it must not be moved
         return os.pread(said, os.fstat(said).st_size, 0).decode("utf-8", "backslashreplace")
 
     def wait(self, longest_s: float, is_done: Callable[[], bool] = lambda: False) -> None:
-        """Until `is_done` or its end, asked every 20 ms; or for so long."""
+        """Waits until `is_done` or the program's end, checked every 20 ms; at most for so long."""
         give_up = time.monotonic() + longest_s
         while time.monotonic() < give_up and not is_done() and self.is_running():
             time.sleep(0.02)
 
     def require_success(self) -> None:
-        """RuntimeError with the last line that it said, where it has not ended well."""
+        """RuntimeError with its last line of output, if it has not ended well."""
         if self._process.poll() != 0:
             said = [line for line in self.output().splitlines() if line.strip()]
             raise RuntimeError(f"{self._name} failed: {printable(said[-1]) if said else 'it says nothing'}")

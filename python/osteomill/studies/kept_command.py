@@ -1,4 +1,4 @@
-"""The command that a file of a study keeps, of a manifest or of cases: data of which a command line is made."""
+"""The command in a study's manifest or file of cases: data from which a command line is made."""
 
 import hashlib
 import os
@@ -12,13 +12,13 @@ from osteomill.part_files import JoinedParts
 from osteomill.studies.options import Parser, UsageError
 from osteomill.studies.text import one_line
 
-# Where it writes and how it is run, which no file says.
+# Options of output and of execution, which no file keeps.
 HOW = ("--out", "--jobs", "--shard", "--merge")
 NOT_KEPT = (*HOW, "--database", "--help")
 
 
 def words_of_study(words: Iterable[str]) -> list[str]:
-    """Those that say what is run."""
+    """The words that determine what is run."""
     kept: list[str] = []
     skips_value = False
     for word in words:
@@ -33,7 +33,7 @@ def words_of_study(words: Iterable[str]) -> list[str]:
 
 
 def require_study_words(words: Any, study: str, parser: Parser, file: pathlib.Path) -> list[str]:
-    """The words, where they are `study` and options of it that say what is run. RuntimeError in one line."""
+    """The words, if they are `study` and options of it that determine what is run; else RuntimeError in one line."""
 
     def fail(why: str) -> RuntimeError:
         shown = " ".join(map(str, words)) if isinstance(words, list) else str(words)
@@ -55,7 +55,7 @@ def require_study_words(words: Any, study: str, parser: Parser, file: pathlib.Pa
 
 
 def joined_parts(places: list[str]) -> JoinedParts:
-    """Of files of cases and folders that hold them (cases-*.jsonl), all of this build of the program."""
+    """Parts from files of cases and folders that hold them (cases-*.jsonl), all of this build of the program."""
     files: list[pathlib.Path] = []
     for place in map(pathlib.Path, places):
         if place.is_dir():
@@ -72,7 +72,7 @@ def joined_parts(places: list[str]) -> JoinedParts:
 
 
 def program_fingerprint() -> str:
-    """Of the package, its compiled modules as well: changes with each build of it."""
+    """Fingerprint of the package with its compiled modules: it changes with each build."""
     package = pathlib.Path(_studies.__file__).parent
     files = [pathlib.Path(folder, name) for folder, _, names in os.walk(package, followlinks=True) for name in names]
     digest = hashlib.sha256()

@@ -10,7 +10,7 @@ Counts = list[tuple[float, int]]
 
 
 class Latencies:
-    """`count` of them lasted up to an edge in microseconds, and longer than the next smaller edge."""
+    """`count` latencies were up to an edge in microseconds, and longer than the next smaller edge."""
 
     def __init__(self, counts: Iterable[tuple[float, int]] = ()) -> None:
         self._by_edge_us: dict[float, int] = {}
@@ -28,11 +28,11 @@ class Latencies:
         return sum(self._by_edge_us.values())
 
     def max_us(self) -> float:
-        """0 where there are none."""
+        """0 if there are none."""
         return max(self._by_edge_us, default=0.0)
 
     def quantile_us(self, share: float) -> float:
-        """The edge that a share (0 to 1) of them do not exceed; 0 where there are none."""
+        """The edge that a share (0 to 1) of them do not exceed; 0 if there are none."""
         wanted = math.ceil(min(max(share, 0.0), 1.0) * self.count())
         seen = 0
         for up_to_us, count in self.counts():
@@ -42,7 +42,7 @@ class Latencies:
         return self.max_us()
 
     def over(self, limit_us: float) -> int:
-        """Those of edges above it."""
+        """Number of latencies with edges above the limit."""
         return sum(count for up_to_us, count in self._by_edge_us.items() if up_to_us > limit_us)
 
     def summary(self) -> dict[str, Any]:
@@ -51,8 +51,7 @@ class Latencies:
                 "max": self.max_us(), "over_1_ms": self.over(1000.0)}
 
     def bins(self) -> list[dict[str, float]]:
-        """In bins of a sixth of an octave, all that are between the first and the last that is not empty: share, and
-        share that is longer."""
+        """All bins of a sixth of an octave from the first to the last that is not empty: share, and share that is longer."""
         counts = self.counts()
         if not counts:
             return []
@@ -74,12 +73,12 @@ def _bin_of(us: float) -> int:
 
 
 def of_server(histogram: Any) -> Latencies:
-    """Of one of those that haptic_server --json writes beside its file."""
+    """Latencies of a histogram that haptic_server --json writes beside its file."""
     return Latencies((float(up_to_us), int(count)) for up_to_us, count in histogram)
 
 
 def of_cyclictest(report: Any) -> Latencies:
-    """Of cyclictest --json with one thread: whole microseconds, rounded down, so 12 lies below 13. Those beyond its
+    """Latencies of cyclictest --json with one thread: whole microseconds, rounded down, so 12 lies below 13. Those beyond its
     histogram go to its maximum."""
     thread = report["thread"]["0"]
     latencies = Latencies((float(us) + 1.0, int(count)) for us, count in thread["histogram"].items())

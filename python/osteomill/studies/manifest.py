@@ -1,4 +1,4 @@
-"""The manifest of a folder of results: what was run, with which program, on which machine."""
+"""The manifest of a folder of results: the command, the program and the machine."""
 
 import argparse
 import os
@@ -14,7 +14,7 @@ NAME = "manifest.json"
 
 
 def manifest_of(command: list[str], parser: Parser, options: argparse.Namespace) -> dict[str, Any]:
-    """The command, every setting with the values that were not given, too, and this machine."""
+    """The command, every setting, defaults included, and this machine."""
     system = platform.uname()
     return {
         "program": "osteomill_study",
@@ -46,7 +46,7 @@ def setting_text(value: Any) -> str:
 
 
 def _processor() -> str:
-    """As Linux names it."""
+    """The processor's name in Linux."""
     for line in pathlib.Path("/proc/cpuinfo").read_text(errors="replace").splitlines():
         if line.startswith("model name"):
             return line.partition(": ")[2]

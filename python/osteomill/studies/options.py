@@ -1,4 +1,4 @@
-"""Options of the studies: a parser whose errors are one line, kinds of values, and what every study has."""
+"""Options of the studies: a parser whose errors are one line, kinds of values, and the options of every study."""
 
 import argparse
 import math
@@ -13,7 +13,7 @@ from osteomill.sweep import processors
 
 
 class UsageError(Exception):
-    """In one line: what is wrong on the command line, and what would be right."""
+    """An error on the command line, in one line with what would be right."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -57,7 +57,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def name_of(action: argparse.Action) -> str:
-    """An option's longest name, or what stands for a value without one."""
+    """An option's longest name, or the placeholder of a value without one."""
     return action.option_strings[-1] if action.option_strings else str(action.metavar or action.dest)
 
 
@@ -86,7 +86,7 @@ def number_above_zero(text: str) -> float:
 
 
 def number_within(low: float, high: float) -> Callable[[str], float]:
-    """Both ends are right."""
+    """Both ends are allowed."""
 
     def read(text: str) -> float:
         if low <= (value := number(text)) <= high:
@@ -97,7 +97,7 @@ def number_within(low: float, high: float) -> Callable[[str], float]:
 
 
 def whole_within(low: int, high: int) -> Callable[[str], int]:
-    """Both ends are right."""
+    """Both ends are allowed."""
 
     def read(text: str) -> int:
         if len(text) < 20 and re.fullmatch("[+-]?[0-9]+", text) and low <= int(text) <= high:
@@ -117,7 +117,7 @@ def one_of(*names: str) -> Callable[[str], str]:
 
 
 def listed(read: Callable[[str], Any]) -> Callable[[str], list[Any]]:
-    """Several, with commas between."""
+    """Several values, with commas between."""
     return lambda text: [read(one) for one in text.split(",")]
 
 
@@ -128,7 +128,7 @@ def existing_file(text: str) -> pathlib.Path:
 
 
 def add_common(parser: argparse.ArgumentParser, name: str, usual_jobs: int | None) -> None:
-    """--out, and how the cases of a study are run."""
+    """--out, and the options for running a study's cases."""
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("study") / name, metavar="DIR",
                         help="folder for what the study writes; made if it is not there (%(default)s)")
     parser.add_argument("--jobs", type=whole_within(1, 1024), default=usual_jobs or processors(), metavar="N",

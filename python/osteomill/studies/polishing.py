@@ -2,10 +2,10 @@
 
 Published: a cube of bone, a 5 mm burr, a user who slides it at about 6 mm/s for about 40 mm in about 7 s down to
 3.5 mm below the surface, forces of 0.3 to 0.7 N. Not published: spindle speed, tilt, and how the slide lies on the
-bone. In one stroke it is a fresh slot, whose end costs 7.2 N at 10 000 rpm, more than twice what the arm renders; the
-simulated hand, which waits for a tool that is held back, then takes half a minute, and even at 80 000 rpm 8.6 s.
-Strokes of a few millimetres to and fro, each a pass some tenths of a millimetre deeper than the one before, cost less,
-and the shorter the less; but under the shortest ones force follows the strokes rather than the depth.
+bone. In one stroke it is a fresh slot, whose end costs 7.2 N at 10 000 rpm, more than twice what the arm renders; the simulated
+hand, which waits for a tool that is held back, then takes half a minute, and even at 80 000 rpm 8.6 s. Strokes of a few
+millimetres to and fro, each a pass some tenths of a millimetre deeper than the one before, need less force, the shorter the less;
+but with the shortest ones the force follows the strokes rather than the depth.
 
 Here: five strokes of 8 mm at 80 000 rpm: seven seconds and a half, 3.5 mm, up to 0.6 N. Shapes can be compared with
 the published figures, values cannot. The simulated hand slides, in sessions of the simulator on the virtual clock:
@@ -34,13 +34,12 @@ TICK_S = 0.001
 TICKS_A_LINE = 8  # of the charts' tables: six points in a cycle of 20 Hz
 
 # A hand that follows its motion changes the force within tenths of a second; the limit cycles of sampled contact go at
-# 10 Hz (a firm hand at 100 Hz milling) and above. The slow part of a force is its mean over 0.1 s about each moment:
-# what goes at 10 Hz and faster is left out of it entirely or nearly so.
+# 10 Hz (a firm hand at 100 Hz milling) and above. The slow part of a force is its mean over 0.1 s about each moment: it contains
+# nothing, or nearly nothing, at 10 Hz and above.
 SLOW_PART_S = 0.1
-WINDOW_S = 0.1  # that chatter is looked for in: a few of its cycles, a small part of a stroke
+WINDOW_S = 0.1  # window in which to look for chatter: a few of its cycles, a small part of a stroke
 # A limit cycle of this rms or more is chatter. Two encoder steps of the arm, 0.055 mm, rendered by the stiffest spring
-# that it can, 1.5 N/mm, are 0.17 N: what is smaller may be the sensor's grain, and hides behind the arm's friction of
-# 0.26 N.
+# that it can, 1.5 N/mm, are 0.17 N: a smaller one may be the sensor's grain, and hides behind the arm's friction of 0.26 N.
 CHATTER_N = 0.2
 
 Array = NDArray[np.float64]
@@ -79,7 +78,7 @@ def edges_of(edge_forces: bool) -> tuple[float, float, float]:
 
 
 def depth_mm(slide: _studies.PolishingSlide, burr_z_mm: Any) -> Any:
-    """Of the burr's lowest point below the surface."""
+    """Depth of the burr's lowest point below the surface."""
     return slide.start_mm[2] + slide.burr_radius_mm - burr_z_mm
 
 
@@ -197,8 +196,8 @@ def table_of(setups: list[dict[str, Any]], found: list[dict[str, Any]]) -> pd.Da
 
 def windows_of(t_s: Array, depths_mm: Array, force_n: Array, window_s: float) -> pd.DataFrame:
     """The record in windows; the last, if shorter, is left out: their mean depth, and the rms of the force about its
-    own slow part. Samples are taken to be evenly spaced. Within half of SLOW_PART_S from either end the slow part is
-    the mean of what there is."""
+    own slow part. Samples are taken to be evenly spaced. Within half of SLOW_PART_S from either end the slow part is the mean of
+    the existing values."""
     length, width = samples_in(t_s, window_s), samples_in(t_s, SLOW_PART_S)
     count = len(t_s) // length
     fast = force_n - moving_mean(force_n, width)
@@ -208,13 +207,13 @@ def windows_of(t_s: Array, depths_mm: Array, force_n: Array, window_s: float) ->
 
 
 def samples_in(t_s: Array, span_s: float) -> int:
-    """At least one."""
+    """Samples in a span, at least one."""
     period_s = float(t_s[-1] - t_s[0]) / (len(t_s) - 1) if len(t_s) > 1 else math.inf
     return max(1, math.floor(span_s / period_s + 0.5))
 
 
 def moving_mean(values: Array, width: int) -> Array:
-    """Centred, of as many values on either side as make up about `width` in all."""
+    """Centred mean of so many values on either side that they are about `width` in all."""
     sums = np.vstack([np.zeros((1, values.shape[1])), values.cumsum(axis=0)])
     places = np.arange(len(values))
     first, end = np.maximum(places - width // 2, 0), np.minimum(places + width // 2 + 1, len(values))
@@ -222,15 +221,14 @@ def moving_mean(values: Array, width: int) -> Array:
 
 
 def limit_cycle_n(windows: pd.DataFrame) -> float:
-    """Amplitude of the limit cycle: what nine tenths of the windows stay below. Not the largest, because where a stroke
-    turns round or a new pass begins the force rightly changes fast. 0 without windows."""
+    """Amplitude of the limit cycle: nine tenths of the windows stay below it. It is not the largest, because at a stroke's turn
+    or a new pass the force rightly changes fast. 0 without windows."""
     ordered = np.sort(windows["fast_rms_n"].to_numpy())
     return float(ordered[int(0.9 * (len(ordered) - 1))]) if len(ordered) else 0.0
 
 
 def onset_of_chatter_mm(windows: pd.DataFrame) -> float | None:
-    """Depth at which chatter begins: of the first window that is followed by another one that chatters and does so
-    itself. None: nowhere."""
+    """Depth at which chatter begins: of the first of two consecutive windows that both chatter. None: nowhere."""
     chatters = (windows["fast_rms_n"] >= CHATTER_N).to_numpy()
     both = np.flatnonzero(chatters[:-1] & chatters[1:])
     return float(windows["depth_mm"].iloc[both[0]]) if len(both) else None

@@ -9,7 +9,7 @@ from osteomill.studies import charts
 
 Series = dict[str, pd.DataFrame]  # by FORCE-MODEL_COUPLING
 
-#: Of each coupling: colour, what it is called.
+#: 
 COUPLINGS = {
     "interpolate": (charts.RED, "interpolate, 100 Hz"),
     "sample-estimate-interpolate": (charts.AMBER, "sample-estimate-interpolate, 100 Hz"),

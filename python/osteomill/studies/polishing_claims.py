@@ -1,20 +1,19 @@
-"""What the paper claims of its experiment, and whether it holds in ours: each claim is decided by one number.
+"""The paper's claims about its experiment, and whether they hold in ours: one number decides each claim.
 
 Forces rise with depth: rank correlation of the size of each component's slow part, in windows of 0.4 s, with depth; at
-least 0.5, which twenty windows reach by chance once in eighty times. Of a fresh slot the published equations themselves
-say that F_z is greatest where tan kappa_d = K_r / K_a, at 1.4 mm with a 5 mm burr, and pulls the burr in below 2.9 mm.
+least 0.5, which twenty windows reach by chance once in eighty times. For a fresh slot the published equations themselves give the
+greatest F_z at tan kappa_d = K_r / K_a, at 1.4 mm with a 5 mm burr, and a pull into the bone below 2.9 mm.
 
 The components are not proportional to each other: 5 % of their power or more lies off any single line (two thirds is the
 most that can).
 
-Without sample-estimate-hold the contact is nearly unstable, with it it is not: the limit cycle's rms reaches what counts as
-chatter, or stays below it.
+Without sample-estimate-hold the contact is nearly unstable, with it stable: the limit cycle's rms reaches the bound of chatter,
+or stays below it.
 
 More edges, and a faster spindle, lower the force: by a twentieth at least.
 
-They are asked of the records of the hand, and of the model alone on rails: the burr goes the way that the hand means,
-through a block. Edges are resolved at 10 kHz and 2500 rpm, so slowly that even twelve edges take 2 ms to the next, in a
-slot 1 mm deep.
+They are tested on the records of the hand, and on the model alone on rails: the burr follows the intended path exactly, through a
+block. Edges are resolved at 10 kHz and 2500 rpm, so slowly that even twelve edges take 2 ms to the next, in a slot 1 mm deep.
 """
 
 import math
@@ -67,7 +66,7 @@ def measure_on_rails(slide: _studies.PolishingSlide, rpm: float, edges_n_per_mm:
 
 
 def measure_edges(edges: int, edges_n_per_mm: Any) -> dict[str, Any]:
-    """Of a steady slot, instant by instant: the mean force, that of one tooth, the peak within the tooth period."""
+    """Forces of a steady slot, instant by instant: the mean force, that of one tooth, the peak within the tooth period."""
     rate_hz, radius_mm, depth_mm = 10_000.0, 2.5, 1.0
     steps = round(rate_hz * 60.0 / RESOLVED_RPM)  # of a revolution
     burr = Burr(diameter_mm=2.0 * radius_mm, rpm=RESOLVED_RPM, edges=edges, edge_coefficients_n_per_mm=edges_n_per_mm)
@@ -127,7 +126,7 @@ def _rising(where: str, record: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def slow_windows_of(t_s: Array, depths_mm: Array, force_n: Array) -> tuple[Array, Array]:
-    """Of each whole window: mean depth, and the rms of each component's slow part."""
+    """Mean depth of each whole window, and the rms of each component's slow part."""
     from osteomill.studies.polishing import SLOW_PART_S, moving_mean, samples_in
 
     length = samples_in(t_s, RISING_WINDOW_S)
@@ -146,14 +145,14 @@ def mean_length_n(force_n: Array) -> float:
 
 
 def rank_correlation(x: Array, y: Array) -> float:
-    """Spearman's; 0 where one of them does not change."""
+    """Spearman's; 0 if one of them does not change."""
     if len(x) < 2 or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
         return 0.0
     return float(stats.spearmanr(x, y)[0])
 
 
 def share_off_line(force_n: Array) -> float:
-    """Share of the power of the three components, each made equally strong, that lies off the one line that has most."""
+    """Share of the power of the three components, each scaled to equal strength, that lies off the line that holds most of it."""
     power = force_n.T @ force_n
     strength = np.sqrt(np.diag(power))
     scale = np.outer(strength, strength)

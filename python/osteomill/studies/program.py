@@ -1,4 +1,4 @@
-"""The program osteomill_study: parses, runs a study, says in one line what is wrong."""
+"""The program osteomill_study: parses, runs a study, reports an error in one line."""
 
 import argparse
 import importlib
@@ -22,7 +22,7 @@ from osteomill.studies.text import line_of, one_line, printable
 PROGRAM = "osteomill_study"
 REPEAT = "repeat"
 
-# Name, module of osteomill.studies, what it is.
+# Name, module of osteomill.studies, description.
 STUDIES = (
     ("force", "force", "the milling force: voxel model against analytical reference"),
     ("tradeoff", "tradeoff", "speed against accuracy, on one page, for every choice that costs time"),
@@ -56,7 +56,7 @@ def main(argv: Sequence[str]) -> int:
     except KeyboardInterrupt:
         return _fail("interrupted; the same command goes on with the cases that are done", EXIT_INTERRUPTED)
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # whoever read has gone: there is nobody to tell
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # the reader has gone: there is nobody to tell
         return EXIT_FAILURE
     except ModuleNotFoundError as error:
         package = (error.name or "").partition(".")[0]
@@ -94,7 +94,7 @@ def _run(words: list[str]) -> int:
 
 
 def _parse_alone(parser: Parser, words: list[str]) -> int:
-    """What ends by itself: --help and --version."""
+    """Parses alone; --help and --version end here."""
     try:
         parser.parse(words)
     except SystemExit as end:
@@ -107,7 +107,7 @@ def _list_of_studies() -> str:
 
 
 def _repeat(words: list[str]) -> int:
-    """The folder may be from elsewhere: what its manifest names must be a study, which writes into --out alone."""
+    """The folder may be from elsewhere: its manifest must name a study that writes into --out alone."""
     parser = Parser(prog=f"{PROGRAM} {REPEAT}", description=_what_is(REPEAT))
     parser.add_argument("dir", type=pathlib.Path, help="the folder that the study wrote; or a recording (.pcap), which is computed again")
     try:
@@ -131,7 +131,7 @@ def _what_is(name: str) -> str:
 
 
 def parser_of(name: str, module: Any) -> Parser:
-    """Of a study's options."""
+    """Parser of a study's options."""
     parser = Parser(prog=f"{PROGRAM} {name}", description=_what_is(name))
     module.add_options(parser)
     add_common(parser, name, getattr(module, "JOBS", None))
@@ -166,7 +166,7 @@ def _run_study(words: list[str], module: Any) -> int:
 
 
 def _with_parts(words: list[str], parser: Parser) -> tuple[list[str], JoinedParts | None, list[str]]:
-    """The command that is run, the parts of --merge, and the words to parse, which the parts say then."""
+    """The command that is run, the parts of --merge, and the words to parse, which then come from the parts."""
     places = _values_of("--merge", words)
     if not places:
         return words_of_study(words), None, words

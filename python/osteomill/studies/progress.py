@@ -11,7 +11,7 @@ ESTIMATED_AFTER_S = 2.0
 
 
 def time_left(left_s: float) -> str:
-    """"40 s left", "3 min left", "2 h 5 min left"; "" where nothing is left."""
+    """"40 s left", "3 min left", "2 h 5 min left"; "" if nothing is left."""
     seconds = math.ceil(left_s)
     if seconds <= 0:
         return ""
@@ -22,7 +22,7 @@ def time_left(left_s: float) -> str:
 
 
 class ProgressLine:
-    """Says the percentage of what is done and, after two seconds, the time left: by the pace since the first report."""
+    """Prints the percentage done and, after two seconds, the time left: by the pace since the first report."""
 
     def __init__(self, out: TextIO, title: str, now_s: Callable[[], float] = time.monotonic) -> None:
         self._out = out
@@ -33,7 +33,7 @@ class ProgressLine:
         self._shown = (-1, "")
 
     def report(self, done: float) -> None:
-        """Of 0 to 1, ascending."""
+        """Reports a share, 0 to 1, ascending."""
         if self._begin is None:
             self._begin = done, self._now_s()
         percent = int(100.0 * done + 1e-9)

@@ -1,12 +1,12 @@
-"""How late the haptic loop wakes and how long it takes, next to cyclictest.
+"""Wake-up latency and duration of the haptic loop's ticks, next to cyclictest.
 
-On few processors the two cannot run at once without one being the other's load. They take turns, ten seconds each,
-under the same priority, so that what else the machine does falls on both; first as the machine is, then under
-stress-ng: every processor, memory and the network. haptic_server works all the while: the tooth on the real clock, two
-clients that keep up, a recording, milling at 1 kHz; cyclictest does nothing but wake, one thread, a wake-up a
-millisecond, memory locked, and no other change of the system than haptic_server makes.
+On few processors the two cannot run at once without one being the other's load. They take turns, ten seconds each, under the same
+priority, so that the machine's other work affects both; first as the machine is, then under stress-ng: every processor, memory
+and the network. haptic_server works all the while: the tooth on the real clock, two clients that keep up, a recording, milling at
+1 kHz; cyclictest does nothing but wake, one thread, a wake-up a millisecond, memory locked, and no other change of the system
+than haptic_server makes.
 
-What is not installed (cyclictest, stress-ng) is left out with a line that says so.
+A program that is not installed (cyclictest, stress-ng) is left out with a line that says so.
 """
 
 import argparse
@@ -98,13 +98,13 @@ def measure(out: pathlib.Path, case: dict[str, Any]) -> dict[str, Any]:
 
 
 def _stress(longest_s: float) -> ChildProgram:
-    """Everybody's ordinary work, until it is gone."""
+    """The machine's load, until it ends."""
     return ChildProgram([shutil.which(STRESS) or STRESS, "--quiet", "--cpu", "0", "--vm", "1", "--vm-bytes", "128M",
                          "--sock", "1", "--timeout", f"{longest_s:.0f}"], longest_end_s=10.0)
 
 
 def serve(duration_s: float, work: pathlib.Path) -> dict[str, Any]:
-    """What haptic_server reports of its time, and what its two clients saw."""
+    """haptic_server's report of its times, and the observations of its two clients."""
     file = work / "server.json"
     with ChildProgram([own_program("haptic_server"), "--listen", "127.0.0.1:0", "--milling-rate-hz", "1000",
                        "--duration-s", f"{duration_s:g}", "--record", work / "session.pcap", "--json", file]) as server:
@@ -138,13 +138,13 @@ def serve(duration_s: float, work: pathlib.Path) -> dict[str, Any]:
 
 
 def port_said_in(output: str) -> int | None:
-    """Of "listening on 127.0.0.1:PORT", once all of that line is there."""
+    """Port in "listening on 127.0.0.1:PORT", once the whole line is there."""
     said = re.search(r"listening on \S*:([0-9]+)\n", output)
     return int(said[1]) if said else None
 
 
 def cycle(cyclictest: str, duration_s: float, has_priority: bool, work: pathlib.Path) -> latencies.Counts:
-    """As haptic_server's loop would wait: at its priority, an ordinary one where it has none."""
+    """Runs cyclictest, which waits as haptic_server's loop would: at its priority, or an ordinary one if it has none."""
     file = work / "cyclictest.json"
     policy = ["--policy=fifo", f"--priority={_studies.HAPTIC_PRIORITY}"] if has_priority else ["--policy=other"]
     with ChildProgram([cyclictest, "--quiet", "--mlockall", "--default-system", "--threads=1", "--interval=1000",
@@ -159,7 +159,7 @@ def cycle(cyclictest: str, duration_s: float, has_priority: bool, work: pathlib.
 
 
 def gather(load: str, slices: list[dict[str, Any]]) -> dict[str, Any]:
-    """What was measured without load, or under it."""
+    """Measurements without load, or under it."""
     gathered: dict[str, Any] = {"load": load}
     for name in (*LOOPS, "cyclictest"):
         gathered[name] = Latencies()

@@ -3,10 +3,10 @@
 Every way to draw a bone is timed and held against a reference image of the same look: rays in steps of a tenth of a voxel
 in double precision, on the CPU (peak signal-to-noise ratio, structural similarity). Each axis of choice is varied by
 itself, from the default: distance of the samples, shading, empty space that is skipped or not, resolution, and slices in
-the place of rays. A wall cut by a sphere is drawn and held against the analytic picture of the sphere. Bones: the tooth of
-the default scene, and, where OSTEOMILL_SCANS names the folder of trial scans, 40 mm of a skull.
+the place of rays. A wall cut by a sphere is drawn and held against the analytic picture of the sphere. Bones: the tooth of the
+default scene, and, if OSTEOMILL_SCANS names the folder of trial scans, 40 mm of a skull.
 
---full-rate measures what a graphics card draws in a second instead: render_full_rate.py.
+--full-rate measures instead the frames that a graphics card draws in a second: render_full_rate.py.
 """
 
 import argparse
@@ -34,7 +34,7 @@ USUAL_STEP_VOXELS = 0.5
 
 GRADIENT = {"shading": "gradient", "transfer": ""}
 SURFACE_VOXELS = {"shading": "surface-voxels", "transfer": ""}
-SEE_THROUGH = {"shading": "gradient", "transfer": "tooth"}  # as one sees through the tooth's bone
+SEE_THROUGH = {"shading": "gradient", "transfer": "tooth"}  # since the tooth's bone is seen through
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -71,7 +71,7 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
 
 
 def settings_of(quick: bool) -> list[dict[str, Any]]:
-    """Every axis of choice by itself, from the default; fewer where quick."""
+    """Every axis of choice by itself, from the default; fewer if quick."""
     def way(family: str, label: str, look: dict[str, Any], **changes: Any) -> dict[str, Any]:
         return {"family": family, "label": label, "look": look, "renderer": "raycast", "step_voxels": USUAL_STEP_VOXELS,
                 "skips": True, "divisor": 1, "is_default": False} | changes

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from osteomill.studies import charts
 
-#: Families of the table: how they are called, and how they look.
+#: 
 FAMILIES: dict[str, tuple[str, dict[str, Any]]] = {
     "rays shaded by gradient": ("rays, lit by the gradient", {"color": charts.BLUE, "marker": "o"}),
     "rays to surface voxels": ("rays to surface voxels", {"color": charts.SKY, "marker": "o", "markerfacecolor": "white"}),
@@ -48,7 +48,7 @@ def accuracy(table: pd.DataFrame, renderer: str) -> Figure:
 
 
 def _settings(rows: pd.DataFrame) -> str:
-    """"step 0.5, 1, 2": what changes along a line."""
+    """"step 0.5, 1, 2": the value that changes along a line."""
     first, *rest = rows["label"]
     return ", ".join([first, *(label.removeprefix("step ").removeprefix("spacing ") for label in rest)])
 

@@ -1,5 +1,5 @@
-"""Full rate: how many frames a second a graphics card draws in full quality, in a large window, with what a carve costs to
-upload and what the textures take.
+"""Full rate: frames a second that a graphics card draws in full quality, in a large window, with the cost of uploading a carve
+and the memory of the textures.
 
 Tooth and head, orbiting and carving, tool and panels drawn, each frame finished before the next begins; two eyes beside
 one. On a software rasteriser less of everything, and it says so.
@@ -20,7 +20,7 @@ PHANTOMS = ("tooth", "head")
 FULL_SIZE_PX, SOFTWARE_SIZE_PX = (2560, 1440), (640, 360)
 FULL_FRAMES, SOFTWARE_FRAMES = 600, 8
 UPLOADS = 50
-#: Of what is drawn: the motion as people are told it.
+#: 
 MOTIONS = {"orbit": "orbit", "carve": "carve", "orbit_side_by_side": "orbit side by side", "orbit_both_whole": "orbit quad buffer"}
 
 

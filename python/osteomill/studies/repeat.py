@@ -1,4 +1,4 @@
-"""A study run again from its manifest, twice, and compared with what its folder keeps."""
+"""Repetition of a study from its manifest, twice, with a comparison with the files of its folder."""
 
 import os
 import pathlib
@@ -14,7 +14,7 @@ from osteomill.studies.text import printable
 
 
 def kept_manifest(folder: pathlib.Path) -> dict[str, Any]:
-    """RuntimeError in one line naming a file that is none."""
+    """RuntimeError in one line naming a file that is no manifest."""
     file = folder / manifest.NAME
     kept = foreign_json(file)
     is_right = isinstance(kept, dict) and all(isinstance(kept.get(key), str) for key in ("version", "commit"))

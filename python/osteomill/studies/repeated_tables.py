@@ -24,7 +24,7 @@ class RepeatedColumn:
     name: str  # FILE: COLUMN; of JSON the place, * for any element of a list
     differ: int = 0  # cells that differ by more than the noise
     difference: float = 0.0  # the largest, in the column's unit
-    noise: float = 0.0  # the largest between the two runs that were made now
+    noise: float = 0.0  # the largest between the two new runs
 
 
 @dataclasses.dataclass
@@ -37,9 +37,9 @@ class RepeatedTables:
 def compare_tables(kept: pathlib.Path, once: pathlib.Path, again: pathlib.Path) -> RepeatedTables:
     """Compares every table of `kept`, CSV and JSON, with the same file of two runs of the same command.
 
-    A number differs where both runs are farther from it than NOISE_MARGIN times its column's noise, what is no number
-    where it is other than in both. A column that is equal in both runs is compared exactly. RuntimeError in one line
-    naming a file that cannot be read.
+    A number differs if both runs are farther from it than NOISE_MARGIN times its column's noise; any other value differs
+    if it is other than in both. A column that is equal in both runs is compared exactly. RuntimeError in one line naming a
+    file that cannot be read.
     """
     found = RepeatedTables()
     for file in sorted(path.name for path in kept.iterdir() if path.suffix in (".csv", ".json") and path.name != MANIFEST):
@@ -59,7 +59,7 @@ def compare_tables(kept: pathlib.Path, once: pathlib.Path, again: pathlib.Path) 
 
 
 def foreign_json(file: pathlib.Path) -> Any:
-    """JSON from elsewhere. RuntimeError in one line where it cannot be read, is none, or lies too deep in itself."""
+    """JSON from elsewhere. RuntimeError in one line if it cannot be read, is no JSON, or is nested too deeply."""
     text = _studies.read_file(file)
     if _studies.depth_of_json(text) > _studies.DEEPEST_JSON:
         raise RuntimeError(f"{file}: its lists and objects lie more than {_studies.DEEPEST_JSON} deep in one another")
@@ -85,7 +85,7 @@ def _columns_of(file: pathlib.Path) -> Columns:
 
 
 def _flatten(value: Any, place: str, columns: Columns) -> None:
-    """What stands at the same place of each element of a list is a column."""
+    """Values at the same place of each element of a list are a column."""
     if isinstance(value, dict) and value:
         for key, one in value.items():
             _flatten(one, f"{place}/{'*' if key.isdecimal() else key}", columns)
@@ -113,7 +113,7 @@ def _compare(name: str, kept: list[str], once: list[str], again: list[str]) -> R
 
 
 def _distance(a: str, b: str) -> float:
-    """In numbers; infinite where one of them is none, or not finite."""
+    """Distance of two numbers; infinite if one of them is no number, or not finite."""
     if a == b:
         return 0.0
     x, y = _number(a), _number(b)

@@ -1,13 +1,13 @@
-"""Stability: which coupling holds where, and how true it is there. The map; or sites where bone ends, or motions on rails, in
-its place.
+"""Stability: the range in which each coupling holds, and its error there. It runs the map; or, in its place, sites where bone
+ends, or motions on rails.
 
 The map runs every coupling in the program's own loops on a device of its own, beside the truth in continuous time of the
 same scene and hand (a finely simulated arm): a point is stable where the force has no limit cycle beyond the truth's and
-gives the hand no energy beyond it. What is run: stability_points.py; what is made of it: stability_map.py; sites and
-rails: stability_sites.py, stability_rails.py.
+gives the hand no energy beyond it. Points: stability_points.py; evaluation: stability_map.py; sites and rails:
+stability_sites.py, stability_rails.py.
 
-A case of the sweep is a scene in a hand, with all couplings, rates and delays: they share one bone and one truth, which
-takes as long as many of them.
+A case of the sweep is a scene in a hand, with all couplings, rates and delays: they share one bone and one truth, whose
+computation takes as long as many of them.
 """
 
 import argparse
@@ -84,7 +84,7 @@ def selected_points(options: argparse.Namespace) -> list[Point]:
 
 
 def cases_of(points: list[Point]) -> list[dict[str, Any]]:
-    """Points of one scene in one hand together, in the order in which these first come."""
+    """Points grouped by scene and hand, in the order in which these first occur."""
     cases: dict[tuple[Any, ...], list[dict[str, Any]]] = {}
     for point in points:
         rest = {key: value for key, value in point.items() if key not in SCENE}

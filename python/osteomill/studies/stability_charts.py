@@ -21,7 +21,7 @@ REGIONS = {  # title, name of x, its ends, its ticks
     "wall": ("Where pressing on bone with the spindle off is stable: bar where it is, thin line where it is not",
              "stiffness that the arm claims, N/mm", (0.06, 2.4), (0.1, 0.2, 0.4, 0.8, 1.5)),
 }
-# Families share a colour: what runs on a hold is red, on interpolation blue, on an estimate green.
+# Families share a colour: couplings on a hold are red, on interpolation blue, on an estimate green.
 POINTS: dict[str, dict[str, Any]] = {method: {"color": colour, "marker": marker, "markerfacecolor": "white" if is_open else colour}
                                      for method, colour, marker, is_open in (
     ("implicit", charts.BLACK, "o", False), ("virtual-coupling", charts.PINK, "s", False), ("hold", charts.RED, "o", False),
@@ -29,8 +29,8 @@ POINTS: dict[str, dict[str, Any]] = {method: {"color": colour, "marker": marker,
     ("sample-estimate-interpolate", charts.GREEN, "^", True), ("corrected-sample-estimate-hold", charts.GREEN, "v", False),
     ("hold+damper", charts.RED, "s", False), ("interpolate+damper", charts.BLUE, "s", False),
     ("hold+passivity", charts.RED, "o", True), ("interpolate+passivity", charts.BLUE, "o", True))}
-# Methods may be equal in their errors, above all without a delay. Plain couplings are drawn first and widest, so that they
-# show on both sides of what lies on them: those with a damper or passivity; within these hold, then interpolate.
+# Methods may be equal in their errors, above all without a delay. Plain couplings are drawn first and widest, so that they show
+# on both sides of those drawn on them, with a damper or passivity; within these hold comes first, then interpolate.
 CURVES: dict[str, dict[str, Any]] = {method: {"color": colour, "linewidth": width, "marker": marker, "markersize": size}
                                      for method, colour, width, marker, size in (
     ("hold", "#f2a477", 8.0, "o", 11), ("interpolate", "#7fb3d9", 5.5, "o", 9), ("sample-estimate-hold", "#66c5ab", 4.5, "^", 9),
@@ -101,7 +101,7 @@ def errors(table: pd.DataFrame) -> Figure:
 
 
 def pareto(cutting: pd.DataFrame, wall: pd.DataFrame) -> Figure:
-    """How much of the range each coupling holds, and how true its force is there."""
+    """Share of the range that each coupling holds, and the error of its force there."""
     figure = charts.figure(15.0, 6.4)
     figure.suptitle("How much of the range each coupling holds, and how true its force is there")
     for axes, table, title in zip(figure.subplots(1, 2), (cutting, wall), ("cutting", "pressing on a wall")):

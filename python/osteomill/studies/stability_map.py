@@ -1,10 +1,9 @@
-"""What is made of a whole stability map: which coupling holds where, how true it is there, and the bars that `implicit`
+"""Evaluation of a whole stability map: the range in which each coupling holds, its error there, and the bars that `implicit`
 promises over the range that a surgeon reaches.
 
-A map is a table with a line a point: what the point is, whether it was stable, and the numbers of its run beside the
-truth in continuous time (studies/stability/map/map_outcome.h). `x` is what the scene is varied by: the resistance of
-the bone in N s/m, or the wall's stiffness in N/mm. Errors are shares of the truth's mean force, without a value where
-that is 0.
+A map is a table with a line for each point: its conditions, whether it was stable, and the numbers of its run beside the truth in
+continuous time (studies/stability/map/map_outcome.h). `x` is the varied quantity of the scene: the resistance of the bone in N
+s/m, or the wall's stiffness in N/mm. Errors are shares of the truth's mean force, without a value if that is 0.
 """
 
 from collections.abc import Callable
@@ -39,14 +38,14 @@ def map_of(points: list[Point], outcomes: list[dict[str, Any]]) -> pd.DataFrame:
 
 
 def table_of(whole: pd.DataFrame, outcome: dict[str, Any]) -> pd.DataFrame:
-    """A line a point; `outcome`: any, which says what the numbers are."""
+    """A line for each point; `outcome`: any one, which names the numbers."""
     return whole[[*COLUMNS, *outcome]]
 
 
 def scores(whole: pd.DataFrame, part: str, scene: str) -> pd.DataFrame:
     """A line for each method that the map has, in the order of METHODS: cases, how many are stable; over these the median
-    and worst errors; `common_rms_error`: over the cases that are stable with every method of the map, so that the
-    others' easy cases do not flatter it."""
+    and worst errors; `common_rms_error`: over the cases that are stable with every method of the map, so that easy cases of the
+    others do not distort the comparison."""
     here = whole[(whole["part"] == part) & (whole["scene"] == scene)]
     case = [column for column in (*COLUMNS, "edge_n_per_mm") if column != "method"]
     common = here.groupby(case)["is_stable"].transform("all").astype(bool) if len(here) else here["is_stable"]
@@ -65,7 +64,7 @@ def scores(whole: pd.DataFrame, part: str, scene: str) -> pd.DataFrame:
 
 
 def bars_of(whole: pd.DataFrame) -> list[dict[str, Any]]:
-    """Of each: what, the bar, the worst that the map has found, whether the bar is met, where that was; none where the
+    """Each with its name, the bar, the worst value in the map, whether the bar is met, and the place of the worst; none if the
     map lacks the part of the bars."""
     if not (whole["part"] == "bars").any():
         return []
@@ -91,7 +90,7 @@ def bars_of(whole: pd.DataFrame) -> list[dict[str, Any]]:
 
 
 def _worst(what: str, bar: float, points: pd.DataFrame, values: "pd.Series[Any]") -> dict[str, Any]:
-    """The first of the largest; of nothing that has a value, none, which meets no bar."""
+    """The first of the largest values; without any value none, which meets no bar."""
     measured = values.dropna()
     worst = float(measured.max()) if len(measured) else float("nan")
     return {"what": what, "bar": bar, "worst": worst, "is_met": worst <= bar,
@@ -109,7 +108,7 @@ def _unstable(what: str, points: pd.DataFrame) -> dict[str, Any]:
 
 
 def rate_dependence_percent(slots: pd.DataFrame) -> "pd.Series[float]":
-    """By how much the bone carved at 100 Hz differs from that of the same point at 1000 Hz; no value at other rates."""
+    """Difference of the bone carved at 100 Hz from that of the same point at 1000 Hz; no value at other rates."""
     same = [column for column in (*COLUMNS, "edge_n_per_mm") if column not in ("part", "milling_rate_hz")]
     fast = slots[(slots["milling_rate_hz"] == 1000.0) & (slots["removed_mm3"] > 0.0)].drop_duplicates(same)
     beside = slots[same].merge(fast[[*same, "removed_mm3"]], how="left", on=same)["removed_mm3"].to_numpy()
@@ -149,8 +148,8 @@ def _summary_of_method(whole: pd.DataFrame, score: Any, scene: str) -> dict[str,
 
 
 def stable_up_to(here: pd.DataFrame, grip: str) -> float:
-    """The largest resistance (or wall) up to which everything is stable with that grip at 1000 Hz without delay; 0 where
-    not even the least is."""
+    """The largest resistance (or wall) up to which everything is stable with that grip at 1000 Hz without delay; 0 if not even
+    the least is."""
     line = here[(here["grip"] == grip) & (here["milling_rate_hz"] == 1000.0) & (here["delay_ticks"] == 0)]
     least_unstable = line.loc[~line["is_stable"].astype(bool), "x"].min()
     held = line["x"] if np.isnan(least_unstable) else line.loc[line["x"] < least_unstable, "x"]

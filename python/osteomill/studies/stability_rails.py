@@ -1,4 +1,4 @@
-"""Random steady motions of a hand on rails: how far the mean force on the hand is from the milling model's.
+"""Random steady motions of a hand on rails: the difference of the mean force on the hand from the milling model's.
 
 Burrs of 1 to 5 mm, spindles that lean by up to 60 degrees, feeds from 1 mm/s, depths from 0.12 mm to the equator, over a
 surface that lies anyhow. A coupling stands between the model and a hand that is led; each motion goes on for three
@@ -49,7 +49,7 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
 
 
 def summary_of(results: list[tuple[str, dict[str, Any]]]) -> dict[str, Any]:
-    """How many bone drove; of the others the error, and the worst by name."""
+    """Number of motions in which bone drove the burr; the error of the others, and the worst by name."""
     steady = {name: 100.0 * outcome["error"] for name, outcome in results if not outcome["is_driven"]}
     errors = list(steady.values())
     median, p95, most = np.percentile(errors, (50, 95, 100)).tolist() if errors else (0.0, 0.0, 0.0)

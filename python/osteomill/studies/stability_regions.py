@@ -11,7 +11,7 @@ from osteomill.studies.stability_points import DELAYS_TICKS, GRIPS, METHODS, MIL
 
 GAP_BETWEEN_RATES = 0.5
 STRIP_DISTANCE = 0.3
-ONE_COLUMN = 1.03  # how far apart a run may measure one resistance
+ONE_COLUMN = 1.03  # the scatter of one resistance as runs measure it
 LONE_COLUMN = 1.4
 SMALLEST_DRAWN_PERCENT = 0.01  # a logarithmic axis has no zero
 
@@ -22,7 +22,7 @@ def number_of(method: str) -> int:
 
 
 def rows_of(whole: pd.DataFrame) -> dict[tuple[float, int], float]:
-    """Where each milling rate and delay that the map has is drawn: the fastest rate on top, delays downward."""
+    """Row of each milling rate and delay in the map: the fastest rate on top, delays downward."""
     of_map = whole[whole["part"] == "map"]
     rates = [rate for rate in MILLING_RATES_HZ if (of_map["milling_rate_hz"] == rate).any()]
     delays = [delay for delay in DELAYS_TICKS if (of_map["delay_ticks"] == delay).any()]
@@ -56,7 +56,7 @@ def region_table_of(whole: pd.DataFrame, scene: str) -> pd.DataFrame:
 
 
 def columns_of(x: "pd.Series[float]") -> list[float]:
-    """Values that are apart by more than how a run may measure one resistance."""
+    """Values that differ by more than the scatter of one resistance."""
     columns: list[float] = []
     for value in sorted(x):
         if not columns or value > ONE_COLUMN * columns[-1]:
@@ -89,7 +89,7 @@ def runs_of(strip: pd.DataFrame, edges: list[float]) -> list[tuple[float, float,
 
 
 def error_table_of(whole: pd.DataFrame) -> pd.DataFrame:
-    """Of cutting, milling at 1000 Hz, no delay: a curve for each method and grip."""
+    """Errors in cutting, milling at 1000 Hz, no delay: a curve for each method and grip."""
     here = whole[(whole["part"] == "map") & (whole["scene"] == "cutting") & (whole["milling_rate_hz"] == 1000.0)
                  & (whole["delay_ticks"] == 0)]
     rows: list[dict[str, Any]] = []
@@ -103,7 +103,7 @@ def error_table_of(whole: pd.DataFrame) -> pd.DataFrame:
 
 
 def pareto_table_of(whole: pd.DataFrame, scene: str) -> pd.DataFrame:
-    """Share and median error in percent; no error where a method is stable nowhere."""
+    """Share and median error in percent; no error if a method is stable nowhere."""
     found = scores(whole, "map", scene)
     return pd.DataFrame({"number": [number_of(method) for method in found["method"]], "method": found["method"],
                          "stable_percent": 100.0 * found["share"],

@@ -1,4 +1,5 @@
-"""The chart of sites: what a hand would not forgive, a panel a kind of site, each number as a share of its bar."""
+"""The chart of sites: the faults that a hand would feel, a panel for each kind of site, each number as a share of its
+bar."""
 
 import numpy as np
 import pandas as pd

@@ -1,8 +1,8 @@
-"""Sites where bone ends, such as plates, edges, holes and tunnels, and random walks of a hand over bone: what the study of
-stability tries beside slots and walls.
+"""Sites where bone ends, such as plates, edges, holes and tunnels, and random walks of a hand over bone: trials of the study of
+stability beside slots and walls.
 
 Each site is worked on by several burrs, hands and devices, in the simulator's own loops, beside the milling model on the
-burr's way and a burr that is rigidly the hand. A run is judged by what a hand would not forgive, in four numbers, each
+burr's way and a burr that is rigidly the hand. A run is judged by the faults that a hand would feel, in four numbers, each
 against its bar (studies/stability/sites/site_verdict.h says how each is measured).
 """
 
@@ -18,7 +18,7 @@ from osteomill.studies.study_run import StudyRun
 
 Case = dict[str, Any]
 
-#: Number of a verdict: what it is, its bar, and its bar at a breakthrough.
+#: 
 BARS = {
     "energy_over_rigid_mj": ("energy over a rigid burr's, mJ", 5.0, 5.0),
     "stuck_ms": ("force while nothing is cut, ms", 50.0, 50.0),
@@ -35,8 +35,7 @@ TRACE = ("hand_x_mm", "hand_y_mm", "hand_z_mm", "burr_x_mm", "burr_y_mm", "burr_
 
 
 def cases_of(options: argparse.Namespace) -> list[Case]:
-    """In a fixed order, those whose name holds the text of --only; quick: one burr at one speed, a firm hand, an ideal
-    device."""
+    """Cases in a fixed order, whose name holds the text of --only; quick: one burr at one speed, a firm hand, an ideal device."""
     hand = {"grip": "firm", "is_ideal_device": True, "delay_ticks": 0}
     hands = [hand] if options.quick else [hand, hand | {"delay_ticks": 1}, hand | {"is_ideal_device": False}, hand | {"grip": "light"}]
     diameters_mm, speeds_rpm = ((5.0,), (10e3,)) if options.quick else (BURRS_MM, SPEEDS_RPM)
@@ -111,7 +110,7 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
 
 
 def judged(sites: pd.DataFrame) -> pd.DataFrame:
-    """With each number as a share of its bar, the largest of these, and whether all are met: up to 1, and no fault."""
+    """The table with each number as a share of its bar, the largest of these, and whether all are met: up to 1, and no fault."""
     at_breakthrough = sites["kind"] == "breakthrough"
     shares = pd.DataFrame({f"share_{number}": sites[number] / np.where(at_breakthrough, there, bar)
                            for number, (_, bar, there) in BARS.items()})
@@ -135,7 +134,7 @@ def trace_table_of(trace: Any) -> pd.DataFrame:
 
 
 def summary_of(sites: pd.DataFrame, options: argparse.Namespace) -> dict[str, Any]:
-    """By kind how many meet the bars and the worst of each number; the ten worst cases with the command of each."""
+    """For each kind, how many meet the bars and the worst of each number; the ten worst cases with the command of each."""
     kinds = {kind: {"cases": len(of_kind), "met": int(of_kind["is_met"].sum()), "faults": int(of_kind["faults"].sum()),
                     "most_energy_mj": max(0.0, of_kind["energy_mj"].max()),
                     "worst": {what: max(0.0, of_kind[number].max()) for number, (what, _, _) in BARS.items()}}

@@ -17,8 +17,8 @@ from osteomill.studies.force_series import Array, ForceSeries, relative_error
 FEED_MM_PER_S = 6.0
 PLUNGE_MM_PER_S = 2.0
 FULL_SIZE_MM = 5.0
-# Where the lattice lies relative to the motion, as shares of a voxel: means over several tell more than one. The
-# bone's surface stays on faces of voxels.
+# Offsets of the lattice relative to the motion, as shares of a voxel: a mean over several is more telling than one. The bone's
+# surface stays on faces of voxels.
 LATTICE_SHIFTS = ((0.31, 0.17, 0.0), (0.77, 0.43, 0.0), (0.03, 0.91, 0.0))
 
 
@@ -48,7 +48,7 @@ def _motions(travel_mm: float, diameter_mm: float, edges: tuple[float, ...], rpm
 
 
 def motions_of(burr: Burr, travel_mm: float) -> list[StudiedMotion]:
-    """With this burr, as a ball."""
+    """The motions with this burr, as a ball."""
     size = burr.diameter_mm / FULL_SIZE_MM
     duration_s = travel_mm / FEED_MM_PER_S
     bend_mm = 3.0 * size
@@ -64,7 +64,7 @@ def motions_of(burr: Burr, travel_mm: float) -> list[StudiedMotion]:
         return np.array([bend_mm * math.sin(angle), bend_mm * (1.0 - math.cos(angle)), size * 1.5])
 
     upright, leaning = (0.0, 0.0, 1.0), (0.0, math.sqrt(0.5), math.sqrt(0.5))
-    layer = (round(0.8 * size, 1), 0.4)  # whole voxels of the default: not about where a layer ends within one
+    layer = (round(0.8 * size, 1), 0.4)  # whole voxels of the default, so that no layer ends within a voxel
     given = (
         ("polishing", upright, along(1.0), duration_s, None),
         ("tilted", leaning, along(1.5), duration_s, None),
@@ -105,9 +105,9 @@ def run_motion(
     most_steps: int | None = None,
     run_with: Burr | None = None,
 ) -> list[ForceSeries]:
-    """Of each model, in turns step by step. `run_in_s`: how long the burr moves before it is measured, for a model
-    that must forget how it was put into the bone; `most_steps`: of what is measured; `run_with`: the burr as the
-    models take it, where that is not the motion's own."""
+    """Series of each model, in turns step by step. `run_in_s`: the time that the burr moves before measurement, for a model that
+    must forget its start in the bone; `most_steps`: of the measurement; `run_with`: the models' burr, if it is not the motion's
+    own."""
     step_s = 1.0 / milling_rate_hz
     steps = max(1, round(motion.duration_s / step_s))
     if most_steps:
@@ -131,7 +131,7 @@ def error_and_ripple(
     run_in_s: float = 0.0,
     run_with: Burr | None = None,
 ) -> tuple[float, float]:
-    """Error of the mean force, mean over motions and over where the lattice lies; and the largest ripple."""
+    """Error of the mean force, mean over motions and lattice offsets; and the largest ripple."""
     errors, ripples = [], []
     for motion in motions:
         for shift in shifts:

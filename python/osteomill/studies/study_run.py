@@ -1,4 +1,4 @@
-"""A run of a study: the cases that it works out, the folder that it fills, what it says.
+"""A run of a study: its cases, its folder and its output.
 
     outcomes = study.sweep(force_of, cases)
     study.table("forces", pd.DataFrame(outcomes))
@@ -6,8 +6,8 @@
     study.say(f"{len(cases)} motions in {study.out}")
 
 Cases are independent, so that they may run in several processes, or in parts on several machines, and go on where
-they were stopped (--jobs, --shard, --merge). Outcomes go through a file of JSON lines in every case
-(osteomill/part_files.py): what is written of them does not depend on where they ran.
+they were stopped (--jobs, --shard, --merge). Outcomes always pass through a file of JSON lines
+(osteomill/part_files.py), so results do not depend on where the cases ran.
 """
 
 import contextlib
@@ -33,7 +33,7 @@ class PartIsDone(Exception):
 
 
 class StudyRun:
-    """Makes the folder `out` once something is written into it. What writes raises RuntimeError in one line.
+    """Makes the folder `out` once something is written into it. Methods that write raise RuntimeError in one line.
 
     command, program: of the file of cases, which goes on only with the same; joined: nothing is run, but taken
     from these.
@@ -61,11 +61,11 @@ class StudyRun:
         self._cases: pathlib.Path | None = None
 
     def say(self, text: str) -> None:
-        """A line of what was found, or where the files are."""
+        """Prints a line about results, or about the files' place."""
         print(printable(text), file=self._said, flush=True)
 
     def warn(self, text: str) -> None:
-        """A line beside what was found."""
+        """Prints a line beside the results."""
         print(printable(text), file=self._aside, flush=True)
 
     def sweep(
@@ -73,8 +73,8 @@ class StudyRun:
     ) -> list[Any]:
         """``[function(case) for case in cases]``, as osteomill.sweep says of function, cases and outcomes.
 
-        Once in a study: one that has cases of several kinds gives all of them. `name`: of a case, as people are
-        told of it; otherwise its JSON. RuntimeError naming the case that fails.
+        Call it once in a study: one that has cases of several kinds gives all of them. `name`: of a case in
+        messages; otherwise its JSON. RuntimeError naming the case that fails.
         """
         if self._cases is not None:
             raise RuntimeError("a study sweeps once, so that its parts can be joined: give all cases at once")
@@ -95,7 +95,7 @@ class StudyRun:
         return [writer.done[index] for index in range(len(cases))]
 
     def forget_outcomes(self) -> None:
-        """Nothing is left to be made of them: the next run in this folder may be of something else."""
+        """The outcomes are used up: the next run in this folder may be another one."""
         if self._cases is not None and self._joined is None and self._part.of == 1:
             self._cases.unlink(missing_ok=True)
 
@@ -128,7 +128,7 @@ class StudyRun:
     def _perform(
         self, function: Callable[[Any], Any], cases: list[Any], keys: list[str], names: list[str], writer: PartWriter
     ) -> None:
-        its = sorted(self._part.cases(keys))  # neighbours share what is costly to make, such as a bone
+        its = sorted(self._part.cases(keys))  # neighbours share costly things, such as a bone
         to_do = [index for index in its if index not in writer.done]
         if done_before := len(its) - len(to_do):
             self.say(f"{done_before} of {len(its)} cases are done in {writer.file}")
@@ -162,7 +162,7 @@ class _Named:
 def _run_named(
     function: Callable[[Any], Any], cases: list[Any], names: list[str], to_do: list[int], jobs: int
 ) -> Generator[tuple[int, Any], None, None]:
-    """In this process where one case runs at a time: what measures times has no other beside it."""
+    """In this process if one case runs at a time: a measurement of times has no other process beside it."""
     named = list(zip(names, cases))
     if jobs > 1:
         return run_cases(_Named(function), named, to_do, jobs)

@@ -1,4 +1,4 @@
-"""Tables and JSON of what a study found, as text."""
+"""Tables and JSON of a study's results, as text."""
 
 import json
 import math
@@ -11,7 +11,8 @@ if TYPE_CHECKING:
 
 
 def csv_of(frame: "pd.DataFrame", digits: int = 6) -> str:
-    """A header and a line a row: numbers with so many digits, truths as 1 and 0, nothing where there is no value."""
+    """A header and a line for each row: numbers with so many digits, truths as 1 and 0, nothing for a missing
+    value."""
     columns = [frame[name].tolist() for name in frame.columns]
     lines = [",".join(csv_cell(str(name)) for name in frame.columns)]
     lines += [",".join(cell_of(value, digits) for value in row) for row in zip(*columns)]
@@ -31,7 +32,7 @@ def cell_of(value: Any, digits: int = 6) -> str:
 
 
 def json_of(data: Any) -> str:
-    """With a line a value; numbers that are not finite are null."""
+    """JSON with a line for each value; numbers that are not finite are null."""
     return json.dumps(_finite(data), indent=1, ensure_ascii=False) + "\n"
 
 

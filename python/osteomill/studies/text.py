@@ -1,10 +1,11 @@
-"""Texts from elsewhere, as all programs check and show them (common/text)."""
+"""Checks and display of texts from elsewhere, as in all programs (common/text)."""
 
 from osteomill import _studies
 
 
 def _bytes_of(text: str) -> bytes:
-    """As they came from the system; a lone surrogate that no byte was becomes what is no UTF-8, too."""
+    """Bytes as they came from the system; a lone surrogate that stands for no byte becomes a byte that is no
+    UTF-8, too."""
     try:
         return text.encode("utf-8", "surrogateescape")
     except UnicodeEncodeError:
@@ -12,7 +13,7 @@ def _bytes_of(text: str) -> bytes:
 
 
 def why_not_plain(text: str) -> str | None:
-    """Why a text is no UTF-8 without control characters; None where it is."""
+    """Reason why a text is no UTF-8 without control characters; None if it is."""
     return _studies.why_not_plain(_bytes_of(text))
 
 
@@ -22,7 +23,7 @@ def printable(text: str) -> str:
 
 
 def one_line(text: str) -> str:
-    """The same of its first 200 bytes."""
+    """The text's first 200 bytes, printable."""
     return _studies.one_line(_bytes_of(text))
 
 
@@ -42,7 +43,7 @@ def holds_password(address: str) -> bool:
 
 
 def line_of(error: BaseException) -> str:
-    """One line for what was raised: what is wrong, and where."""
+    """One line for an exception: what is wrong, and where."""
     if isinstance(error, OSError) and error.strerror:
         text = f"{error.filename}: {error.strerror}" if error.filename else error.strerror
     else:

@@ -1,9 +1,9 @@
-"""Speed against accuracy, for every choice that costs time: one page, with the published method, the default, the
-front of the best, and what each built-in scene needs.
+"""Speed against accuracy, for every choice that costs time: one page, with the published method, the default, the front of the
+best, and the needs of each built-in scene.
 
-Each part is in a file of its own, which says what it measures: tradeoff_force.py, tradeoff_coupling.py, tradeoff_picture.py,
-tradeoff_cues.py, tradeoff_link.py; beside them what a frame costs as bone and window grow: tradeoff_scaling.py. Times hold for the machine
-that measured them; compare them within a chart.
+Each part is in a file of its own, which describes its measurement: tradeoff_force.py, tradeoff_coupling.py, tradeoff_picture.py,
+tradeoff_cues.py, tradeoff_link.py; beside them the cost of a frame as bone and window grow: tradeoff_scaling.py. Times hold for
+the machine that measured them; compare them within a chart.
 """
 
 import argparse
@@ -25,7 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quick", action="store_true", help="fewer choices, shorter runs: a minute")
 
 
-# Of the bones of picture and link; the others of --quick would take longer to make than to measure.
+# Scenes of picture and link; the other bones would take --quick longer to make than to measure.
 QUICK_SCENES = ("tooth",)
 MEASURED_BY = {"force": tradeoff_force.measure, "coupling": tradeoff_coupling.measure, "picture": tradeoff_picture.measure,
                "cue": tradeoff_cues.measure, "link": tradeoff_link.measure, "scaling": tradeoff_scaling.measure}
@@ -49,7 +49,7 @@ def _name_of(case: dict[str, Any]) -> str:
 
 
 def tables_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> "dict[str, pd.DataFrame]":
-    """By name, each of tradeoff_NAME.csv."""
+    """Tables by name, each of tradeoff_NAME.csv."""
     found: dict[str, tuple[list[Any], list[Any]]] = {part: ([], []) for part in MEASURED_BY}
     for case, outcome in zip(choices, outcomes):
         found[case["part"]][0].append(case)

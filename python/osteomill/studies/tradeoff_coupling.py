@@ -1,5 +1,5 @@
-"""Speed against accuracy of the couplings between model and hand: what a haptic tick takes, how far the force is from
-the truth in continuous time, and in which share of the range the coupling is stable.
+"""Speed against accuracy of the couplings between model and hand: the time of a haptic tick, the error of the force against the
+truth in continuous time, and the share of the range in which the coupling is stable.
 
 The points are those of the study `stability --quick`: slots and walls, three grips, milling at 100 Hz and 1 kHz, up to
 a tick of delay. Error: rms of the force about the truth's, median over the stable points. Ticks are timed on a hand
@@ -33,7 +33,7 @@ def _shared() -> _studies.SceneCache:
 
 
 def points_of(method: str, quick: bool) -> list[Point]:
-    """Of the map itself, on an ideal device. Quick: cutting alone, at 1 kHz and without a delay."""
+    """Points of the map itself, on an ideal device. Quick: cutting alone, at 1 kHz and without a delay."""
     return [{key: value for key, value in point.items() if key != "part"} for point in map_points(True, False)
             if point["part"] == "map" and point["method"] == method
             and (not quick or (point["scene"] == "cutting" and point["milling_rate_hz"] == 1000.0 and point["delay_ticks"] == 0))]

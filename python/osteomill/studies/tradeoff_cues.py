@@ -1,8 +1,8 @@
-"""What each cue of the picture costs, and what smooth silhouettes are worth.
+"""Costs of the picture's cues, and the gain by smooth silhouettes.
 
-A cue is on by default where it takes less than a tenth of a frame. Frames with it and without are drawn in turns in one
-run, so that what else the machine does meets both alike; its cost is the median of such pairs. Silhouettes, smoothed and
-not, are held against a picture of 4 x 4 rays a pixel, on the pixels in which depth leaps by a millimetre.
+A cue is on by default if it takes less than a tenth of a frame. Frames with it and without are drawn in turns in one run, so
+that the machine's other work affects both alike; its cost is the median of such pairs. Silhouettes, smoothed and not, are held
+against a picture of 4 x 4 rays a pixel, on the pixels in which depth leaps by a millimetre.
 """
 
 from typing import Any
@@ -33,7 +33,7 @@ def measure(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def table_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> pd.DataFrame:
-    """A line a cue in each view; PSNR where silhouettes are its matter."""
+    """A line for each cue in each view; PSNR if the cue is silhouettes."""
     rows = []
     for case, outcome in zip(choices, outcomes):
         for cue, cost in outcome["cues"].items():

@@ -1,4 +1,5 @@
-"""Speed against accuracy of the milling force: which bone a step looks at, what a voxel holds, how often, how fine.
+"""Speed against accuracy of the milling force: the bone that a step visits, the contents of a voxel, the rate, the size of
+voxels.
 
 A choice is run through the five motions of studied_motions.py. Its error is that of the mean force against the
 analytical reference, mean over motions and over three places of the lattice; its ripple the largest of means over
@@ -21,9 +22,9 @@ DEFAULT_VOXEL_MM = 0.1
 RATES_HZ = (25.0, 100.0, 1000.0, 10_000.0)
 BURRS_MM = (1.5, 2.0, 3.0, 4.0, 5.0)
 EDGES_N_PER_MM = (0.3, 0.3, 0.0)  # as the built-in scenes have them
-INSTANTS_RUN_IN_S = 0.03  # thirty tooth periods: e^-30 of what a burr that was put into solid bone removed at once
+INSTANTS_RUN_IN_S = 0.03  # thirty tooth periods: they leave e^-30 of the bone that a burr, put into solid bone, removed at once
 
-# What each built-in scene starts with: the burr in mm, its speed, and whether its edges rub.
+# Start of each built-in scene: the burr in mm, its speed, and whether its edges rub.
 SCENES = {
     "cube": (5.0, 10_000.0, False),
     "tooth": (2.0, 40_000.0, True),
@@ -31,12 +32,12 @@ SCENES = {
     "jaw": (1.5, 40_000.0, True),
     "mastoid": (5.0, 60_000.0, True),
 }
-# What a hand needs: a change of less than a tenth of a force is not felt (Weber's fraction of force is 7 to 10 %), and
-# the mean is to be twice as true.
+# Needs of a hand: a change of less than a tenth of a force is not felt (Weber's fraction of force is 7 to 10 %), and the mean is
+# to be twice as accurate.
 NEEDED_ERROR_PERCENT = 5.0
 NEEDED_RIPPLE_PERCENT = 10.0
 
-# By name: what is chosen, and how it is said in the chart.
+# Choices by name, and their text in the chart.
 FAMILIES = {
     "new smoothed": "new voxels only, smoothed at the surface",
     "new in part": "new voxels only, filled in part",
@@ -103,7 +104,7 @@ def measure(case: dict[str, Any]) -> dict[str, float]:
     edges = EDGES_N_PER_MM if case["edges"] else (0.0, 0.0, 0.0)
     motions = studied_motions(0.9 if case["quick"] else 2.4, case["burr_mm"], edges, case["rpm"])
     model = _studies.Milling(**case["model"] | {"bins": tuple(case["model"].get("bins", (72, 50)))})
-    # What is done ten thousand times a second is steady: one place of the lattice is enough.
+    # At ten thousand steps a second the force is steady: one offset of the lattice is enough.
     shifts = LATTICE_SHIFTS[:1] if case["quick"] or case["milling_rate_hz"] > 1000.0 else LATTICE_SHIFTS
     error, ripple = error_and_ripple(motions, model, voxel_mm=case["voxel_mm"], milling_rate_hz=case["milling_rate_hz"],
                                      shifts=shifts, run_in_s=INSTANTS_RUN_IN_S if case["family"] == "instants" else 0.0)
@@ -132,7 +133,7 @@ def table_of(choices: list[dict[str, Any]], outcomes: list[dict[str, float]]) ->
 
 
 def needs_of(table: pd.DataFrame) -> pd.DataFrame:
-    """By built-in scene the coarsest voxels that are true enough for a hand, with what is lost one coarser."""
+    """For each built-in scene the coarsest voxels that are accurate enough for a hand, with the loss by the next coarser ones."""
     rows = []
     for scene in SCENES:
         tried = table[(table["varied"] == "scene") & (table["label"] == scene)].sort_values("step_us")

@@ -1,9 +1,9 @@
-"""Speed against accuracy of the link: what is sent and how often, and what the client shows meanwhile.
+"""Speed against accuracy of the link: the data sent, their rate, and the client's picture meanwhile.
 
-A scene's simulated hand mills for some seconds of session time; what it removed is sent to a client by the program's own
-messages, over a simulated link of a millisecond's latency, as wide as it need be or narrower. Its cost are bytes a
-second. Its error is the age of what the client shows, and the number of voxels in which the client's bone differs from the
-server's, both means over the session; and how many differ still when all has arrived.
+A scene's simulated hand mills for some seconds of session time. The program's own messages send the removed bone to a client,
+over a simulated link of a millisecond's latency, of sufficient bandwidth or less. The cost is bytes a second. The error is the
+age of the client's picture, and the number of voxels in which the client's bone differs from the server's, both means over the
+session; and the number that still differ when all has arrived.
 """
 
 import functools
@@ -24,7 +24,7 @@ SCENE_RATES_HZ = (5.0, 10.0, 15.0, 30.0, 60.0)
 WIDTHS_KBIT_PER_S = (64.0, 256.0, 1000.0)
 NEEDED_DELAY_MS = 40.0  # the target of a motion's way to the picture, benchmark of the link
 
-# By name: how it is said in the chart.
+# Choices by name, with their text in the chart.
 FAMILIES = {
     "changes": "the voxels that changed",
     "bricks": "whole bricks that changed",
@@ -47,7 +47,7 @@ def cases(scenes: "list[str]", quick: bool) -> list[dict[str, Any]]:
 
 @functools.lru_cache(1)
 def _path(scene: str, quick: bool) -> Any:
-    """Where the burr goes while it turns, by the millisecond: (n, 3)."""
+    """Path of the burr while it turns, by the millisecond: (n, 3)."""
     session = Session(case_named(scene), hand="firm")
     ran = session.run(3000 if quick else 10_000)
     session.close()
@@ -62,7 +62,7 @@ def measure(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def table_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> pd.DataFrame:
-    """A line a choice; on_front: none sends less and shows newer bone that is as true in the end."""
+    """A line for each choice; on_front: no other sends less and shows newer bone that is as accurate in the end."""
     told = ("varied", "scene", "content", "frame_rate_hz", "link_bytes_per_s")
     table = pd.DataFrame([{key: case[key] for key in told} | outcome for case, outcome in zip(choices, outcomes)])
     table["is_default"] = (table["content"] == "changes") & (table["frame_rate_hz"] == DEFAULT_RATE_HZ)
@@ -73,7 +73,7 @@ def table_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> p
 
 
 def needs_of(table: pd.DataFrame) -> pd.DataFrame:
-    """By scene the fewest frames a second that are new enough."""
+    """For each scene the fewest frames a second that are new enough."""
     rows = []
     for scene, tried in table[table["varied"] == "scene"].groupby("scene", sort=False):
         tried = tried.sort_values("frame_rate_hz")

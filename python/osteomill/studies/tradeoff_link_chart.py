@@ -1,4 +1,4 @@
-"""The charts of the link: bytes a second against what the client's bone lacks, and against how old it is."""
+"""The charts of the link: bytes a second against the voxels in which the client's bone differs, and against its age."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Marks that all charts of the study `tradeoff` share: the default, what a scene needs, names beside points."""
+"""Marks that all charts of the study `tradeoff` share: the default, a scene's need, names beside points."""
 
 import math
 from typing import Any
@@ -46,7 +46,7 @@ def label_points(axes: Axes, x: Any, y: Any, texts: list[str], fontsize: float =
     order = sorted(range(len(texts)), key=heights_pt.__getitem__)
     for i in order:
         placed_pt.append(max(heights_pt[i], placed_pt[-1] + gap_pt) if placed_pt else heights_pt[i])
-    # Back towards their points by half of what the topmost was pushed.
+    # Back towards their points by half of the topmost's shift.
     back_pt = 0.5 * (placed_pt[-1] - heights_pt[order[-1]]) if placed_pt else 0.0
     for i, place_pt in zip(order, placed_pt):
         axes.annotate(texts[i], (list(x)[i], list(y)[i]), xytext=(11, place_pt - back_pt - heights_pt[i] - 3),

@@ -25,7 +25,7 @@ LOOKS: dict[str, dict[str, Any]] = {
     "instants": {"color": charts.BLACK, "marker": "D", "linestyle": "none"},
 }
 def page_of(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Of the study's tables by their names."""
+    """The page of the study's tables, given by their names."""
     force, needs, coupling = tables["force"], tables["needs"], tables["coupling"]
     page = charts.figure(15.0, 41.0)
     page.suptitle("What a choice costs and what it is worth: the best is at the lower left, but for the shares")

@@ -1,8 +1,9 @@
-"""Speed against accuracy of the picture: renderer, distance of the samples, resolution, and what normals are taken from.
+"""Speed against accuracy of the picture: renderer, distance of the samples, resolution, and source of normals.
 
-A choice draws one view of a bone, offscreen, by whatever draws on this machine (Mesa's software rasteriser where there is
-no GPU). Its error is the peak signal-to-noise ratio against the reference image of the same look, rays in steps of a tenth
-of a voxel in double precision; both without the cues that stand in tradeoff_cues.py. Its time is the median of several frames, of one that takes seconds the first.
+A choice draws one view of a bone, offscreen, on this machine's GPU or, without one, by Mesa's software rasteriser. Its error is
+the peak signal-to-noise ratio against the reference image of the same look, rays in steps of a tenth of a voxel in double
+precision; both without the cues that stand in tradeoff_cues.py. Its time is the median of several frames; of a frame that takes
+seconds, only the first counts.
 """
 
 import functools
@@ -18,7 +19,7 @@ SIZE_PX, QUICK_SIZE_PX = (640, 480), (200, 150)
 DEFAULT_STEP_VOXELS = 0.5
 NEEDED_PSNR_DB = 40.0  # as the documents promise of the default
 
-# By name: how it is said in the chart.
+# Choices by name, with their text in the chart.
 FAMILIES = {
     "rays": "rays, a normal from 8 smoothed samples",
     "raw normals": "rays, a normal from 64 samples",
@@ -37,7 +38,7 @@ WAYS: dict[str, dict[str, Any]] = {
     "slices": {"renderer": "slices"},
     "published": {"renderer": "slices", "shading": "surface-voxels"},
 }
-# What render_client can be told: --renderer and --shading; and what it does by itself when time is short, or one sample a voxel.
+# Options of render_client: --renderer and --shading; and its own measures when time is short, or one sample a voxel.
 SCENE_WAYS: tuple[dict[str, Any], ...] = ({}, {"step_voxels": 1.0}, {"step_voxels": 2.0}, {"divisor": 2})
 
 
@@ -48,7 +49,7 @@ def _choice(scene: str, family: str, label: str, quick: bool, **changes: Any) ->
 
 
 def cases(scenes: "list[str]", quick: bool) -> list[dict[str, Any]]:
-    """Those of one look follow one another: they have textures and a reference image together."""
+    """Cases of one look follow one another: they share textures and a reference image."""
     def steps(family: str, *voxels: float) -> list[dict[str, Any]]:
         return [_choice(TRIED_SCENE, family, f"{step:g}", quick, step_voxels=step) for step in voxels]
 
@@ -93,7 +94,7 @@ def measure(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def table_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> pd.DataFrame:
-    """A line a choice; on_front: none of the same view is both faster and truer."""
+    """A line for each choice; on_front: no other of the same view is both faster and more accurate."""
     told = ("varied", "scene", "view", "family", "label", "step_voxels", "divisor")
     table = pd.DataFrame([{key: case[key] for key in told} | outcome for case, outcome in zip(choices, outcomes)])
     table["width_px"], table["height_px"] = QUICK_SIZE_PX if choices[0]["quick"] else SIZE_PX
@@ -106,7 +107,7 @@ def table_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> p
 
 
 def needs_of(table: pd.DataFrame) -> pd.DataFrame:
-    """By scene the fastest way that is true enough in every view."""
+    """For each scene the fastest way that is accurate enough in every view."""
     rows = []
     tried = table[table["varied"] == "scene"]
     for scene, of_scene in tried.groupby("scene", sort=False):

@@ -62,7 +62,7 @@ def _draw_scenes(axes: Axes, picture: pd.DataFrame, needs: pd.DataFrame) -> None
 
 
 def way_in_words(row: Any) -> str:
-    """Of a row of needs."""
+    """Text for a row of needs."""
     return f"1/{row['divisor']:.0f} as wide" if row["divisor"] > 1 else f"samples {row['step_voxels']:g} apart"
 
 

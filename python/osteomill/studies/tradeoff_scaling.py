@@ -1,7 +1,7 @@
-"""What a whole frame costs at full quality, against the voxels of the bone and the pixels of the window.
+"""Cost of a whole frame at full quality, against the voxels of the bone and the pixels of the window.
 
-By voxels: a cube of bone, seen whole at 640 x 480, of so many voxels an edge. By pixels: the tooth. Times are medians of
-several frames, of slices that of one.
+By voxels: a cube of bone, seen whole at 640 x 480, of so many voxels along an edge. By pixels: the tooth. Times are medians of
+several frames; with slices, of one.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -19,7 +19,7 @@ CUBE_MM = 20.0
 WINDOWS_PX = ((160, 120), (320, 240), (640, 480), (960, 720), (1280, 960))
 SIZE_PX, QUICK_SIZE_PX = (640, 480), (160, 120)
 
-# By name: what is drawn, and how it is said.
+# Drawings by name, with their text.
 DRAWN = {
     "rays": ("raycast", "gradient", "rays shaded by gradient (default)"),
     "surface voxels": ("raycast", "surface-voxels", "rays to surface voxels"),

@@ -1,5 +1,5 @@
-// The desktop's clipboard, for the panels. Only the window's thread may speak to the desktop: it takes what
-// the drawing thread copies, and fetches what that thread waits to paste.
+// The desktop's clipboard, for the panels. Only the window's thread may speak to the desktop: it takes text
+// that the drawing thread copies, and fetches text that that thread waits to paste.
 #pragma once
 
 #include <chrono>

@@ -57,7 +57,7 @@ class Commands {
     SessionPicture& session_;
     HandInput& desk_;
     SessionSource& source_;
-    RecordingPlayer* player_;  // null where no recording is shown
+    RecordingPlayer* player_;  // null if no recording is shown
     PictureExport pictures_;
     BoneClutch clutch_;
     bool clutch_paused_ = false;    // the session, which goes on afterwards

@@ -26,7 +26,7 @@ class HeldKeys {
     void release(std::size_t key, double now_s) {
         if (down_[key]) released_s_.try_emplace(key, now_s);
     }
-    /// Lets go of what has not come back in time; whether there was any.
+    /// Releases keys that were not repeated in time; returns whether there was any.
     bool settle(double now_s) {
         return std::erase_if(released_s_, [&](const auto& released) {
                    const bool is_up = now_s - released.second >= longest_gap_s;

@@ -18,7 +18,7 @@ class OperatorHand {
     /// enforces the limit), and a burr index beyond `burr_count` is lowered to the last.
     void follow(const ToolState& tool, std::size_t burr_count, double reach_mm = longest_reach_mm);
 
-    /// Moves the target in the plane that faces the camera by what the pointer moved (pixels, y down).
+    /// Moves the target in the plane that faces the camera by the pointer's motion (pixels, y down).
     void move_in_picture(const glm::dvec2& moved_px, const Camera& camera, const glm::ivec2& size_px);
     /// Moves the target there: patient LPS.
     void go_to(const glm::dvec3& place_mm);

@@ -11,7 +11,7 @@ namespace osteomill {
 /// near.
 constexpr double wheel_step_mm(double mm_per_px, std::optional<double> ahead_mm) {
     constexpr double fine_px = 2.0, finest_mm = 0.02, coarsest_at_bone_mm = 0.2;
-    constexpr double share_of_way = 0.3, in_air_mm = 3.0;  // half of what the hand may lead by
+    constexpr double share_of_way = 0.3, in_air_mm = 3.0;  // half of the hand's greatest lead
     const double fine_mm = std::clamp(fine_px * mm_per_px, finest_mm, coarsest_at_bone_mm);
     return std::clamp(ahead_mm ? share_of_way * *ahead_mm : in_air_mm, fine_mm, in_air_mm);
 }

@@ -13,7 +13,7 @@ namespace osteomill {
 /// Each notch of the wheel makes the view so many times as wide.
 inline constexpr double zoom_per_notch = 0.88;
 
-/// A key of GLFW that went down, with what was held as it did.
+/// A key of GLFW that went down, with the modifiers held then.
 struct KeyPress {
     int key = 0;
     bool shift = false, ctrl = false, alt = false;

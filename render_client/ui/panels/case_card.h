@@ -1,4 +1,4 @@
-// A card on the start page: a case's picture, name, a sentence about it and what is protected in it.
+// A card on the start page: a case's picture, name, a sentence about it and its protected structures.
 #pragma once
 
 #include <imgui.h>
@@ -21,7 +21,7 @@ class CardPictures {
     const gl::Texture2D* of(const ShelvedCase& shelved);
 
   private:
-    std::map<std::string, std::optional<gl::Texture2D>> held_;  // by what --case takes
+    std::map<std::string, std::optional<gl::Texture2D>> held_;  // by its name for --case
 };
 
 /// Draws the card of page.cases()[index]. A click, or Return, chooses it; another starts it. Needs an ImGui

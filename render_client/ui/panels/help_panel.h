@@ -6,7 +6,7 @@
 
 namespace osteomill {
 
-/// At most as large as `room`.
+/// At most `room` large.
 glm::vec2 help_size(const PanelPainter& painter, Situation situation, const glm::vec2& room);
 void draw_help(const PanelPainter& painter, Situation situation, const PanelPlace& place);
 

@@ -60,7 +60,7 @@ void draw_letters(ImDrawList& canvas, const PreviewSlice& slice, const ImVec2& l
     }
 }
 
-/// Where the other two slices cross this one.
+/// Lines in which the other two slices cross this one.
 void draw_cross(ImDrawList& canvas, const ImVec2& low, const ImVec2& high, const ImVec2& at) {
     const ImU32 ink = IM_COL32(90, 200, 255, 110);
     canvas.AddLine({low.x, at.y}, {high.x, at.y}, ink);
@@ -114,7 +114,7 @@ void draw_slices(StartPage& page, StartPicture& picture, const ImVec2& room) {
                             covers.high_mm[under_pointer->through_axis()]);
 }
 
-/// What a segment is made of; the first choice leaves it open.
+/// Material of a segment; the first choice leaves it open.
 void draw_material(SegmentChoice& segment, const char* left_open) {
     ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
     if (!ImGui::BeginCombo("##material", segment.material.empty() ? left_open : segment.material.c_str()))
@@ -167,7 +167,7 @@ struct MarkField {
     double unit = 1.0;
 };
 
-/// What a session has to reach; a mark that nobody could miss is not offered.
+/// Marks that a session has to reach; a mark that nobody could miss is not offered.
 void draw_marks(ImportForm& form) {
     const std::array<MarkField, 5> fields{
         {{"time_s", tr("s at most"), 600.0},

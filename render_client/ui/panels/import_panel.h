@@ -1,4 +1,4 @@
-// The start page's view of an import: the scan's slices, the region in them, and what is made of it.
+// The start page's view of an import: the scan's slices, the region in them, and the choices for it.
 #pragma once
 
 #include "render_client/ui/panels/start_panel.h"

@@ -10,7 +10,7 @@ namespace {
 
 using Places = std::vector<std::optional<PanelPlace>>;
 
-/// 0 to 1 across the room that the picture leaves to a panel.
+/// 0 to 1 across the space that the picture leaves to a panel.
 glm::vec2 part_of(Anchor anchor) {
     switch (anchor) {
         case Anchor::upper_left:
@@ -141,7 +141,7 @@ std::optional<glm::vec2> free_place(std::span<const glm::vec2> places, const glm
 }
 
 float scale_that_fits(float wanted, const glm::vec2& picture) {
-    constexpr glm::vec2 smallest_window(500.0f, 400.0f);  // that has room for them as large as usual
+    constexpr glm::vec2 smallest_window(500.0f, 400.0f);  // that holds them at the usual size
     const float room = std::min(picture.x / smallest_window.x, picture.y / smallest_window.y);
     // In steps: letters are made anew for each, and a window is pulled larger pixel by pixel.
     return std::min(wanted, std::max(0.25f * std::floor(4.0f * room), 1.0f));

@@ -15,7 +15,7 @@ struct PanelRequest {
     Anchor anchor = Anchor::upper_left;
     std::vector<glm::vec2> sizes;
     bool may_cover_middle = false;  ///< a page or a question: it wants to be read and answered
-    bool is_kept = false;           ///< room for its last size is kept, whatever is more important
+    bool is_kept = false;           ///< space for its last size is kept, whatever is more important
     bool is_requested = false;      ///< the user opened it: others that were opened shrink for it
     bool gives_way = false;         ///< to the burr, wherever that is; a panel with buttons must not flee
 };
@@ -46,7 +46,7 @@ std::optional<glm::vec2> free_place(std::span<const glm::vec2> places, const glm
                                     std::span<const std::optional<PanelPlace>> panels,
                                     const glm::vec2& picture);
 
-/// Scale of panels that are requested at `wanted` times the usual size: smaller in a window without room for
+/// Scale of panels that are requested at `wanted` times the usual size: smaller in a window without space for
 /// it, but never below the usual size for that reason.
 float scale_that_fits(float wanted, const glm::vec2& picture);
 

@@ -30,7 +30,7 @@ constexpr float banner_letters = 1.6f;
 
 using Draw = std::function<void(const PanelPlace&)>;
 
-/// Requests for places, and what to draw there: the most important first.
+/// Requests for places, and the drawings there: the most important first.
 class PanelList {
   public:
     void add(Anchor anchor, std::vector<glm::vec2> sizes, Draw draw) {

@@ -33,7 +33,7 @@ struct OverlayContent {
     std::optional<OperatorCommand> operator_command;
     /// Null if no slices are shown.
     SlicesView* slices = nullptr;
-    const gl::Framebuffer* inset = nullptr;  ///< null where no second view is shown
+    const gl::Framebuffer* inset = nullptr;  ///< null if no second view is shown
     const Bone* bone = nullptr;              ///< null until one has come
     std::uint64_t bone_version = 0;
     /// Takes requests made with buttons; null if nobody can press them, as in offscreen pictures.

@@ -11,7 +11,7 @@
 
 namespace osteomill {
 
-/// Of `most` bytes at most.
+/// A field of `most` bytes at most.
 template <std::size_t most = 64>
 void text_field(const char* label, std::string& text, float width) {
     std::array<char, most> buffer{};

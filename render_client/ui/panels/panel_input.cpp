@@ -47,7 +47,7 @@ void feed_modifiers(bool shift, bool ctrl, bool alt, ImGuiIO& io) {
 
 void feed_key(ImGuiKey_ key, bool is_down, ImGuiIO& io) {
     io.KeysDown[key] = is_down;
-    // It presses what has the focus by SPACE alone.
+    // It presses the focused item by SPACE alone.
     if (key == ImGuiKey_Enter && is_down && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1.0f;
 }
 

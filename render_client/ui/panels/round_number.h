@@ -5,7 +5,7 @@
 
 namespace osteomill {
 
-/// The largest that is at most `limit` (above zero), with room for rounding errors.
+/// The largest that is at most `limit` (above zero), with a margin for rounding errors.
 inline double round_number_up_to(double limit) {
     const double decade = std::pow(10.0, std::floor(std::log10(limit) + 1e-9));
     for (const double factor : {5.0, 2.0})

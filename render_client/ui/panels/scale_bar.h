@@ -1,4 +1,4 @@
-// A bar of a round length that is right at the depth of what the camera turns about.
+// A bar of a round length that is right at the depth of the camera's target.
 #pragma once
 
 #include <string>

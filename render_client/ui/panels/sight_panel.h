@@ -1,5 +1,5 @@
-// The panel in the middle while the picture does not show the session as it is now: the cause, and what to
-// do, worded for a trainee. Drawn with Dear ImGui; needs an ImGui frame to be open.
+// The panel in the middle while the picture does not show the session as it is now: the cause and the remedy,
+// worded for a trainee. Drawn with Dear ImGui; needs an ImGui frame to be open.
 #pragma once
 
 #include <glm/vec2.hpp>

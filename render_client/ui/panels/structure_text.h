@@ -1,4 +1,4 @@
-// Texts about protected structures: how near the nearest is, and what was touched.
+// Texts about protected structures: the distance of the nearest, and the touched ones.
 #pragma once
 
 #include "render_client/ui/panels/panel_text.h"

@@ -28,7 +28,7 @@ struct Theme {
     Rgba control, control_hovered, control_active;
     Rgba grid;                                  ///< in plots
     Rgba on_picture;                            ///< lines and letters over the picture, without a panel
-    Rgba behind_letter;                         ///< round what stands on the picture
+    Rgba behind_letter;                         ///< round things on the picture
     glm::vec3 background_low, background_high;  ///< linear RGB, see SceneAppearance
 
     const Rgba& operator[](Tone tone) const { return tones[static_cast<std::size_t>(tone)]; }

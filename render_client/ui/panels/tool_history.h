@@ -9,7 +9,7 @@
 namespace osteomill {
 
 /// The tool's states in the newest frames, oldest first. A frame whose time is not later than the one before
-/// is left out; one that is earlier starts a new session and forgets what was there.
+/// is left out; one that is earlier starts a new session and clears the history.
 class ToolHistory {
   public:
     static constexpr double kept_s = 10.0;

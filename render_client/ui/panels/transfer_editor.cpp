@@ -8,7 +8,7 @@ namespace osteomill {
 
 namespace {
 
-/// IEC 61966-2-1, rounded to what eight bits hold.
+/// IEC 61966-2-1, rounded to eight bits.
 std::uint8_t srgb_from_linear(double linear) {
     const double value = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
     return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));

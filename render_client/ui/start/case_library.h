@@ -12,7 +12,7 @@ struct ShelvedCase {
     std::string name;
     std::string argument;  ///< for haptic_server --case
     bool is_built_in = false;
-    std::string description{};      ///< a sentence, or what is wrong with its scene
+    std::string description{};      ///< a sentence, or the error in its scene
     std::string protected_names{};  ///< names of its protected tissues, "pulp, nerve canal"; empty: none
 
     bool operator==(const ShelvedCase&) const = default;
@@ -35,8 +35,8 @@ std::string wrong_with_name(const std::string& name, const std::filesystem::path
 std::filesystem::path report_folder(const std::filesystem::path& reports, const std::string& case_name,
                                     const std::string& trainee, std::time_t began);
 
-/// A folder of home_of_cases(), or of what stands for it; made if it is not there. Why nothing can be kept in
-/// it, in one line that says what to do; empty: all is well.
+/// A folder of home_of_cases(), or of its replacement; made if it does not exist. Why nothing can be kept in
+/// it, in one line with the remedy; empty: all is well.
 std::string make_folder_at_home(const std::filesystem::path& folder);
 
 }  // namespace osteomill

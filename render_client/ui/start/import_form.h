@@ -23,10 +23,10 @@ struct SegmentChoice {
 
 struct ImportForm {
     std::filesystem::path scan{};
-    bool are_labels = false;  ///< the scan is a label map, and bone is made of what is bone in it
+    bool are_labels = false;  ///< the scan is a label map, and its bone becomes the bone
     std::vector<std::filesystem::path> segmentations{};
     std::optional<std::filesystem::path> colours{};  ///< a table of label maps' names and colours
-    std::string stack_spacing{};  ///< "x,y,z", mm, of a stack of pictures; empty where there is none
+    std::string stack_spacing{};  ///< "x,y,z", mm, of a stack of pictures; empty if there is none
     std::vector<SegmentChoice> segments{};
     ScanBox region{};
     double threshold_hu = 300.0;
@@ -56,11 +56,11 @@ double most_memory_bytes(const ImportForm& form);
 /// tissue, takes 4 s there.
 inline constexpr double imported_voxels_per_s = 1.6e7;
 
-/// An estimate of the import's time: to read the scan what the look at it took beyond its own voxels, and
-/// then so many voxels a second.
+/// An estimate of the import's time: the time of the preview less that of its own voxels, and then so many
+/// voxels a second.
 double estimated_s(const ImportForm& form, const ScanPreview& look);
 
-/// bone_import, as a path, with what it takes to look at the scan and at the segmentations.
+/// bone_import, as a path, with the options of a preview of the scan and the segmentations.
 std::vector<std::string> look_command(const std::string& bone_import, const ImportForm& form,
                                       const std::filesystem::path& voxels);
 /// The command that makes a case of it in `folder`.

@@ -10,8 +10,8 @@ namespace osteomill {
 struct KeptSession {
     std::filesystem::path folder{};
     std::filesystem::path recording{};  ///< in it
-    /// "Anna, jaw, 28 November 14:05, not passed, 14 of 20 points"; without a report, only what the folder's
-    /// name tells.
+    /// "Anna, jaw, 28 November 14:05, not passed, 14 of 20 points"; without a report, only the values in the
+    /// folder's name.
     std::string title{};
     bool is_whole =
         true;  ///< else its program was ended in the middle, and the recording is whole until then

@@ -48,7 +48,7 @@ std::array<std::uint8_t, 3> colour_of_segment(std::size_t index);
 /// not match the box that the scan covers.
 ScanVoxels read_scan_voxels(const std::filesystem::path& raw, const ScanBox& covers, double mm_per_px);
 
-/// Nothing if the text does not say what a scan covers.
+/// Nothing if the text does not give the scan's extent.
 std::optional<ScanPreview> read_scan_preview(const std::string& preview_output);
 
 /// One of the picture's slices: axial, coronal, sagittal.

@@ -24,7 +24,7 @@ std::filesystem::path cases_of(const StartPlaces& places) {
     return places.home / "cases";
 }
 
-/// A new folder for what is gone soon.
+/// A new folder for temporary files.
 std::filesystem::path scratch_folder() {
     std::string name = (std::filesystem::temp_directory_path() / "osteomill_look_XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
@@ -107,7 +107,7 @@ void StartPage::go_to(const std::string& path) {
         message_ = trf("{}: is not there", path);
 }
 
-/// Says what goes wrong.
+/// Shows errors.
 void StartPage::attempt(const std::function<void()>& act) {
     try {
         act();

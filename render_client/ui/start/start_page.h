@@ -44,7 +44,7 @@ class StartPage {
     };
 
     explicit StartPage(StartPlaces places);
-    /// Ends what it started: a session's server writes its report first.
+    /// Ends its programs: a session's server writes its report first.
     ~StartPage() { give_up_work(); }
 
     /// Once in a while: looks after the programs that run. True if there is something new to show.
@@ -52,7 +52,7 @@ class StartPage {
 
     View view() const { return view_; }
     void show(View view);
-    /// One line about what went wrong or is going on; empty: nothing.
+    /// One line about an error or current work; empty: nothing.
     const std::string& message() const { return message_; }
     std::string
         link_line{};  ///< why the server that a person named has no session here; empty: none was named
@@ -100,11 +100,11 @@ class StartPage {
     void give_up_work();
 
     const FolderListing& listing() const { return listing_; }
-    /// With the files that may be what the browser was opened for.
+    /// With the files that suit the browser's purpose.
     void browse(const std::filesystem::path& folder);
     /// Goes to a path that a person typed: browses a folder, chooses a file.
     void go_to(const std::string& path);
-    /// A file, or a folder of DICOM, for what the browser was opened for.
+    /// A file, or a folder of DICOM, for the browser's purpose.
     void take(const std::filesystem::path& path);
 
   private:

@@ -54,7 +54,7 @@ class BoneOnScreen {
     /// step. `bone` is the one that replace() had last, at the same address.
     Outcome work(const Bone& bone, const std::function<bool()>& has_time);
 
-    /// Null until the first are complete, and if there is no room for them beside those to come.
+    /// Null until the first are complete, and if the memory does not hold them beside those to come.
     const BoneTextures* textures() const { return shown_ ? &shown_->textures : nullptr; }
     /// How much of the preparation is done, 0 to 1, while one goes on.
     std::optional<double> preparation() const;
@@ -69,7 +69,7 @@ class BoneOnScreen {
     };
     void begin(const Bone& bone);
     void build(const Bone& bone, const std::function<bool()>& has_time, Outcome& outcome);
-    /// Drops what is shown if that is in the way. True: the build began anew.
+    /// Drops the shown textures if they are in the way. True: the build began anew.
     bool make_room(const Bone& bone, Outcome& outcome);
     void show(Outcome& outcome);
     void fail(const std::string& problem, Outcome& outcome);

@@ -18,7 +18,7 @@ class CutSettings {
 
     struct Cut {
         bool is_on = false;
-        glm::dvec3 normal{0.0};    ///< unit, towards what is taken away
+        glm::dvec3 normal{0.0};    ///< unit, towards the part taken away
         double position_mm = 0.0;  ///< along the normal, from the middle of the bone
         bool is_turned = false;    ///< the other half is gone
 

@@ -10,7 +10,7 @@
 
 namespace osteomill {
 
-/// Has the window's context on this thread, whatever becomes of what is drawn.
+/// Has the window's context on this thread, whatever happens to the drawing.
 class CurrentContext {
   public:
     explicit CurrentContext(Window& window) : window_(window) { window_.make_context_current(); }
@@ -40,7 +40,7 @@ class DrawingThread {
     DrawingThread(const DrawingThread&) = delete;
     DrawingThread& operator=(const DrawingThread&) = delete;
 
-    /// Throws what `draw` threw.
+    /// Throws the exception of `draw`.
     void finish() {
         end();
         if (failure_) std::rethrow_exception(failure_);

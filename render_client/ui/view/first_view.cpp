@@ -30,7 +30,8 @@ void look_from(Camera& camera, const glm::dvec3& to_eye) {
     orbit(camera, 0.0, 0.0);  // no nearer to straight up or down than it may
 }
 
-/// Unit: `to_eye`, or where it is more than `angle_rad` from `axis`, what is so far from it in their plane.
+/// Unit: `to_eye`, or, if it is more than `angle_rad` from `axis`, the direction at that angle in their
+/// plane.
 glm::dvec3 turned_towards(const glm::dvec3& axis, const glm::dvec3& to_eye, double angle_rad) {
     const double along = glm::dot(to_eye, axis);
     if (along >= std::cos(angle_rad)) return to_eye;

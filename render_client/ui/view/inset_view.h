@@ -13,12 +13,12 @@ enum class InsetKind { off, endoscope, axial };
 
 /// From 10 mm up the handpiece and 4 mm beside it, in front, towards the burr.
 Camera endoscope_camera(const glm::dvec3& burr_mm, const glm::dvec3& spindle_axis);
-/// Width of what the axial view shows.
+/// Width of the axial view.
 inline constexpr double axial_width_mm = 20.0;
 /// From above, where the light is, the patient's front up. Shown mirrored, it is the section as radiologists
 /// look at it, from the feet.
 Camera axial_camera(const glm::dvec3& burr_mm);
-/// Takes away what is above the burr's centre.
+/// Takes away all above the burr's centre.
 CutPlane axial_cut(const glm::dvec3& burr_mm);
 
 class InsetView {

@@ -26,10 +26,10 @@ class SettingsFile {
     explicit SettingsFile(std::filesystem::path file);
 
     const KeptSettings& settings() const { return settings_; }
-    /// One line about what is wrong in the file, where, and what would be right; empty: nothing.
+    /// One line about an error in the file, its place, and the remedy; empty: none.
     const std::string& wrong() const { return wrong_; }
-    /// Writes them, as a whole, if they are others than before. Returns one line about what went wrong, once;
-    /// else nothing.
+    /// Writes them, as a whole, if they are others than before. Returns one line about an error, once; else
+    /// nothing.
     std::string keep(const KeptSettings& settings);
 
   private:

@@ -69,7 +69,7 @@ class SessionPicture {
     void set_shading(const ShadingSettings& look);
     ViewSettings& view() { return view_; }
     const ViewSettings& view() const { return view_; }
-    /// Panels take what a person asks of the session, from now on.
+    /// From now on panels accept a person's requests of the session.
     void offer_controls() { takes_requests_ = true; }
     /// While there is no session, one can be started with this, which outlives the picture.
     void offer_start(StartScreen& start) { start_ = &start; }

@@ -16,7 +16,7 @@ enum class SessionSight {
     now,        ///< the picture is the session's, or the recording's
     silent,     ///< the server says nothing
     lost,       ///< the link broke, or is refused
-    over        ///< the picture is what the session left
+    over        ///< the picture is of the ended session
 };
 
 /// `has_bone`: that of this session is drawn, or cannot be drawn.
@@ -42,7 +42,7 @@ struct SightElements {
     bool tool = false;       ///< burr, spindle, force, distances, warnings, sound
     bool controls = false;   ///< buttons, keys and mouse act on the session
     bool is_grey = false;    ///< the picture is not current
-    bool has_words = false;  ///< in the middle: the cause, and what to do
+    bool has_words = false;  ///< in the middle: the cause and the remedy
 };
 
 constexpr SightElements elements_of(SessionSight sight) {

@@ -16,7 +16,7 @@
 
 namespace osteomill {
 
-/// A slice's picture, and what it was made of.
+/// A slice's picture, and its sources.
 struct DrawnSlice {
     gl::Texture2D texture;
     SliceView view;

@@ -10,8 +10,7 @@
 
 namespace osteomill {
 
-/// None: tissues, or stiffness, in their own colours. Throws SceneError, in one line, for what is no such
-/// file.
+/// None: tissues, or stiffness, in their own colours. Throws SceneError, in one line, for any other file.
 std::optional<TransferFunction> read_transfer(const std::filesystem::path& file);
 std::optional<TransferFunction> parse_look(std::string_view text, const std::string& name_for_messages);
 
@@ -30,7 +29,7 @@ class TransferFile {
     /// must not be overwritten, and save reports that.
     std::optional<std::optional<TransferFunction>> open(const std::filesystem::path& file);
     bool has_file() const { return !file_.empty(); }
-    /// Writes the file as a whole. Returns one line that says where it is, or what went wrong.
+    /// Writes the file as a whole. Returns one line with its place, or the error.
     std::string save(const std::optional<TransferFunction>& look) const;
 
   private:

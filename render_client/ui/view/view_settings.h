@@ -39,7 +39,7 @@ struct ViewSettings {
     bool slices_shown = false;
     bool ambient_occlusion = true;
     bool smooth_silhouettes = false;
-    bool thin_bone = true;     ///< which shows what is behind it
+    bool thin_bone = true;     ///< which shows things behind it
     float specular = 0.0f;     ///< highlights on bone, see SceneAppearance
     bool sound = false;        ///< the burr is to be heard,
     bool warns = true;         ///< and a tone where it is near a protected structure

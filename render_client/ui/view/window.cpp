@@ -143,7 +143,7 @@ WindowInput Window::take_input() {
     input_.is_focused = glfwGetWindowAttrib(window_, GLFW_FOCUSED) != 0;
     input_.is_minimised = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0 || size_px.x < 1 || size_px.y < 1;
     const bool is_over = glfwGetWindowAttrib(window_, GLFW_HOVERED) != 0;
-    // GLFW asks the display, and without an answer gives what lies on the stack.
+    // GLFW asks the display, and without an answer returns garbage from the stack.
     require_display();
     input_.has_cursor = is_over || input_.is_focused;
     input_.size = glm::max(glm::dvec2(units), 1.0);

@@ -19,9 +19,9 @@ namespace osteomill {
 
 class Window {
   public:
-    /// Throws gl::NoOpenGl if there is no display or no OpenGL 3.3; the message says what to do. The
-    /// context is current on no thread. `quad_buffer`: with a back buffer for each eye; std::runtime_error
-    /// if the driver has none.
+    /// Throws gl::NoOpenGl if there is no display or no OpenGL 3.3; the message has the remedy. The context
+    /// is current on no thread. `quad_buffer`: with a back buffer for each eye; std::runtime_error if the
+    /// driver has none.
     Window(const glm::ivec2& size_px, const std::string& title, bool quad_buffer = false);
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -29,14 +29,14 @@ class Window {
 
     // Thread of the window.
 
-    /// Reads what has happened, after waiting up to `at_most_s` for something to.
+    /// Reads events, after waiting up to `at_most_s` for one.
     void read_events(double at_most_s);
     /// The window as it is, and all that happened since the last call. Throws std::runtime_error if the
     /// display has gone (its server ended or shut this program out): nothing more can be shown.
     WindowInput take_input();
     /// The whole screen, or the place and size that it had before.
     void fill_screen(bool wanted);
-    /// Does what the panels want of the desktop's clipboard.
+    /// Serves the panels' requests of the desktop's clipboard.
     void serve(Clipboard& clipboard);
     /// Whether the user has tried to close it since the last call.
     bool take_close_request();

@@ -1,6 +1,6 @@
-// A timer of the driver's work between two points (GL_TIME_ELAPSED): the drawing's own time,
-// not that of the call, which returns long before. A software rasteriser counts, too: the wall-clock time
-// that its threads were at it.
+// A timer of the driver's work between two points (GL_TIME_ELAPSED): the time of the drawing, not of the
+// call, which returns long before. It also measures a software rasteriser: the wall-clock time of its
+// threads' work.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace osteomill::gl {
 
-/// Every call needs a current OpenGL context, and so does its making.
+/// Construction and every call need a current OpenGL context.
 class DrawTimer final : public Stopwatch {
   public:
     void start() override {

@@ -12,7 +12,7 @@ namespace osteomill::gl {
 
 class Framebuffer {
   public:
-    /// Throws std::runtime_error where the driver cannot draw into such a picture.
+    /// Throws std::runtime_error if the driver cannot draw into such a picture.
     explicit Framebuffer(const glm::ivec2& size_px);
 
     /// Draw calls that follow land here; the viewport becomes the whole picture.
@@ -23,12 +23,12 @@ class Framebuffer {
     /// glBlitFramebuffer of colour to another picture, the lower left corner to pixel `first` of it.
     void copy_colour_to(const Framebuffer& target, const glm::ivec2& first) const;
     /// glBlitFramebuffer of colour to the window's framebuffer, lower left corners together. `buffer` is one
-    /// that the window has: GL_BACK, or GL_BACK_LEFT and GL_BACK_RIGHT where it has one for each eye.
+    /// of the window's: GL_BACK, or GL_BACK_LEFT and GL_BACK_RIGHT if it has one for each eye.
     void copy_colour_to_window(GLenum buffer = GL_BACK) const;
     /// Binds the colour, read between pixels by linear interpolation, to GL_TEXTURE0 + unit, and the depth,
     /// not interpolated, to the next unit.
     void bind_textures(int unit) const;
-    /// OpenGL's name of the colour, for who draws it elsewhere.
+    /// OpenGL's name of the colour, to draw it elsewhere.
     GLuint colour_texture() const { return colour_.id(); }
     /// glReadPixels of the colour; the first row is the top one.
     Picture read_back() const;

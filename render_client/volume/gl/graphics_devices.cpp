@@ -9,7 +9,7 @@ namespace osteomill::gl {
 
 namespace {
 
-/// Whether a list of names, with blanks between them, has this one.
+/// Whether a list of names, with blanks between them, holds this one.
 bool lists(std::string_view names, std::string_view wanted) {
     while (!names.empty()) {
         const std::string_view name = names.substr(0, names.find(' '));
@@ -22,7 +22,7 @@ bool lists(std::string_view names, std::string_view wanted) {
 }  // namespace
 
 std::vector<GraphicsDevice> graphics_devices() {
-    // Mesa says the two halves of the one extension, NVIDIA the whole.
+    // Mesa lists the two halves of the extension, NVIDIA the whole.
     const auto has = [](const char* extension) { return epoxy_has_egl_extension(EGL_NO_DISPLAY, extension); };
     if (!has("EGL_EXT_platform_device") ||
         !(has("EGL_EXT_device_base") || (has("EGL_EXT_device_enumeration") && has("EGL_EXT_device_query"))))

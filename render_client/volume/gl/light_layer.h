@@ -10,15 +10,15 @@ namespace osteomill::gl {
 
 class LightLayer {
   public:
-    /// Throws std::runtime_error where the driver cannot draw into such a picture.
+    /// Throws std::runtime_error if the driver cannot draw into such a picture.
     explicit LightLayer(const glm::ivec2& size_px);
 
-    /// Draw calls that follow land here, each behind those before it; the layer is cleared (both within
-    /// glScissor's part). Depth is neither tested nor written.
+    /// Clears the layer; later draw calls land here, each behind those before it (both within glScissor's
+    /// part). Depth is neither tested nor written.
     void begin();
-    /// The framebuffer that was bound before, without blending, is drawn to again.
+    /// Returns to the framebuffer that was bound before, without blending.
     void end();
-    /// Binds what was gathered to GL_TEXTURE0 + unit.
+    /// Binds the gathered light to GL_TEXTURE0 + unit.
     void bind_texture(int unit) const { colour_.bind(unit); }
 
     const glm::ivec2& size_px() const { return size_px_; }

@@ -1,5 +1,5 @@
-// OpenGL's name of a thing on the graphics card, made and deleted once: a move-only value, so that what is
-// built of names is one, too. Needs the OpenGL context in which it was made to be current.
+// OpenGL's name of an object on the graphics card, made and deleted once: a move-only value, so that classes
+// built of names are move-only, too. Needs the OpenGL context in which it was made to be current.
 #pragma once
 
 #include <epoxy/gl.h>

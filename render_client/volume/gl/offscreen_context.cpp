@@ -23,7 +23,7 @@ constexpr const char* what_to_install =
 EGLDisplay surfaceless_display() {
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
         fail("EGL here has no surfaceless platform");
-    // Not eglGetPlatformDisplay: libepoxy aborts on it where EGL is older than 1.5.
+    // Not eglGetPlatformDisplay: libepoxy aborts on it if EGL is older than 1.5.
     EGLDisplay display =
         eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
@@ -32,7 +32,7 @@ EGLDisplay surfaceless_display() {
 }
 
 EGLContext make_context(EGLDisplay display, EGLContext shares_with = EGL_NO_CONTEXT) {
-    // Left out, the surface type would be a window's, which no surfaceless configuration has.
+    // Without it the surface type would be a window's, which no surfaceless configuration has.
     constexpr std::array<EGLint, 5> config_attributes{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE,
                                                       EGL_OPENGL_BIT, EGL_NONE};
     constexpr std::array<EGLint, 7> context_attributes{EGL_CONTEXT_MAJOR_VERSION,
@@ -68,7 +68,7 @@ class SecondEglContext final : public SecondContext {
     EGLContext context_;
 };
 
-/// What EGL offers where it is not OpenGL 3.3, in words.
+/// The text of what EGL offers if it is not OpenGL 3.3.
 std::string offered_opengl(EGLDisplay display) {
     constexpr std::array<EGLint, 3> config_attributes{EGL_SURFACE_TYPE, 0, EGL_NONE};
     EGLConfig config = nullptr;
@@ -134,7 +134,7 @@ void OffscreenContext::start_surfaceless() {
     }
 }
 
-// EGL's display is the process's: it stays, for to end it would end every other context on it.
+// EGL's display belongs to the process and stays: ending it would end every other context on it.
 OffscreenContext::~OffscreenContext() {
     release();
     eglDestroyContext(display_, context_);

@@ -1,5 +1,5 @@
 // An OpenGL 3.3 core context without a window or a display server (EGL): on the first GPU that has one, else
-// on whatever draws without a surface, which may be Mesa's software rasteriser. Made current in the
+// on any device that draws without a surface, such as Mesa's software rasteriser. Made current in the
 // constructor, on the calling thread; draw into a Framebuffer. A process may have several.
 #pragma once
 
@@ -12,24 +12,24 @@
 
 namespace osteomill::gl {
 
-/// There is no OpenGL 3.3 here. The message says what was found and what to install.
+/// Error of a machine without OpenGL 3.3. The message says what was found and what to install.
 struct NoOpenGl : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 class OffscreenContext {
   public:
-    /// `gpu`: that one of the machine's GPUs, counted from 0 in EGL's order, and no other. Throws NoOpenGl.
+    /// `gpu`: only this one of the machine's GPUs, counted from 0 in EGL's order. Throws NoOpenGl.
     explicit OffscreenContext(std::optional<int> gpu = std::nullopt);
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
     ~OffscreenContext();
 
-    /// On the calling thread, and no more on any.
+    /// Makes it current on the calling thread; release() makes it current on none.
     void make_current() const;
     void release() const;
 
-    /// One that shares its textures and must not outlive it; null where the driver makes none.
+    /// A context that shares its textures and must not outlive it; null if the driver makes none.
     std::unique_ptr<SecondContext> second() const;
 
   private:

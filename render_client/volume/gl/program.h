@@ -34,8 +34,8 @@ class Program {
   private:
     static void create(GLsizei, GLuint* id) { *id = glCreateProgram(); }
     static void remove(GLsizei, const GLuint* id) {
-        // NVIDIA's driver gives the name of one that is current away: the next of that name would draw with
-        // its uniforms.
+        // NVIDIA's driver reuses the name of a program that is current: the next program of that name would
+        // draw with its uniforms.
         glUseProgram(0);
         glDeleteProgram(*id);
     }

@@ -23,7 +23,7 @@ std::future<Texture3D> StorageThread::make(VoxelFormat format, const glm::ivec3&
     post([promise, format, size] {
         try {
             Texture3D texture(format, size);
-            // The other context must not see it half made.
+            // The other context must not see a texture half made.
             glFinish();
             promise->set_value(std::move(texture));
         } catch (...) {

@@ -1,5 +1,5 @@
-// A thread that has the driver make and free the memory of large textures. A driver may clear it, page by
-// page: Mesa's software one takes 0.6 s for 500 MB, in one call that cannot be parted, in which a window
+// A thread on which the driver makes and frees the memory of large textures. A driver may clear it, page by
+// page: Mesa's software one takes 0.6 s for 500 MB, in one call that cannot be divided, during which a window
 // would not answer.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace osteomill::gl {
 class StorageThread {
   public:
     explicit StorageThread(std::unique_ptr<SecondContext> context);
-    /// After all that was requested.
+    /// Ends the thread after all that was requested is done.
     ~StorageThread();
     StorageThread(const StorageThread&) = delete;
     StorageThread& operator=(const StorageThread&) = delete;
@@ -41,7 +41,7 @@ class StorageThread {
     std::thread thread_;
 };
 
-/// A texture made by `thread`, or here and now where there is none.
+/// A texture made by `thread`, or here and now if there is none.
 std::future<Texture3D> make_texture(StorageThread* thread, VoxelFormat format, const glm::ivec3& size);
 
 }  // namespace osteomill::gl

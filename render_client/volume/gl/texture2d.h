@@ -12,8 +12,8 @@ namespace osteomill::gl {
 
 class Texture2D {
   public:
-    /// glTexImage2D, in the place of what was there: rows of `texels` follow one another without a gap, null
-    /// leaves them undefined. It is read by the filter `smaller` where a pixel covers several, else `larger`.
+    /// glTexImage2D, which replaces the texels: rows of `texels` follow one another without a gap, null
+    /// leaves them undefined. The filter is `smaller` if a pixel covers several texels, else `larger`.
     void store(const glm::ivec2& size, GLint stored_as, GLenum format, GLenum type, const void* texels,
                GLint smaller, GLint larger);
     /// GL_CLAMP_TO_EDGE: beyond its edges the edges go on.

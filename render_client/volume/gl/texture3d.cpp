@@ -40,7 +40,7 @@ std::size_t byte_count(const glm::ivec3& size, VoxelFormat format) {
 Texture3D::Texture3D(VoxelFormat format, const glm::ivec3& size) : format_(format), size_(size) {
     const TexelFormat texels = texel_format(format);
     glBindTexture(GL_TEXTURE_3D, id_);
-    // While memory is made the other way, Mesa lets no context of the program touch a texture.
+    // While memory is made the other way, Mesa blocks every context of the program from textures.
     if (epoxy_gl_version() >= 42 || epoxy_has_gl_extension("GL_ARB_texture_storage"))
         glTexStorage3D(GL_TEXTURE_3D, 1, texels.stored, size.x, size.y, size.z);
     else

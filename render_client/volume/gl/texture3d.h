@@ -10,7 +10,7 @@
 
 namespace osteomill::gl {
 
-/// How a texel is stored and how it is read between texels. Outside the texture every read gives zero.
+/// Storage of a texel and interpolation between texels. Outside the texture every read gives zero.
 enum class VoxelFormat {
     interpolated_byte,   ///< GL_R8, read as 0 to 1, trilinear
     interpolated_bytes,  ///< GL_RG8, two of them
@@ -19,7 +19,7 @@ enum class VoxelFormat {
     byte_codes           ///< GL_RGBA8UI, four of them
 };
 
-/// The driver has no memory for a texture, or none of that size. The message says how large it was to be.
+/// The driver has no memory for a texture, or allows none of that size. The message gives the size.
 struct NoTextureMemory : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -35,13 +35,13 @@ class Texture3D {
     void read_back(std::span<std::uint8_t> texels) const;
     /// Binds to GL_TEXTURE0 + unit.
     void bind(int unit) const;
-    /// Leaves no 3D texture on GL_TEXTURE0 + unit.
+    /// Unbinds any 3D texture from GL_TEXTURE0 + unit.
     static void unbind(int unit);
-    /// Leaves none on any unit that a program is sure to have.
+    /// Unbinds them from every unit that a program is sure to have.
     static void unbind_all();
 
     const glm::ivec3& size() const { return size_; }
-    /// As they were requested of the driver.
+    /// Bytes as requested of the driver.
     std::size_t bytes() const;
 
   private:

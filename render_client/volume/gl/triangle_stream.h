@@ -1,4 +1,4 @@
-// Triangles that are other ones in every frame: positions only, a move-only value.
+// Triangles that differ in every frame: positions only, a move-only value.
 #pragma once
 
 #include <glm/vec3.hpp>

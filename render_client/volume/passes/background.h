@@ -11,7 +11,7 @@ namespace osteomill {
 class Background {
   public:
     Background();
-    /// Colour, and depth 1, over the viewport of `size_px` or what glScissor leaves of it.
+    /// Colour, and depth 1, over the viewport of `size_px`, within glScissor's part.
     void draw(const SceneAppearance& look, const glm::ivec2& size_px);
 
   private:

@@ -13,10 +13,10 @@ class BoneRenderer {
   public:
     virtual ~BoneRenderer() = default;
     /// Draws background and bone, colour and depth, over the whole viewport of `size_px` in the bound
-    /// framebuffer, or over the part of it that glScissor leaves. Depth is that of Camera::projection.
+    /// framebuffer, within glScissor's part. Depth is that of Camera::projection.
     virtual void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) = 0;
 
-    /// From the next draw on.
+    /// Takes effect from the next draw on.
     void set_appearance(const SceneAppearance& look) { look_ = look; }
     const SceneAppearance& look() const { return look_; }
 

@@ -20,7 +20,7 @@ constexpr double fall_a_measurement = 0.2;
 constexpr double full_enough_to_refine = 0.8;
 constexpr double assumed_s_per_px = 1e-6;
 
-/// Follows a rise faster than a fall; the first measurement is all that is known.
+/// The estimate follows a rise faster than a fall; it begins with the first measurement.
 double followed(double known, double measured) {
     if (known == 0.0) return measured;
     return known + (measured > known ? rise_a_measurement : fall_a_measurement) * (measured - known);
@@ -44,7 +44,7 @@ void DetailControl::drew(Extent extent, std::int64_t pixels, double took_s) {
     if (pixels <= 0 || !(took_s > 0.0)) return;
     const double measured = took_s / static_cast<double>(pixels);
     double& s_per_px = (extent == Extent::whole ? whole_ : parts_).s_per_px;
-    // The first part may show nothing but background, and must not pass for what all parts cost.
+    // The first part may show nothing but background, and must not stand for the cost of all parts.
     if (extent == Extent::parts && s_per_px == 0.0) s_per_px = std::max(whole_.s_per_px, measured);
     s_per_px = followed(s_per_px, measured);
 }

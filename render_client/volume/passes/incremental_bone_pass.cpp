@@ -15,7 +15,7 @@ namespace {
 /// and pieces that become sharp in them and blurred in the next would flicker.
 constexpr int frames_before_refining = 2;
 
-/// Coarse pixels drawn round those that are needed: interpolation reads them.
+/// Margin of coarse pixels round the needed ones, which interpolation reads.
 constexpr int coarse_margin_px = 2;
 
 glm::ivec2 divided(const glm::ivec2& size_px, double divisor) {
@@ -32,7 +32,7 @@ PixelBox in_coarse(const PixelBox& box, const glm::ivec2& fine_px, const glm::iv
     return {first, glm::min(high, coarse_px) - first};
 }
 
-/// A change is felt as far as its block is: what shading reads are means over blocks, counted from `origin`.
+/// A change affects its whole block: shading reads means over blocks, counted from `origin`.
 VoxelBox in_whole_blocks(const VoxelBox& box, const glm::ivec3& origin) {
     const glm::ivec3 first = (box.first - origin) / block_edge_voxels * block_edge_voxels;
     const glm::ivec3 end = box.first + box.size - origin + (block_edge_voxels - 1);
@@ -129,7 +129,7 @@ TileMask IncrementalBonePass::update(const BoneTextures& bone, const Camera& cam
         else
             room_px -= draw_coarse(bone, camera, misplaced, extent, divisor);
     }
-    // What was drawn coarsely just now is about to change again: not worth refining.
+    // Parts drawn coarsely just now are about to change again and not worth refining.
     if (frames_at_rest_ >= frames_before_refining)
         exact |= part_that_fits(TileMask(stale_) -= misplaced, room_px - exact.pixels());
     draw_exact(bone, camera, exact, extent);
@@ -143,7 +143,7 @@ void IncrementalBonePass::learn() {
     if (measured_->is_history) return measured_.reset();
     control_.drew(measured_->extent, measured_->pixels, *took_s);
     if (frame_s_) {
-        // What was drawn besides in that frame cost about as much a pixel.
+        // Other drawings in that frame cost about as much a pixel.
         const double all_drawing_s = *took_s * static_cast<double>(measured_->pixels_of_frame) /
                                      static_cast<double>(measured_->pixels);
         control_.frame_took(*frame_s_, all_drawing_s);

@@ -5,8 +5,8 @@
 // camera makes all tiles stale; under a still camera a change makes those tiles stale whose rays, or whose
 // shading, can meet a changed brick. Stale tiles are drawn again at once if time allows. Otherwise tiles that
 // show a removed surface are drawn at a lower resolution and upscaled; tiles in which a nearby carve changes
-// only the ambient light stay as they are; and all become exact piece by piece, as frames have room, once the
-// camera rests.
+// only the ambient light stay as they are. Once the camera rests, all become exact piece by piece, as frames
+// can afford it.
 #pragma once
 
 #include <optional>
@@ -37,17 +37,19 @@ class IncrementalBonePass {
                         double frame_s = target_frame_s);
 
     void resize(const glm::ivec2& size_px);
-    /// Cuts and background; another look than before makes all of it stale.
+    /// Cuts and background; a changed appearance makes all tiles stale.
     void set_appearance(const SceneAppearance& look);
     const SceneAppearance& look() const { return renderer_.look(); }
-    /// Another bone: all of it is stale.
+    /// Another bone: all tiles are stale.
     void forget(DrawingCost cost = DrawingCost::as_before);
-    /// These voxels of `bone` changed since the last update: what its own update returned.
+    /// Marks voxels of `bone` that changed since the last update, as its own update returned them.
     void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed);
 
-    /// Draws what is due. Returns the tiles that look different from before. Leaves some framebuffer bound.
+    /// Draws the tiles that are due. Returns those that look different from before. Leaves some framebuffer
+    /// bound.
     TileMask update(const BoneTextures& bone, const Camera& camera);
-    /// Time of a whole frame, waiting excluded: the part that is not drawing of bone is not available for it.
+    /// Learns the time of a whole frame, waiting excluded: the time of its other parts is not available to
+    /// draw bone.
     void frame_took(double frame_s);
 
     PictureQuality quality() const;

@@ -8,7 +8,7 @@ namespace osteomill {
 class LightField {
   public:
     LightField();
-    /// Into the bound framebuffer.
+    /// Draws into the bound framebuffer.
     void draw(const glm::ivec2& size_px, double pixel_aspect) const;
 
   private:

@@ -70,7 +70,7 @@ void RaycastRenderer::draw_rays(const BoneTextures& bone, const Camera& camera, 
     program.set("picture_size", glm::vec2(size_px));
     set_background_uniforms(program, look());
 
-    // What one sees through has no depth, that is, the background's.
+    // Bone that is seen through has the background's depth.
     glDepthFunc(GL_LEQUAL);
     program.fill_picture();
     glDepthFunc(GL_LESS);

@@ -22,7 +22,8 @@ struct RaycastSettings {
     float step_voxels = 0.5f;
 };
 
-/// What camera_rays.vert.glsl and bone_rays.glsl need, in a program that BoneProgram::use has made ready.
+/// Sets the uniforms of camera_rays.vert.glsl and bone_rays.glsl in a program that BoneProgram::use has made
+/// ready.
 void set_ray_uniforms(const gl::Program& program, const BoneTextures& bone, const Camera& camera,
                       const glm::ivec2& size_px, const RaycastSettings& settings);
 

@@ -8,7 +8,7 @@
 namespace osteomill {
 
 enum class RendererChoice {
-    raycast,  ///< the default: fast, because it skips what is empty
+    raycast,  ///< the default: fast, because it skips empty space
     slices    ///< as published: every slice through the 3D texture
 };
 

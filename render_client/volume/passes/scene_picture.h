@@ -1,6 +1,6 @@
 // The picture of one moment: bone, soft structures, tool, force. The bone is a layer of its own (see
-// IncrementalBonePass); the pixels that tool and overlay covered in one frame are restored from it in the
-// next, and nothing else is copied.
+// IncrementalBonePass). Only the pixels that tool and overlay covered in one frame are copied from it in the
+// next.
 #pragma once
 
 #include <optional>
@@ -28,14 +28,14 @@ class ScenePicture {
     void set_appearance(const SceneAppearance& look) { layer_.set_appearance(look); }
     /// The bone was replaced: its layer is drawn anew.
     void forget_bone(DrawingCost cost = DrawingCost::unknown) { layer_.forget(cost); }
-    /// Another soft structure beside the bone.
+    /// Adds a soft structure beside the bone.
     void add_structure(const StructureSurface& surface, double opacity) { structures_.add(surface, opacity); }
-    /// None any more; the next picture is drawn anew.
+    /// Removes all structures; the next picture is drawn anew.
     void forget_structures() {
         structures_.forget();
         covered_.mark_all();
     }
-    /// These voxels of `bone` changed since the last draw: what its update returned.
+    /// Marks voxels of `bone` that changed since the last draw, as its update returned them.
     void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed) {
         layer_.mark_dirty(bone, changed);
     }
@@ -46,11 +46,11 @@ class ScenePicture {
     /// Marks the pixels drawn by an overlay, after draw: otherwise they would stay in the next frame.
     void cover(std::span<const PixelBox> boxes);
 
-    /// How long the whole frame took, waiting excluded.
+    /// Learns the time of the whole frame, waiting excluded.
     void frame_took(double frame_s) { layer_.frame_took(frame_s); }
     PictureQuality quality() const { return layer_.quality(); }
     const glm::ivec2& size_px() const { return picture_.size_px(); }
-    /// What draw() drew into.
+    /// The framebuffer of the last draw().
     const gl::Framebuffer& framebuffer() const { return picture_; }
 
   private:

@@ -1,10 +1,9 @@
-// Antialiased silhouettes of the bone: where depth leaps between two pixels, each is mixed from the colours
-// on either side, by how much of it the nearer surface covers.
+// Antialiased silhouettes of the bone: where depth leaps between two pixels, each is a mixture of the colours
+// on either side, by the share of it that the nearer surface covers.
 //
-// What covers how much is found by one ray a pixel that looks for the fullest place near the surface's
-// outline (silhouettes.frag.glsl): the picture's own rays are not drawn again, and nothing is shaded twice.
-// Other pixels, and depth, stay as they were drawn. Between colours as they are displayed, as pictures are
-// scaled.
+// One ray for each such pixel finds the share: it looks for the fullest place near the surface's outline
+// (silhouettes.frag.glsl). The picture's own rays are not drawn again, and nothing is shaded twice. Other
+// pixels, and depth, stay as they were drawn. Display colours are mixed, as in the scaling of pictures.
 #pragma once
 
 #include <optional>
@@ -24,7 +23,7 @@ class Silhouettes {
     /// A picture to draw the bone into beforehand, bound, its viewport of that size; it may be larger.
     const gl::Framebuffer& begin(const glm::ivec2& size_px);
     /// Fills a box of the framebuffer `target` with what begin()'s picture shows there, silhouettes smoothed.
-    /// What lies a pixel round the box must be drawn in there, too. Leaves the target bound.
+    /// A border of one pixel round the box must be drawn there, too. Leaves the target bound.
     void draw(const BoneTextures& bone, const Camera& camera, const SceneAppearance& look,
               const RaycastSettings& settings, const glm::ivec2& size_px, GLuint target, const PixelBox& box);
 

@@ -2,8 +2,8 @@
 // front to back. A pixel of a slice in bone is shaded and hides what is behind it by its depth, which the
 // rasteriser tests before the next slice is sampled; translucent bone is blended.
 //
-// A slice stands for the half step before and behind it, so a depth is off by half the spacing at most. The
-// surface in its pixels is found by bisecting the step before it, so that slices leave no rings.
+// A slice stands for half a step before it and half a step behind, so a depth is off by half the spacing at
+// most. The surface in its pixels is found by bisecting the step before it, so that slices leave no rings.
 #pragma once
 
 #include <optional>

@@ -58,7 +58,7 @@ void StereoPicture::resize(const glm::ivec2& size_px) {
 }
 
 void StereoPicture::set_appearance(const SceneAppearance& look) {
-    // The renderer is both eyes': the second would find the new look there and see no change.
+    // Both eyes share the renderer: the second would find the new appearance set and see no change.
     const bool is_new = !(look == renderer_.look());
     left_.set_appearance(look);
     if (is_new && right_) right_->forget_bone();

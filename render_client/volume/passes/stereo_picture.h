@@ -13,12 +13,12 @@ namespace osteomill {
 
 class StereoPicture {
   public:
-    /// On demand: at whatever quality keeps the rate of frames; otherwise always in full. The renderer must
-    /// outlive it. Sizes of less than one pixel count as one.
+    /// On demand it draws at whatever quality keeps the rate of frames; otherwise always in full. The
+    /// renderer must outlive it. Sizes of less than one pixel count as one.
     StereoPicture(BoneRenderer& renderer, const glm::ivec2& size_px, bool on_demand,
                   const StereoSettings& stereo);
 
-    // As of ScenePicture, for both eyes.
+    // These are as in ScenePicture, for both eyes.
     void resize(const glm::ivec2& size_px);
     void set_appearance(const SceneAppearance& look);
     void forget_bone(DrawingCost cost = DrawingCost::unknown);
@@ -32,12 +32,13 @@ class StereoPicture {
     void draw(const BoneTextures* bone, const DrawnTool* tool, const Camera& middle);
     std::span<const gl::Framebuffer* const> pictures() const { return pictures_; }
     void cover(std::span<const PixelBox> boxes);
-    /// Puts them together, bound afterwards. Of quad-buffered ones it is the left eye's.
+    /// Combines them into one picture, which is bound afterwards. With quad buffering the left eye's picture
+    /// is bound.
     const gl::Framebuffer& compose();
-    /// What compose() put together last.
+    /// Copies the last picture that compose() made.
     void copy_to_window() const;
 
-    /// All of it, and each eye's.
+    /// Size of the whole picture, and of each eye's.
     const glm::ivec2& size_px() const { return size_px_; }
     const glm::ivec2& eye_size_px() const { return left_.size_px(); }
 

@@ -8,9 +8,9 @@ namespace osteomill {
 class Stopwatch {
   public:
     virtual ~Stopwatch() = default;
-    /// What is drawn from here ...
+    /// Begins a measurement of drawing, on whatever device draws.
     virtual void start() = 0;
-    /// ... to here is measured, on whatever draws it.
+    /// Ends it.
     virtual void stop() = 0;
     /// Seconds of the last measurement, once, as soon as they are known; waits for nothing. Until they have
     /// been taken, start and stop must not be called.

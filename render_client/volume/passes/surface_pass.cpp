@@ -105,7 +105,7 @@ void SurfacePass::draw_meshes(const DrawnTool* tool, const Camera& camera) {
         mesh_program_.set("thing_number", thing);
         mesh.draw();
     };
-    // They stay where they are: what is drawn of them already is drawn again to no effect.
+    // They stay where they are: drawing them again has no effect.
     for (const Structure& structure : structures_)
         draw(structure.mesh, glm::translate(glm::dmat4(1.0), structure.origin_mm), structure.thing);
     if (tool == nullptr) return;

@@ -1,5 +1,5 @@
-// The surfaces of one moment as numbers: for every pixel the depth, the normal and the object that its ray
-// meets first.
+// The surfaces of one moment as numbers: for every pixel the depth, the normal and the number of the object
+// that its ray meets first.
 //
 // Each pixel has a ray of its own through its middle, and nothing is blended: at a silhouette a pixel belongs
 // to one object, with that object's depth. Bone is found by the same steps as in RaycastRenderer, tool and
@@ -36,19 +36,20 @@ struct SurfaceImage {
 
 class SurfacePass {
   public:
-    /// Throws std::runtime_error where the driver cannot draw into such a picture.
+    /// Throws std::runtime_error if the driver cannot draw into such a picture.
     explicit SurfacePass(const glm::ivec2& size_px);
 
-    /// Another soft structure, with the number that it has in pictures, above those of SurfaceImage.
+    /// Adds a soft structure with its number in pictures, which is above those of SurfaceImage.
     void add_structure(const StructureSurface& surface, std::uint8_t thing);
 
-    /// These voxels of the bone's grid() changed since the last draw: what its update returned.
+    /// Marks voxels of the bone's grid() that changed since the last draw, as its update returned them.
     void mark_dirty(std::span<const VoxelBox> changed) {
         dirty_.insert(dirty_.end(), changed.begin(), changed.end());
     }
 
-    /// Always of the same bone. Draws only what may have changed, while the camera stays. `tool` null: there
-    /// is none yet. What lies before the camera's near plane or behind its far plane is not seen.
+    /// The bone must always be the same. While the camera stays, only parts that may have changed are drawn.
+    /// `tool` null: there is none yet. Surfaces before the camera's near plane or behind its far plane are
+    /// not seen.
     SurfaceImage draw(const BoneTextures& bone, const DrawnTool* tool, const Camera& camera);
 
   private:

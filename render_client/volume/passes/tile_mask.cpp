@@ -21,7 +21,7 @@ struct Span {
     }
 };
 
-/// Adds what of the segment from a to b lies between two heights.
+/// Adds the part of the segment from a to b between two heights.
 void add_within(Span& span, const glm::dvec2& a, const glm::dvec2& b, double low_y, double high_y) {
     if (std::max(a.y, b.y) < low_y || std::min(a.y, b.y) > high_y) return;
     for (const glm::dvec2& end : {a, b}) {
@@ -71,8 +71,8 @@ void TileMask::mark_hull(std::span<const glm::dvec2> points_px, double margin_px
     const int first_row = std::max(tile_of(low_y - margin_px, size_tiles_.y), 0);
     const int last_row = std::min(tile_of(high_y + margin_px, size_tiles_.y), size_tiles_.y - 1);
     for (int row = first_row; row <= last_row; ++row) {
-        // A hull's extent within a band is that of the segments between its points, of which its edges are
-        // some and none leaves it.
+        // A hull's extent within a band is that of the segments between all its points: they include its
+        // edges, and none leaves it.
         Span span;
         for (std::size_t a = 0; a < points_px.size(); ++a)
             for (std::size_t b = a; b < points_px.size(); ++b)
@@ -169,7 +169,7 @@ void mark_box(TileMask& mask, const glm::dvec3& low, const glm::dvec3& high, con
         }
         corners_px[corner] = (0.5 + 0.5 * glm::dvec2(clip) / clip.w) * glm::dvec2(mask.size_px());
     }
-    // A pixel round it, for the rounding of the arithmetic that draws.
+    // One more pixel on each side, for rounding in the driver.
     mask.mark_hull(corners_px, 1.0);
 }
 

@@ -23,7 +23,7 @@ class TileMask {
 
     void mark_all();
     void clear();
-    /// Every tile that the box touches; what lies outside the picture is ignored.
+    /// Every tile that the box touches; parts outside the picture are ignored.
     void mark(const PixelBox& box);
     /// Every tile that comes within `margin_px` (in x and in y) of the convex hull of these points; pixels,
     /// y up.
@@ -38,7 +38,7 @@ class TileMask {
     bool contains(const glm::ivec2& pixel) const;
     /// Pixels of all marked tiles.
     std::int64_t pixels() const;
-    /// Marked tiles in the order of rows from the bottom, and what one of them covers.
+    /// Marked tiles in the order of rows from the bottom, and the pixels that one covers.
     std::vector<std::size_t> tiles() const;
     PixelBox box_of_tile(std::size_t tile) const;
     /// The marked tiles as rectangles that do not overlap: runs of a row, joined with equal ones above.
@@ -55,7 +55,7 @@ class TileMask {
 };
 
 /// Marks every tile that can show a box, given by its opposite corners and a matrix to OpenGL's clip space,
-/// and a pixel round it. All of them where the box reaches behind the eye and could be anywhere.
+/// and a pixel round it. Marks all tiles if the box reaches behind the eye and could be anywhere.
 void mark_box(TileMask& mask, const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& to_clip);
 
 }  // namespace osteomill

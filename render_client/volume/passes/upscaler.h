@@ -1,5 +1,5 @@
-// A coarse picture upscaled into a finer one: colour interpolated, depth not, so that what is drawn on top
-// later is still hidden where it should be.
+// A coarse picture upscaled into a finer one: colour interpolated, depth not, so that bone still hides the
+// parts of later drawings behind it.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace osteomill {
 class Upscaler {
   public:
     Upscaler();
-    /// Fills these boxes of `fine` with what `coarse` shows there; both show the same view.
+    /// Fills these boxes of `fine` with those of `coarse`; both show the same view.
     void draw(const gl::Framebuffer& coarse, const gl::Framebuffer& fine,
               std::span<const PixelBox> boxes) const;
 

@@ -9,7 +9,7 @@ namespace osteomill {
 
 /// Triangles, three corners each, of the planes that cut the box `low` to `high` at whole multiples of
 /// `spacing` along `forward` (unit) from the eye, as far as they are in front of it; front to back. All
-/// lengths are in one unit, whichever. Throws std::invalid_argument unless the spacing is positive.
+/// lengths are in the same unit. Throws std::invalid_argument unless the spacing is positive.
 std::vector<glm::vec3> view_slices(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& eye,
                                    const glm::dvec3& forward, double spacing);
 

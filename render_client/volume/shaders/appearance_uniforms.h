@@ -7,8 +7,8 @@
 
 namespace osteomill {
 
-/// How many cuts a look has, of those that a renderer heeds. Fixed when a program is compiled: in most
-/// pictures there is none, and what no picture needs is to cost no pixel anything.
+/// Number of an appearance's cuts that a renderer draws. It is fixed when a program is compiled: most
+/// pictures have no cut, and then no pixel pays for one.
 int cut_count(const SceneAppearance& look);
 
 /// The program must be in use.

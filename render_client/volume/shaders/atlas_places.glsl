@@ -17,7 +17,7 @@ ivec3 first_texel_of(ivec3 brick) {
 
 vec3 texture_place_beside(vec3 point, vec3 offset) {
     ivec3 brick = brick_at(point);
-    // A point beyond the box gets what the outermost border holds: nothing.
+    // A point beyond the box gets the outermost border's value: zero.
     vec3 within = clamp(point + offset - vec3(brick) * brick_edge, -0.5, brick_edge + 0.5);
     return (vec3(first_texel_of(brick)) + within) / bone_texture_size;
 }

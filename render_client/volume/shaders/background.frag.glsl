@@ -1,4 +1,4 @@
-// The background of a picture: what is behind the bone.
+// The background of a picture, behind the bone.
 
 uniform vec2 picture_size;
 out vec4 pixel;

@@ -1,4 +1,4 @@
-// The background's colour; set_background_uniforms sets what it needs.
+// The background's colour; set_background_uniforms sets its uniforms.
 //
 //     vec3  background_at(vec2 place)      linear RGB; place 0 to 1 from the picture's lower left corner
 

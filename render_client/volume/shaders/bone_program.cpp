@@ -101,7 +101,7 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneAppeara
     if (bone.tile_table()) bone.tile_table()->bind(table_unit);
     if (bone.smoothed() != nullptr) bone.smoothed()->bind(smoothed_unit);
     if (bone.surface_colours() != nullptr) bone.surface_colours()->bind(surface_unit);
-    // A sampler that nothing is fetched from may not find a texture of another kind on its unit.
+    // Even an unused sampler must not find a texture of another kind on its unit.
     if (bone.colour_code())
         bone.colour_code()->bind(code_unit);
     else

@@ -21,15 +21,15 @@ class BoneProgram {
 
     explicit BoneProgram(const ProgramFiles& own) : own_(own) {}
 
-    /// glUseProgram, of a program for this bone's layout and looks, with its textures on units 0 to
-    /// first_free_unit - 1. The program that comes back is for the renderer's own uniforms: set them all
-    /// after every call, it may be another one next time. Throws std::runtime_error with the compiler's log
-    /// where the shaders do not compile.
+    /// glUseProgram of a program for this bone's layout and appearance, with its textures on units 0 to
+    /// first_free_unit - 1. Set all the renderer's own uniforms of the returned program after every call,
+    /// since the next call may return another one. Throws std::runtime_error with the compiler's log if the
+    /// shaders do not compile.
     const gl::Program& use(const BoneTextures& bone, const SceneAppearance& look);
 
   private:
-    /// What is fixed when a program is compiled. A software rasteriser computes both sides of a branch on a
-    /// uniform for every pixel.
+    /// Choices that are fixed when a program is compiled: a software rasteriser computes both sides of a
+    /// branch on a uniform for every pixel.
     struct Variant {
         BoneLayout layout = BoneLayout::dense;
         bool has_colour_code = false;
@@ -51,7 +51,7 @@ class BoneProgram {
     void bind_ct(const gl::Program& program, const BoneTextures& bone, const SceneAppearance& look);
 
     ProgramFiles own_;
-    /// The CT of the look, as grey; made when a cut is first to show it.
+    /// The appearance's CT, as grey; made when a cut first shows it.
     struct CtTexture {
         std::shared_ptr<const CtVolume> ct;
         HuWindow window;

@@ -1,5 +1,5 @@
-// Rays through the bone, one a pixel; follows cuts.glsl and bone_shading.glsl, behind camera_rays.vert.glsl. Lengths are in
-// voxels, in texture coordinates of the bone's box (the first voxel spans 0 to 1), axes are the patient's.
+// Rays through the bone, one for each pixel; follows cuts.glsl and bone_shading.glsl, behind camera_rays.vert.glsl. Lengths are
+// in voxels, in texture coordinates of the bone's box (the first voxel spans 0 to 1), axes are the patient's.
 //
 //     vec3  direction                       unit, of this pixel's ray from the eye
 //     void  begin_ray()                     first of all: sets the direction, and the span of the ray that may meet bone

@@ -1,5 +1,5 @@
-// What a fragment shader can ask about the bone: the part that every renderer shares. BoneProgram puts it ahead of a
-// renderer's own and binds the textures behind it.
+// Sampling of the bone in a fragment shader: the functions that every renderer shares. BoneProgram puts this file ahead
+// of a renderer's own shader and binds its textures.
 //
 // Points are in voxels, in texture coordinates of the bone's box: the first voxel spans 0 to 1, axes are the
 // patient's. Every function takes any point; far outside the box there is no bone.
@@ -46,8 +46,8 @@ const float block_edge = 4.0;
 float fraction_at(vec3 point) { return textureLod(bone_fraction, texture_place(point), 0.0).r; }
 
 // The slope of a fraction, which rises from none to all within one voxel, turns with the lattice: normals would be
-// off by 6 degrees at the 95th percentile, and light shows that as rings. Smoothed over the voxels across which the
-// slope is measured they are not: over 0.9 degrees (osteomill_study render, "normals").
+// off by 6 degrees at the 95th percentile, and light shows that as rings. If the fractions are smoothed over the voxels
+// across which the slope is measured, normals are off by only 0.9 degrees (osteomill_study render, "normals").
 const float corner_reach = 0.45;
 
 vec3 side_of_corner(int corner) {
@@ -64,7 +64,7 @@ vec3 gradient_of_smoothed(vec3 point) {
     return gradient / (8.0 * corner_reach);
 }
 
-// Where there is no memory for smoothed fractions: 4^3 samples a voxel apart, which smooth about as much across the
+// Gradient without memory for smoothed fractions: 4^3 samples a voxel apart, which smooth about as much across the
 // slope as along it.
 vec3 gradient_by_samples(vec3 point) {
     vec3 gradient = vec3(0.0);
@@ -91,7 +91,7 @@ uint code_at(ivec3 voxel, ivec3 shift) {
     return texelFetch(bone_colour_code, clamp(voxel, ivec3(0), ivec3(bone_size) - 1) + shift, 0).r;
 }
 
-// Of any voxel.
+// Code of any voxel.
 uint code_of(ivec3 voxel) { return code_at(voxel, texel_shift(vec3(voxel) + 0.5)); }
 
 float density_at(vec3 point) {
@@ -116,8 +116,7 @@ vec4 blended_eight(uint codes[8], vec3 part) {
     return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0);
 }
 
-// Looks of the eight nearest voxels, so that tissues meet without steps. What is hidden does not tinge what stands
-// beside it.
+// Looks of the eight nearest voxels, so that tissues meet without steps. A hidden voxel does not tinge its neighbours.
 vec4 look_at(vec3 point) {
     if (!bone_has_colour_code) return texelFetch(bone_colours, ivec2(0), 0);
     ivec3 low = ivec3(floor(point - 0.5));
@@ -137,7 +136,7 @@ vec4 look_at(vec3 point) {
 }
 
 // Whether among the 4^3 nearest voxels, of which `low` is the first, one of the inner eight or of the corners has
-// another code. What slips through between these is hardly seen.
+// another code. A code missed between these is hardly seen.
 bool codes_differ_about(ivec3 low, uint code) {
     uint others = 0u;
     for (int corner = 0; corner < 8; ++corner) {
@@ -147,7 +146,8 @@ bool codes_differ_about(ivec3 low, uint code) {
     return others != 0u;
 }
 
-// By voxel along an axis, for a place 0 to 1 between the middle two: tents at that far before the place and after it.
+// Weights by voxel along an axis, for a place 0 to 1 between the middle two: tents at this distance before the place
+// and after it.
 const float tent_offset = 0.85;
 vec4 wide_weights(float part) {
     vec4 away = vec4(-1.0, 0.0, 1.0, 2.0) - part;
@@ -202,7 +202,7 @@ vec4 smooth_look_at(vec3 point) {
     uint code = code_at(nearest, shift);
     vec4 look = texelFetch(bone_colours, ivec2(int(code), 0), 0);
     if (code == 0u || look.a == 0.0) look = texelFetch(bone_colours, ivec2(0), 0);
-    // Amid a tissue that is all. A loop of one turn or none, because a software rasteriser computes both sides of
+    // Within a tissue that is enough. A loop of one turn or none, because a software rasteriser computes both sides of
     // a branch but leaves a loop in which there is no pixel of a group.
     if (bone_codes_are_mostly_alike) {
         ivec3 low = ivec3(floor(point - 0.5)) - 1;
@@ -213,7 +213,7 @@ vec4 smooth_look_at(vec3 point) {
     return look;
 }
 
-// As deep as there is bone: a shell may be thinner than that.
+// At most as deep as there is bone: a shell may be thinner.
 vec4 look_under(vec3 point, vec3 normal) {
     float bone_there = fraction_at(point - bone_colour_depth * normal);
     return smooth_look_at(point - mix(1.0, bone_colour_depth, bone_there) * normal);

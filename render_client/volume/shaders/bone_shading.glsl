@@ -1,4 +1,4 @@
-// What light makes of the bone at a point; follows thin_bone.glsl and lighting.glsl.
+// Shading of the bone at a point; follows thin_bone.glsl and lighting.glsl.
 //
 //     vec3  surface_pixel(vec3 point, vec3 direction)   display RGB of the bone's surface at a point, seen
 //                                                       along a unit direction
@@ -51,7 +51,7 @@ vec3 density_gradient_at(vec3 point) {
     return gradient / (8.0 * corner_reach);
 }
 
-// Light within bone, where nothing faces it: what a surface aslant to the key light gets.
+// Light within bone, which has no facing surface: that on a surface aslant to the key light.
 const vec3 light_within = vec3(0.50, 0.49, 0.48);
 
 vec3 translucent_colour(vec3 point, vec3 colour) {
@@ -66,8 +66,7 @@ vec3 translucent_colour(vec3 point, vec3 colour) {
     return mix(colour * light_within, lit(colour, -gradient / steepness, 1.0), min(12.0 * steepness, 1.0));
 }
 
-// From the surface on bone takes light away in proportion to how far the fraction has risen beyond it, so
-// that samples meet no edge.
+// Behind the surface bone absorbs light in proportion to the rise of the fraction, so that samples meet no edge.
 vec4 translucent_piece(vec3 point, float length_voxels, float through, out float opacity) {
     opacity = 0.0;
     float filled = 2.0 * fraction_at(point) - 1.0;
@@ -75,7 +74,7 @@ vec4 translucent_piece(vec3 point, float length_voxels, float through, out float
     vec4 look = look_at(point);
     opacity = look.a;
     float alpha = 1.0 - pow(1.0 - min(look.a, 0.999), filled * length_voxels * bone_mm_per_voxel);
-    // What is hardly seen is not worth its normal.
+    // A sample that is hardly seen is not worth its normal.
     vec3 colour = through * alpha < 0.003 * length_voxels ? look.rgb * light_within : translucent_colour(point, look.rgb);
     return vec4(alpha * colour, alpha);
 }

@@ -14,7 +14,7 @@ const float shank_radius = 0.5;
 const float shank_length = 6.0;
 const float lamp_half_angle = 0.12;  // rad: how fast the shadow's edge widens
 
-// How much of the lamp a ball takes: soft between the edges of core and half-shadow.
+// Share of the lamp that a ball covers: soft between the edges of core and half-shadow.
 float shadow_of_ball(vec3 to_ball, float radius) {
     float along = dot(to_ball, key_direction);
     if (along <= 0.0) return 0.0;
@@ -29,7 +29,7 @@ void main() {
     vec3 point = eye + depth_terms.y / (depth - depth_terms.x) * ray;
     float away = length(point);
     if (away > reach) discard;
-    // Where on the spindle the lamp's ray comes closest: the shank is a ball there.
+    // The shank counts as a ball at the point of the spindle that the lamp's ray comes closest to.
     float lean = dot(spindle_axis, key_direction);
     float station = (dot(-point, key_direction) * lean + dot(point, spindle_axis)) / max(1.0 - lean * lean, 0.02);
     vec3 shank = clamp(station, 1.0, shank_length) * spindle_axis;

@@ -13,7 +13,7 @@ uniform vec3 cut_ct_origin, cut_ct_scale;  // texture coordinates: scale * (poin
 vec3 shown_pixel(vec3 point, vec3 direction) {
     for (int cut = 0; cut < cut_count; ++cut) {
         vec3 normal = cut_planes[cut].xyz;
-        // Where bone does not go on behind the cut it is the bone's own surface that is seen.
+        // If bone does not go on behind the cut, the bone's own surface is seen.
         if (cut_planes[cut].w - dot(normal, point) < cut_face_depth &&
             fraction_at(point + 0.5 * normal) >= bone_surface) {
             if (cuts_show_ct) return vec3(texture(cut_ct, cut_ct_scale * (point - cut_ct_origin)).r);

@@ -1,11 +1,11 @@
-// Cuts through the bone; set_cut_uniforms sets what they need. Points are in the coordinates of bone_sampling.glsl.
+// Cuts through the bone; set_cut_uniforms sets their uniforms. Points are in the coordinates of bone_sampling.glsl.
 //
 //     const int cut_count                  given ahead of this file, at most 4
 //     void  clip_by_cuts(vec3 eye, vec3 direction, inout float enter, inout float leave)
-//                                          shortens a ray to what no cut takes away
+//                                          shortens a ray to the part that no cut takes away
 //     bool  is_cut_away(vec3 point)
 
-uniform vec4 cut_planes[4];  // xyz unit, towards what is taken away; w offset, voxels
+uniform vec4 cut_planes[4];  // xyz unit, towards the part taken away; w offset, voxels
 
 void clip_by_cuts(vec3 eye, vec3 direction, inout float enter, inout float leave) {
     for (int cut = 0; cut < cut_count; ++cut) {

@@ -12,14 +12,14 @@ namespace osteomill {
 /// Unit, towards the key light; patient axes.
 inline constexpr glm::dvec3 key_direction(-0.4364, -0.5455, 0.7155);
 
-/// Light that a surface sends back, linear RGB. `normal` is unit, patient axes; `openness` (0 to 1) is how
-/// much of the ambient light gets there.
+/// Light that a surface sends back, linear RGB. `normal` is unit, patient axes; `openness` (0 to 1) is the
+/// share of the ambient light that reaches it.
 glm::dvec3 lit(const glm::dvec3& colour, const glm::dvec3& normal, double openness);
 
 /// Linear RGB, clamped to 0 to 1, as the display takes it, 0 to 1.
 glm::dvec3 display(const glm::dvec3& linear);
 
-/// What is behind the bone in a SceneAppearance's own colours, linear RGB; `place` is 0 to 1 from the
+/// The background behind the bone in a SceneAppearance's own colours, linear RGB; `place` is 0 to 1 from the
 /// picture's lower left corner. Its GLSL is in background.glsl.
 glm::dvec3 background_at(const glm::dvec2& place);
 

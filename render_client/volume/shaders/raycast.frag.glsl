@@ -11,8 +11,8 @@ void draw_surface(float index) {
     gl_FragDepth = depth_of(inside);
 }
 
-// Front to back, until hardly any light comes through. Samples count from where the ray enters bone: counted from
-// where it enters the box, their layers would be seen in the surface, like the grain of wood.
+// Front to back, until hardly any light comes through. Samples count from where the ray enters bone. If they
+// counted from the box, their layers would show in the surface, like the grain of wood.
 void draw_translucent(float index) {
     vec3 light = vec3(0.0);
     float through = 1.0;
@@ -39,8 +39,8 @@ void draw_translucent(float index) {
 void main() {
     begin_ray();
     float index = 0.0;
-    // A software rasteriser goes no further where all of a group of pixels are discarded; the two sides of a
-    // branch it would both compute.
+    // A software rasteriser stops if all pixels of a group are discarded; of a branch it would compute both
+    // sides.
     if (!find_bone(index)) discard;
     if (bone_is_translucent) draw_translucent(index);
     else draw_surface(index);

@@ -11,8 +11,8 @@ namespace osteomill {
 
 namespace {
 
-/// #line takes no name, and Mesa forgets the file's number that it does take. So a line is known by one
-/// number: thousands for the file, in the order of shader_files, and the line within it.
+/// #line takes no name, and Mesa forgets the file number that it takes. So one number identifies a line:
+/// thousands for the file, in the order of shader_files, and the line within it.
 constexpr std::size_t most_lines = 1000;
 
 std::size_t number_of(std::string_view name) {

@@ -15,7 +15,7 @@ struct ShaderFile {
     std::string_view text;
 };
 
-/// All of them.
+/// All shader files.
 std::span<const ShaderFile> shader_files();
 
 /// GLSL 3.30: `constants`, then the files in this order. Empty names are skipped; std::logic_error for one

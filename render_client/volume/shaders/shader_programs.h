@@ -25,7 +25,7 @@ inline constexpr ProgramFiles structure_files{"structure.vert.glsl",
 inline constexpr ProgramFiles tool_files{"tool.vert.glsl", {"lighting.glsl", "tool.frag.glsl"}};
 inline constexpr ProgramFiles mesh_surface_files{"tool.vert.glsl", {"mesh_surface.frag.glsl"}};
 
-/// Those of BoneProgram, which puts what samples the bone ahead of them.
+/// Files for BoneProgram, which puts the sampling of the bone ahead of them.
 inline constexpr ProgramFiles raycast_files{"camera_rays.vert.glsl",
                                             {"lighting.glsl", "background.glsl", "bone_shading.glsl",
                                              "cut_shading.glsl", "bone_rays.glsl", "raycast.frag.glsl"}};

@@ -1,4 +1,4 @@
-// Distances within which the bone's shaders look around a point.
+// Distances within which the bone's shaders read around a point.
 #pragma once
 
 namespace osteomill {
@@ -7,7 +7,7 @@ namespace osteomill {
 /// ambient_occlusion (bone_sampling.glsl) looks 16 voxels away into a map of 4-voxel blocks whose
 /// interpolation reads 2 voxels beyond each; one in reserve.
 inline constexpr int shading_reach_voxels = 19;
-/// The same for position and direction of a surface, which show a carve: gradient_at reads 2 voxels away
+/// Distance for position and direction of a surface, which show a carve: gradient_at reads, 2 voxels away,
 /// values that are smoothed over 3; one in reserve.
 inline constexpr int surface_reach_voxels = 6;
 

@@ -1,6 +1,6 @@
-// Silhouettes without stairs; follows bone_rays.glsl. A pixel beside a step in depth shows the nearer surface as far as that
-// covers it. The nearer surface ends where a ray only just touches it, and how far that is from the middle of the pixel
-// follows from the fullest place on its ray: the fraction there, less that of a surface, over its slope.
+// Silhouettes without stairs; follows bone_rays.glsl. A pixel beside a step in depth shows the nearer surface by the share
+// that it covers. The nearer surface ends where a ray only just touches it. The distance of that outline from the middle of
+// the pixel follows from the fullest place on its ray: the fraction there, less that of a surface, over its slope.
 
 uniform sampler2D drawn_colour, drawn_depth;
 uniform vec2 picture_size;
@@ -20,7 +20,7 @@ float slope_at(vec3 point) {
                        fraction_at(point + step.yyx) - fraction_at(point - step.yyx)));
 }
 
-// Of the fullest place between two on the ray, which becomes `place`.
+// Fraction at the fullest place between two on the ray; `place` becomes that place.
 float fullest(float first, float end, out float place) {
     float most = -1.0, width = (end - first) / float(places);
     place = first;
@@ -51,7 +51,7 @@ void main() {
     }
     float near = distance_of(nearest), far = distance_of(farthest);
     float width = pixel_width * near;  // voxels
-    // A software rasteriser goes no further where all of a group of pixels are discarded.
+    // A software rasteriser stops if all pixels of a group are discarded.
     if (far - near < least_step * width + 1.0) discard;
     begin_ray();
     float along = 1.0 / dot(direction, forward);

@@ -1,5 +1,5 @@
 // A corner of a view-aligned slice. Lengths are in voxels, in texture coordinates of the bone's box. A slice is drawn half a
-// step before where it samples: it stands for the half steps on either side of it.
+// step before its samples: it stands for half a step on either side of them.
 
 layout(location = 0) in vec3 place;
 uniform mat4 to_clip;

@@ -1,4 +1,4 @@
-// A pixel of a soft structure: lit as bone is; where a cut has opened it, its inside shows. Follows lighting.glsl and cuts.glsl,
+// A pixel of a soft structure, lit like bone; if a cut has opened it, its inside shows. Follows lighting.glsl and cuts.glsl,
 // whose points are here in the coordinates of the mesh.
 
 uniform float opacity;

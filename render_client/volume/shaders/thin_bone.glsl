@@ -24,7 +24,7 @@ float way_by(float along, float distance_left) {
     return along + seen_aside * max(distance_left, 0.0) + min(distance_left, 0.0);
 }
 
-// Labels blended between places, so that no edge is seen in what comes through.
+// Labels blended between places, so that no edge shows through.
 vec4 seen_looks_at(vec3 point, out float depth) {
     vec3 place = seen_place(point);
     ivec3 low = ivec3(floor(place));
@@ -48,7 +48,7 @@ vec4 seen_looks_at(vec3 point, out float depth) {
 
 vec3 colour_through(vec3 colour, vec3 point, vec3 direction) {
     float left = seen_distance(point);
-    // Loops of no turn where nothing is near: a software rasteriser computes both sides of a branch.
+    // Loops of no turn if nothing is near: a software rasteriser would compute both sides of a branch.
     int turns = left < seen_farthest ? most_seen_steps : 0;
     float along = 0.0, way = way_by(0.0, left);
     vec3 nearest = point;

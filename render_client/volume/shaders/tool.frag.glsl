@@ -3,7 +3,8 @@
 uniform float opacity;
 uniform float polish;  // 0 matt, 1 steel
 uniform vec3 eye;
-// Of a shank that may lie before the burr: 0 all of it, 1 without what is seen through, 2 only that.
+// Part of a shank that may lie before the burr: 0 all of it, 1 all but the part that is seen through, 2 only
+// that part.
 uniform float sees_through;
 uniform vec2 field_middle_px;   // what it must not hide, on the screen: the burr, enlarged where that is tiny
 uniform float field_radius_px;

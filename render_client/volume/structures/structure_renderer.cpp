@@ -19,8 +19,8 @@ void StructureRenderer::add(const StructureSurface& surface, double opacity) {
     drawn_.push_back({gl::Mesh(surface.triangles), surface.origin_mm, static_cast<float>(opacity)});
 }
 
-// First the depth of what is nearest, then its colour: what is seen through is not seen through twice, in
-// whatever order the triangles come.
+// First the depth of the nearest surface, then its colour: light passes a structure only once, in whatever
+// order the triangles come.
 void StructureRenderer::draw(const Camera& camera, const SceneAppearance& look, TileMask& covered) {
     if (drawn_.empty()) return;
     const glm::dmat4 view_projection = camera.projection(covered.size_px()) * camera.view();

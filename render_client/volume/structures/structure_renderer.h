@@ -17,7 +17,7 @@ namespace osteomill {
 
 class StructureRenderer {
   public:
-    /// Another structure, from the next draw on. Of one without triangles nothing is kept.
+    /// Adds a structure, from the next draw on. One without triangles is not kept.
     void add(const StructureSurface& surface, double opacity);
     void forget() { drawn_.clear(); }
 

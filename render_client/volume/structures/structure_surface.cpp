@@ -11,14 +11,14 @@ namespace osteomill {
 
 namespace {
 
-/// Of vertices, about: a brick of a thin structure has a surface of some 256 cells.
+/// Estimate of vertices: a brick of a thin structure has a surface of some 256 cells.
 constexpr double cells_per_brick = 256.0;
 constexpr double most_cells = 400'000.0;
-/// Of a coarse voxel must be the structure's, so that a thin one does not vanish.
+/// Least share of the structure in a coarse voxel: so small that a thin one does not vanish.
 constexpr double least_part = 0.25;
 constexpr int smoothing_steps = 8;
 
-/// Places along each axis that a key has room for.
+/// Most places along each axis in a key.
 constexpr int most_places = 1 << 20;
 
 std::uint64_t key_of(const glm::ivec3& place) {
@@ -31,7 +31,7 @@ glm::ivec3 place_of(std::uint64_t key) {
     return {part(0), part(21), part(42)};
 }
 
-/// How many voxels along each axis are taken for one.
+/// Number of voxels along each axis that become one.
 int coarsening_of(const StructureMask& structure, const VoxelBounds& bounds) {
     const double cells = cells_per_brick * static_cast<double>(structure.bricks().size());
     const glm::ivec3 extent = bounds.last - bounds.first + 1;
@@ -173,7 +173,7 @@ StructureSurface surface_of(const StructureMask& structure, const glm::vec3& col
     }
     for (Vertex& vertex : vertices) {
         const float length = glm::length(vertex.normal);
-        // Sheets that cancel out each other leave no direction.
+        // Sheets that cancel each other out leave no direction.
         vertex.normal = length > 0.0f ? vertex.normal / length : glm::vec3(0.0f, 0.0f, 1.0f);
     }
     return surface;

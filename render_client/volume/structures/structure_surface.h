@@ -1,10 +1,10 @@
-// The surface of a soft structure, such as a nerve, for its picture: of its voxels where no bone is.
+// The surface of a soft structure, such as a nerve, for its picture: of its voxels without bone.
 //
 // Constrained elastic surface nets (Gibson 1998, MICCAI, LNCS 1496): a vertex in each cell of eight
 // neighbouring voxels that are not all alike, quads between them, and vertices that are moved to the mean of
 // their neighbours, but not out of their cells. So the surface is smooth, closed and within a voxel of the
-// structure's. A large structure is taken in coarser voxels, so that no surface has more than some hundred
-// thousand vertices.
+// structure's. A large structure has coarser voxels, so that no surface has more than some hundred thousand
+// vertices.
 #pragma once
 
 #include "common/bone/bone.h"
@@ -13,8 +13,8 @@
 
 namespace osteomill {
 
-/// The voxels of a structure that were never bone, as far as the bone tells: those that hold none now and,
-/// where it knows a stiffness for each voxel, have none.
+/// The voxels of a structure that, as far as the bone shows, were never bone: they hold none now and, if the
+/// bone has a stiffness for each voxel, have no stiffness.
 StructureMask soft_part(const StructureMask& structure, const Bone& bone);
 
 struct StructureSurface {

@@ -13,7 +13,7 @@ namespace osteomill {
 
 namespace {
 
-/// How much longer than a cube's an atlas' edge may be.
+/// Rows by which an atlas' edge may exceed a cube's.
 constexpr int spare_rows = 4;
 
 VoxelBox grown(const VoxelBox& box, int reach_voxels) {
@@ -36,7 +36,8 @@ VoxelBox enclosing(const VoxelBox& a, const VoxelBox& b) {
     return {low, high - low};
 }
 
-/// Of a dense texture, in whole bricks: a region takes a few milliseconds, also where it is smoothed.
+/// Rows of a region of a dense texture, in whole bricks: a region takes a few milliseconds, even with
+/// smoothing.
 int rows_a_region(int row_voxels) {
     constexpr int voxels_a_region = 1 << 19;
     return std::max(voxels_a_region / (row_voxels * brick_edge_voxels * brick_edge_voxels), 1) *
@@ -55,7 +56,7 @@ glm::ivec3 atlas_size_tiles(std::size_t stored_bricks, int longest_edge_texels) 
     };
     const int edge = std::clamp(static_cast<int>(std::ceil(std::cbrt(static_cast<double>(tiles)))), 1,
                                 std::max(longest, 1));
-    // Of the shapes that are nearly cubes, the one with the fewest tiles to spare.
+    // The nearly cubic shape with the fewest tiles to spare.
     glm::ivec3 best(0);
     std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
     for (int y = edge; y <= std::min(edge + spare_rows, longest); ++y)
@@ -105,8 +106,8 @@ std::vector<PlacedVoxels> AtlasLayout::all(const BoneContent& content) const {
             }
         return all;
     }
-    // No voxel lies before the grid: the empty tile comes out empty, and so do those to spare, which a
-    // driver leaves as it finds them.
+    // No voxel lies before the grid, so the empty tile comes out empty. So do the spare tiles, which a driver
+    // would leave undefined.
     const auto add_empty = [&](std::size_t tile) {
         all.push_back({{glm::ivec3(-tile_edge_texels), glm::ivec3(tile_edge_texels)},
                        brick_position(size_tiles_, static_cast<BrickIndex>(tile)) * tile_edge_texels});
@@ -123,7 +124,7 @@ std::vector<PlacedVoxels> AtlasLayout::all(const BoneContent& content) const {
 std::span<const PlacedVoxels> AtlasLayout::that_show(const Bone& bone, std::span<const VoxelBox> changed,
                                                      int reach_voxels) {
     shown_.clear();
-    // What is smoothed reaches into the borders of tiles, beyond the box.
+    // Smoothed values reach into the borders of tiles, beyond the box.
     const VoxelBox held = grown(box_, layout_ == BoneLayout::atlas ? tile_border_voxels : 0);
     for (const VoxelBox& box : changed) {
         const VoxelBox voxels = overlap(grown(box, reach_voxels), held);
@@ -139,7 +140,7 @@ std::span<const PlacedVoxels> AtlasLayout::that_show(const Bone& bone, std::span
 }
 
 void AtlasLayout::add_dense_change(VoxelBox voxels) {
-    // A quarter more texels are worth a region less, and what neighbours share is not shown twice.
+    // A quarter more texels are worth one region less, and voxels that neighbours share are not shown twice.
     while (!shown_.empty()) {
         const VoxelBox& last = shown_.back().voxels;
         const VoxelBox both = enclosing(voxels, last);

@@ -2,9 +2,9 @@
 //
 // Dense: one box, a texel for each of its voxels. Atlas: a tile for each stored brick, its 16^3 voxels and a
 // border of one that repeats those of its neighbours, so that interpolation within a brick needs no other
-// tile. The first tile is empty; every brick of the box that holds no bone shares it. A tile is a brick's for
-// good: a brick that is carved away keeps its tile, because undoing or playing backwards may fill it again,
-// and because then nothing ever has to be found, moved or grown while bone is milled.
+// tile. The first tile is empty; every brick of the box that holds no bone shares it. A brick keeps its tile
+// for good, even once it is carved away: undo or backward play may fill it again, and no tile ever has to be
+// found, moved or grown while bone is milled.
 #pragma once
 
 #include <span>
@@ -27,8 +27,8 @@ struct PlacedVoxels {
 
 class AtlasLayout {
   public:
-    /// Of a bone with at least one brick. In an atlas no edge of the texture exceeds `longest_edge_texels`.
-    /// Throws std::runtime_error, naming sizes, where not all tiles fit into such a texture.
+    /// The bone has at least one brick. In an atlas no edge of the texture exceeds `longest_edge_texels`.
+    /// Throws std::runtime_error, naming sizes, if not all tiles fit into such a texture.
     AtlasLayout(const BoneContent& content, BoneLayout layout, int longest_edge_texels);
 
     BoneLayout layout() const { return layout_; }
@@ -39,14 +39,14 @@ class AtlasLayout {
     /// Everything that a stored brick's texels show: its voxels, in an atlas with their border.
     PlacedVoxels of_brick(const glm::ivec3& brick, std::int32_t slot) const;
 
-    /// All that has to be uploaded at first, in regions one brick high and of at most half a million voxels
-    /// or one row of bricks, or of one tile, the empty tile among them.
+    /// All regions of the first upload. A dense one is one brick high and has at most half a million voxels,
+    /// or is one row of bricks; in an atlas each is a tile, the empty tile included.
     std::vector<PlacedVoxels> all(const BoneContent& content) const;
 
-    /// What shows these voxels, and those up to `reach_voxels` around them: themselves and, in an atlas, the
-    /// borders that repeat them. Dense, boxes that follow each other become one where that is hardly more to
-    /// upload: neighbouring bricks do, in ascending order; never what lies far apart. In an atlas there is
-    /// one region for each tile. Bricks that are not stored show nothing. Valid until the next call.
+    /// Texels that show these voxels and those up to `reach_voxels` around them: their own and, in an atlas,
+    /// the borders that repeat them. In a dense layout, boxes that follow each other become one if that adds
+    /// little to the upload: neighbouring bricks do, in ascending order, distant ones never. In an atlas
+    /// there is one region for each tile. Bricks that are not stored show nothing. Valid until the next call.
     std::span<const PlacedVoxels> that_show(const Bone& bone, std::span<const VoxelBox> changed,
                                             int reach_voxels = 0);
 
@@ -65,14 +65,14 @@ class AtlasLayout {
     glm::ivec3 texture_size_{0};
     std::vector<PlacedVoxels> shown_;
 
-    // Of the call under way: where in shown_ a slot's tile stands, and which do.
+    // State of the call under way: the index of a slot's tile in shown_, and the slots that have one.
     static constexpr std::int32_t nowhere = -1;
     std::vector<std::int32_t> place_of_slot_;
     std::vector<std::int32_t> slots_shown_;
 };
 
-/// Tiles along each axis for so many bricks and the empty tile, as near a cube as can be; zero where they do
-/// not fit.
+/// Tiles along each axis for so many bricks and the empty tile, as near a cube as can be; zero if they do not
+/// fit.
 glm::ivec3 atlas_size_tiles(std::size_t stored_bricks, int longest_edge_texels);
 
 }  // namespace osteomill

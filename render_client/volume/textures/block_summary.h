@@ -1,5 +1,5 @@
-// A brick seen as 4^3 blocks of 4^3 voxels: which of a block's sides bone reaches, and how full the block is.
-// What the maps of empty space are made of, brick by brick.
+// Summary of a brick as 4^3 blocks of 4^3 voxels: the sides of a block that bone reaches, and its mean
+// fraction. The maps of empty space are made of these, brick by brick.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace osteomill {
 inline constexpr int block_edge_voxels = 4;
 inline constexpr std::size_t blocks_per_brick = 64;
 
-/// Which parts of a block hold a voxel that is at least half full. Bit (dx + 1) + 3 (dy + 1) + 9 (dz + 1),
+/// Parts of a block that hold a voxel that is at least half full. Bit (dx + 1) + 3 (dy + 1) + 9 (dz + 1),
 /// each of d from -1 to 1: the voxels that touch the neighbour in that direction, i.e. the whole block (0, 0,
 /// 0), a face, an edge or a corner. Trilinear interpolation within that neighbour reads just those voxels.
 using BlockReach = std::uint32_t;

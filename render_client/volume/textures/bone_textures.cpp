@@ -49,7 +49,7 @@ BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, con
 }
 
 Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
-    // All are requested at first: while they are made, what needs none is done.
+    // All are requested first; work that needs no texture is done meanwhile.
     const glm::ivec3 texels = places_.texture_size();
     auto fraction = make_texture(storage, gl::VoxelFormat::interpolated_byte, texels);
     auto blocks = make_texture(storage, gl::VoxelFormat::interpolated_bytes, empty_space_.size_blocks());

@@ -29,46 +29,48 @@ namespace osteomill {
 class BoneTextures {
   public:
     /// Uploads all of it at once (TextureBuild does so in steps), cropped to the stored bricks, by the first
-    /// of texture_plans for which the driver has memory. Another look takes other textures. Throws
-    /// std::runtime_error where the bone has no brick and, naming sizes, where nothing fits;
-    /// std::invalid_argument where the look's transfer function is none.
+    /// of texture_plans for which the driver has memory. Other shading settings need other textures. Throws
+    /// std::runtime_error if the bone has no brick and, naming sizes, if nothing fits; std::invalid_argument
+    /// for an invalid transfer function.
     BoneTextures(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look = {},
                  const TextureLimits& limits = {});
 
-    /// Uploads what changed, lowered or raised, and what follows from it: glTexSubImage3D,
-    /// region by region, never a union of what lies apart. `bone` is the bone of the constructor, changed
-    /// since. Call before drawing: a texture that a frame in flight uses makes the call wait for that frame.
-    /// Returns what changed, in voxels of grid(); valid until the next call.
+    /// Uploads lowered and raised voxels, and all texels that depend on them: glTexSubImage3D, region by
+    /// region, never a union of distant regions. `bone` is the bone of the constructor, changed since. Call
+    /// before drawing: if a frame in flight uses a texture, the call waits for that frame. Returns the
+    /// changed voxels of grid(); valid until the next call.
     std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickChange> changes);
 
-    /// A structure outside the bone, with a tissue's label, that thin bone is to show. work() takes it in.
+    /// Adds a structure outside the bone, with a tissue's label, which thin bone shows. work() enters it.
     void add_structure(std::uint8_t label, StructureMask structure);
-    /// A step of that, of a few milliseconds. Returns what changed, as update does; none: nothing is left.
+    /// A step of that work, of a few milliseconds. Returns the changed voxels, as update does; none: all is
+    /// done.
     std::span<const VoxelBox> work(const Bone& bone);
 
-    /// How the bone is held: in which layout, how much coarser than it is, in how many bytes.
+    /// Plan of the textures: layout, coarsening and bytes.
     const TexturePlan& plan() const { return plan_; }
-    /// What plan() adds up, texture by texture.
+    /// The bytes of plan(), texture by texture.
     std::vector<TextureSize> sizes() const;
-    /// The grid that is drawn: the bone's own or, of a coarser copy, the copy's.
+    /// The grid that is drawn: the bone's own or a coarser copy's.
     const Grid& grid() const { return grid_; }
     /// The part of grid() that the textures hold, in whole bricks.
     const VoxelBox& box() const { return places_.box(); }
-    /// Where the bricks of grid() lie in fraction(), colour_code() and surface_colours().
+    /// Places of the bricks of grid() in fraction(), colour_code() and surface_colours().
     const AtlasLayout& places() const { return places_; }
 
     const gl::Texture3D& fraction() const { return *fraction_; }
-    /// The fractions, smoothed for normals; none where the look or the memory has no place for them.
+    /// The fractions, smoothed for normals; none if the shading does not use them, or memory is short.
     const gl::Texture3D* smoothed() const { return smoothed_ ? &smoothed_->texture() : nullptr; }
-    /// What `colours` is looked up by, placed as the fractions are; none for a homogeneous, unlabelled bone.
+    /// Index into `colours` of each voxel, placed as the fractions are; none for a homogeneous, unlabelled
+    /// bone.
     const std::optional<gl::Texture3D>& colour_code() const { return colour_code_; }
-    /// Whether neighbours mostly have the same, as within a tissue.
+    /// Whether neighbours mostly have the same code, as within a tissue.
     bool codes_are_mostly_alike() const { return table_.codes.are_mostly_alike(); }
     /// Linear RGB and opacity of code i in texel (i, 0).
     const gl::Texture2D& colours() const { return colours_; }
-    /// Display RGB times alpha, and alpha, of the surface voxels; none unless the look shades them.
+    /// Display RGB times alpha, and alpha, of the surface voxels; none unless these are shaded.
     const gl::Texture3D* surface_colours() const { return surface_ ? &surface_->texture() : nullptr; }
-    /// Whether one sees through the bone: opacities are then per millimetre.
+    /// Whether the bone is seen through: opacities are then per millimetre.
     bool is_translucent() const { return table_.mode == TransferMode::translucent; }
     /// Voxels below the surface at which its colour is taken.
     double colour_depth_voxels() const { return osteomill::colour_depth_voxels(table_); }
@@ -77,7 +79,7 @@ class BoneTextures {
     /// For each block of EmptySpace, two bytes: its mean fraction and its distance.
     const gl::Texture3D& blocks() const { return *blocks_; }
 
-    /// What thin bone shows; none where it shows nothing.
+    /// Tissues that thin bone shows; null if it shows none.
     const SeenThrough* seen_through() const { return seen_ ? &*seen_ : nullptr; }
     /// By label, in texel (label, 0) linear RGB and strength, in (label, 1) the depth in voxels.
     const gl::Texture2D& seen_looks() const { return seen_looks_; }
@@ -88,10 +90,10 @@ class BoneTextures {
   private:
     friend class TextureBuild;
 
-    /// Of nothing as yet: to be filled. `copy` is filled already.
+    /// Without contents yet. `copy` is filled already.
     BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, const TransferTable& table,
                  Shading shading, const TexturePlan& plan, int longest_edge_texels);
-    /// Makes the textures, by `storage` where it is not null, and uploads all of the bone. Throws
+    /// Makes the textures, on `storage` if it is not null, and uploads all of the bone. Throws
     /// gl::NoTextureMemory.
     Steps fill(const Bone& bone, gl::StorageThread* storage);
     /// Uploads region by region.

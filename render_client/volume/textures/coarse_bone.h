@@ -1,5 +1,5 @@
-// A coarser copy of a bone, for where the bone itself exceeds the graphics memory: each of its voxels stands
-// for 2^3, 4^3 or 8^3 of the bone's.
+// A coarser copy of a bone that exceeds the graphics memory: each of its voxels stands for 2^3, 4^3 or 8^3 of
+// the bone's.
 #pragma once
 
 #include <optional>
@@ -25,17 +25,17 @@ class CoarseBone {
     /// `coarsening` is 2, 4 or 8. A coarse voxel's fraction is the mean of the bone's; its stiffness and its
     /// tissue are those of the voxel among them that was fullest.
     CoarseBone(const Bone& fine, int coarsening);
-    /// Of a bone that is yet to be copied: see fill.
+    /// Without contents; fill() copies the bone.
     explicit CoarseBone(int coarsening) : coarsening_(coarsening) {}
 
     /// Copies the bone, once. Pass bricks that change meanwhile to update afterwards.
     Steps fill(const Bone& fine);
 
-    /// Follows changes of the fine bone (that of the constructor, milled or refilled since). Returns what
-    /// they change in this copy, ascending; valid until the next call.
+    /// Follows changes of the fine bone (that of the constructor, milled or refilled since). Returns the
+    /// changes of this copy, ascending; valid until the next call.
     std::span<const BrickChange> update(const Bone& fine, std::span<const BrickChange> changes);
 
-    /// Once it is filled.
+    /// Only after fill().
     const Bone& bone() const { return *bone_; }
 
   private:

@@ -81,7 +81,7 @@ std::span<const VoxelBox> EmptySpace::update(const Bone& bone, std::span<const B
         if (slot == BoneContent::no_slot) continue;
         take_in(bone, brick_position(bone.content().size_bricks, change.brick), slot);
     }
-    // A block may have been left by one brick and reached by another; what counts is how it came out.
+    // Bone may have left a block in one brick and reached it from another; only the outcome counts.
     for (const glm::ivec3& block : newly_free_) {
         if (reached_by_[index(block)] > 0 || distance_[index(block)] != 0) continue;
         distance_[index(block)] = 1;
@@ -150,7 +150,7 @@ Steps EmptySpace::spread_everywhere() {
 }
 
 void EmptySpace::spread_from_reached() {
-    // Breadth first, so that a distance is lowered but once or twice.
+    // Breadth first, so that a distance is lowered only once or twice.
     std::size_t next = 0;
     std::erase_if(newly_reached_, [&](const glm::ivec3& block) {
         return reached_by_[index(block)] == 0 || distance_[index(block)] == 0;

@@ -1,12 +1,12 @@
-// Distance map of empty space, which rays skip: for each block of 4^3 voxels, how far away the nearest block
-// is that can hold a piece of the bone's surface.
+// Distance map of empty space, which rays skip: for each block of 4^3 voxels, the distance of the nearest
+// block that can hold a piece of the bone's surface.
 //
 // A block can hold a surface point if one of the voxels that trilinear interpolation reads within it (its own
 // and a border of one) is at least half full. Distances are counted in blocks, as a king moves (Chebyshev):
 // all blocks closer than the distance are empty. A block that has become empty has distance 1 from then on,
-// those around it keep theirs: carving leaves distances shorter than they might be, never longer. Where bone
-// comes back (undo, a recording played backwards) they are shortened at once, as far as it can be felt.
-// The method is that of Cohen and Sheffer, "Proximity clouds" (1994).
+// and its neighbours keep theirs: carving leaves distances shorter than they might be, never longer. If bone
+// comes back (undo, a recording played backwards), all distances that it affects are shortened at once. The
+// method is that of Cohen and Sheffer, "Proximity clouds" (1994).
 //
 // A second map holds each block's mean fraction, a coarse copy of the bone, for ambient occlusion.
 #pragma once
@@ -27,10 +27,10 @@ class EmptySpace {
   public:
     /// `box` is aligned to bricks (see stored_box).
     EmptySpace(const Bone& bone, const VoxelBox& box);
-    /// Of a bone that is yet to be taken in: see fill.
+    /// Without contents; fill() enters the bone.
     explicit EmptySpace(const VoxelBox& box);
 
-    /// Takes all of the bone in, once. Pass bricks that change meanwhile to update afterwards.
+    /// Enters all of the bone, once. Pass bricks that change meanwhile to update afterwards.
     Steps fill(const Bone& bone);
 
     /// Brings the maps up to date after fractions were lowered or raised. Bricks that are not
@@ -56,12 +56,12 @@ class EmptySpace {
     std::vector<std::uint8_t> distance_;
     std::vector<std::uint8_t> mean_fraction_;
 
-    /// How many of the 27 blocks around (and including) a block reach into what is interpolated there, and
-    /// which those are, by the slot of the brick that they lie in: a change is then felt only where it is.
+    /// Number of the 27 blocks around (and including) a block that reach into its interpolation, and the
+    /// reach of each block by its brick's slot: a change then costs work only where it is.
     std::vector<std::uint8_t> reached_by_;
     std::vector<std::array<BlockReach, blocks_per_brick>> reach_of_slot_;
 
-    // Of the update under way.
+    // State of the update under way.
     std::vector<glm::ivec3> newly_reached_;
     std::vector<glm::ivec3> newly_free_;
     std::vector<VoxelBox> changed_tiles_;

@@ -12,10 +12,10 @@ namespace osteomill {
 
 namespace {
 
-/// Above what all lights together give.
+/// Above the sum of all lights.
 constexpr double brightest = 1.1;
 
-/// Of a place in the square from -1 to 1: the octahedron's lower half is folded outwards.
+/// Direction of a place in the square from -1 to 1: the octahedron's lower half is folded outwards.
 glm::dvec3 direction_at(double x, double y) {
     const double z = 1.0 - std::abs(x) - std::abs(y);
     if (z >= 0.0) return glm::normalize(glm::dvec3(x, y, z));
@@ -31,7 +31,7 @@ LightTable::LightTable() {
     for (int y = 0; y < edge; ++y)
         for (int x = 0; x < edge; ++x) {
             const glm::dvec3 light = lit(glm::dvec3(1.0), direction_at(place(x), place(y)), 1.0);
-            // As display() does it, but for its clamping.
+            // As display(), without its clamping.
             const glm::dvec3 shown = glm::pow(light, glm::dvec3(1.0 / 2.2));
             lights_.emplace_back(glm::u8vec3(glm::round(shown * (255.0 / brightest))), std::uint8_t{0});
         }

@@ -1,7 +1,7 @@
-// Table of the light on a white surface of any direction, from the lights of lighting.h: for what shades
-// thousands of voxels on the CPU between two frames. Directions are in an octahedral map (Cigolle et al., "A
-// survey of efficient representations for independent unit vectors", 2014), so near each other that a byte of
-// the picture is off by seven at most, by less than one in the mean.
+// Table of the light on a white surface of any direction, from the lights of lighting.h, to shade thousands
+// of voxels on the CPU between two frames. Directions are in an octahedral map (Cigolle et al., "A survey of
+// efficient representations for independent unit vectors", 2014), so near each other that a byte of the
+// picture is off by seven at most, by less than one in the mean.
 #pragma once
 
 #include <glm/ext/vector_uint4_sized.hpp>

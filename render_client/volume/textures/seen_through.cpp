@@ -30,7 +30,7 @@ VoxelBox box_round(const VoxelBox& a, const VoxelBox& b) {
     return box_between(glm::min(a.first, b.first), glm::max(a.first + a.size, b.first + b.size));
 }
 
-/// Where boxes overlap so much that one box is hardly more, that one.
+/// Joins boxes that overlap so much that one box round them is hardly larger.
 void join_neighbours(std::vector<VoxelBox>& boxes) {
     std::vector<VoxelBox> kept;
     for (const VoxelBox& box : boxes) {

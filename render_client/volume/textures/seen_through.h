@@ -1,11 +1,11 @@
-// Field of what thin bone shows: how far every second voxel is from the nearest tissue whose colour comes
-// through bone (thin_bone.h), and which tissue that is.
+// Field of the tissues that thin bone shows: for every second voxel, the nearest tissue whose colour comes
+// through bone (thin_bone.h), and its distance.
 //
-// A tissue is there where bone with its label is at least half full, and in the soft structures that were
-// added; milled away, it is seen no more. Distances are from a voxel's centre to the tissue's nearest voxel,
-// less half a voxel, negative within; exact for a layer along the lattice, up to 0.2 voxels too long for one
-// aslant. By windows along one axis after the other, in pieces of the lattice, so that a change costs what is
-// near it.
+// A tissue consists of the voxels of its label that are at least half full, and of the soft structures that
+// were added; milled away, it is no longer seen. Distances are from a voxel's centre to the tissue's nearest
+// voxel, less half a voxel, negative within; exact for a layer along the lattice, up to 0.2 voxels too long
+// for one aslant. They are computed by windows along one axis after the other, in pieces of the lattice, so
+// that a change costs only the pieces near it.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@
 
 namespace osteomill {
 
-/// Where the field has values: every so many voxels of a bone's box and one step beyond, where a structure
-/// may lie just outside.
+/// Lattice of the field's values: every so many voxels of a bone's box, and one step beyond, since a
+/// structure may lie just outside.
 struct SeenLattice {
     explicit SeenLattice(const VoxelBox& of);
 
@@ -36,30 +36,31 @@ struct SeenLattice {
 
 class SeenThrough {
   public:
-    /// No tissue is seen through more voxels of bone than this; deeper ones are cut down to it.
+    /// Most voxels of bone through which a tissue is seen; a greater depth is cut down to it.
     static constexpr int most_depth_voxels = 48;
 
-    /// Of voxels of `spacing_mm`. The texture has the lattice's places, of VoxelFormat::interpolated_bytes.
+    /// Voxels have an edge of `spacing_mm`. The texture has the lattice's places, of
+    /// VoxelFormat::interpolated_bytes.
     SeenThrough(const SeenLattice& lattice, double spacing_mm, const SeenTissues& tissues,
                 gl::Texture3D texture);
 
-    /// Computes all of it, once. Pass what changes meanwhile to update afterwards.
+    /// Computes all of it, once. Pass changes made meanwhile to update afterwards.
     Steps fill(const Bone& bone);
 
-    /// Computes again what a change of the bone's labelled voxels can have changed. Returns boxes of voxels
-    /// whose places it computed; valid until the next call.
+    /// Computes again the places that a change of the bone's labelled voxels can affect. Returns boxes of
+    /// their voxels; valid until the next call.
     std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickChange> changes);
 
-    /// A structure outside the bone, with a tissue's label; each of the bone's voxels stands for so many of
-    /// the structure's grid along an edge. work() takes it in.
+    /// Adds a structure outside the bone, with a tissue's label; each of the bone's voxels stands for
+    /// `coarsening` of the structure's grid along an edge. work() enters it.
     void add(std::uint8_t label, StructureMask structure, int coarsening);
-    /// Takes a piece of the added structures in, and returns its voxels; of none, nothing is left to do.
+    /// Enters a piece of the added structures, and returns its voxels; an empty box: all is done.
     VoxelBox work(const Bone& bone);
 
     /// Two bytes a place: nearness, the label.
     const gl::Texture3D& texture() const { return texture_; }
     const SeenLattice& lattice() const { return lattice_; }
-    /// Distance, voxels, of a nearness from 0 to 1: the first less the second times that.
+    /// Distance, voxels, at a nearness n from 0 to 1: farthest_voxels() - n span_voxels().
     double farthest_voxels() const { return depth_voxels_; }
     double span_voxels() const { return depth_voxels_ + deepest_voxels(); }
     /// Depth of a tissue, voxels.
@@ -76,13 +77,13 @@ class SeenThrough {
     void mark_bricks(const Bone& bone, std::size_t slot);
     /// Computes and uploads these places.
     void compute(const Bone& bone, const VoxelBox& places);
-    /// Labels of these voxels; false where none is seen.
+    /// Gathers the labels of these voxels; false if none is seen.
     bool gather(const Bone& bone, const VoxelBox& voxels);
     bool gather_soft(const Soft& soft, const VoxelBox& voxels);
     void find_nearest(const VoxelBox& places, const VoxelBox& voxels, int window, bool of_tissue);
     /// The lattice in pieces.
     std::vector<VoxelBox> pieces() const;
-    /// Places that see a voxel of the box; none for a box that is none.
+    /// Places that see a voxel of the box; none for an empty box.
     VoxelBox places_near(const VoxelBox& voxels) const;
     VoxelBox voxels_of(const VoxelBox& places) const;
 
@@ -96,7 +97,7 @@ class SeenThrough {
     std::vector<VoxelBox> due_;  ///< places
     std::vector<VoxelBox> changed_;
 
-    // Of the piece under way: labels of its voxels; squared distances and labels after each axis.
+    // State of the piece under way: labels of its voxels; squared distances and labels after each axis.
     std::vector<std::uint8_t> label_of_voxel_;
     std::array<std::vector<std::uint16_t>, 3> squares_;
     std::array<std::vector<std::uint8_t>, 3> labels_;

@@ -12,11 +12,12 @@ namespace {
 constexpr std::array<std::uint32_t, 2 * smoothing_reach_voxels + 1> weights{1, 6, 15, 20, 15, 6, 1};
 constexpr unsigned weights_bits = 6;  ///< they add up to 2^6
 
-/// Of what is hardly seen: its surface must have a slope that a byte can tell the direction of.
+/// Least share of a hardly visible tissue: the slope of its surface must be so large that bytes give its
+/// direction.
 constexpr float least_share = 0.3f;
 
 /// Sums of neighbours `stride` apart, of `count` places from the first on; `shift` takes bits away, rounding.
-/// Whole runs of places at once, because that is what a compiler makes fast.
+/// Whole runs of places at once, which compilers make fast.
 template <typename From, typename To>
 void sum_neighbours(const From* from, To* to, std::size_t count, std::size_t stride, unsigned shift) {
     const std::uint32_t half = shift == 0 ? 0 : 1U << (shift - 1);
@@ -54,7 +55,7 @@ std::span<const std::uint8_t> FractionSmoother::smooth(const Bone& bone, const V
     copy_channel(bone, BoneChannel::fraction, bordered, fraction_);
     if (!share_by_code_.empty()) count_by_opacity(bone, bordered);
     // A pass leaves its sum where its first neighbour was, so that the box ends up in the first places of
-    // each row. Of a sum 14 bits are kept, six more than come out.
+    // each row. A sum keeps 14 bits, six more than the result.
     sums_along_x_.resize(all);
     sums_along_xy_.resize(all);
     constexpr std::size_t behind = 2 * smoothing_reach_voxels;

@@ -1,4 +1,4 @@
-// The texture of shaded surface voxels over a bone's box, kept up to date round what is carved.
+// The texture of shaded surface voxels over a bone's box, kept up to date round carved voxels.
 #pragma once
 
 #include <span>
@@ -13,17 +13,16 @@ namespace osteomill {
 
 class SurfaceTexture {
   public:
-    /// Shades all of the bone. Throws gl::NoTextureMemory where the driver has none for four bytes a voxel.
+    /// Shades all of the bone. Throws gl::NoTextureMemory if the driver has no memory for four bytes a voxel.
     SurfaceTexture(const Bone& bone, const TransferTable& table, const AtlasLayout& places);
     /// Takes a texture of the size that the places have, of VoxelFormat::interpolated_rgba; see fill.
     SurfaceTexture(const TransferTable& table, gl::Texture3D texture)
         : shader_(table), texture_(std::move(texture)) {}
 
-    /// Shades all of the bone. Pass what changes meanwhile to update afterwards.
+    /// Shades all of the bone. Pass changes made meanwhile to update afterwards.
     Steps fill(const Bone& bone, const AtlasLayout& places);
 
-    /// Shades again what a change of these voxels can have changed: themselves and what is near them.
-    /// `places` are those of the constructor.
+    /// Shades again the changed voxels and those near them. `places` are those of the constructor.
     void update(const Bone& bone, AtlasLayout& places, std::span<const VoxelBox> changed);
 
     const gl::Texture3D& texture() const { return texture_; }

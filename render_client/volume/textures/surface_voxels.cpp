@@ -13,8 +13,8 @@ namespace {
 constexpr int most_columns = 62;
 constexpr std::size_t row_word_bytes = 8;
 
-/// A step to a neighbour, and its direction over the distance, times six, which makes all of them whole:
-/// distances squared are 1, 2 or 3.
+/// A step to a neighbour, and its direction over the distance, times six, which makes all of these whole
+/// numbers: distances squared are 1, 2 or 3.
 struct Neighbour {
     glm::ivec3 step;
     glm::ivec3 direction;
@@ -41,7 +41,8 @@ std::uint64_t top_bits_of_eight(std::uint64_t bytes) {
     return ((bytes & top_bit_of_each) >> 7U) * 0x0102040810204080U >> 56U;
 }
 
-/// Which voxels of a row are less than half full; of at most 64, but it reads up to seven bytes beyond them.
+/// Bits of a row's voxels that are less than half full; of at most 64 voxels, but it reads up to seven bytes
+/// beyond them.
 std::uint64_t outside_of_row(const std::uint8_t* fractions, std::size_t count) {
     static_assert(std::endian::native == std::endian::little);
     std::uint64_t outside = 0;

@@ -1,17 +1,17 @@
-// Surface voxels, shaded one by one as the published system did it.
+// Surface voxels, shaded one by one as in the published system.
 //
-// A voxel is inside where at least half of it is bone. An inside voxel with at least one of its 26 neighbours
+// A voxel is inside if at least half of it is bone. An inside voxel with at least one of its 26 neighbours
 // outside is a surface voxel. Its normal is the normalised sum over its neighbours of the direction to them,
 // weighted by the gradient along it: the difference of the smoothed fractions over the distance. Its colour
 // is Phong's without the specular part, under the lights of lighting.h. Points outside the bone's grid are
 // outside.
 //
-// The published sum is over the neighbours outside alone, of CT numbers as they are. Which those are changes
-// from voxel to voxel: normals of a ball of 25 voxels are then off by 5 degrees in the median and 28 at the
-// 95th percentile, which is seen as rings; by all neighbours of smoothed fractions 0.5 and 0.8
-// (osteomill_study render, normals).
+// The published sum is over the neighbours outside alone, with unsmoothed CT numbers. The set of those
+// neighbours changes from voxel to voxel: normals of a ball of 25 voxels are then off by 5 degrees in the
+// median and 28 at the 95th percentile, which is seen as rings. With all neighbours and smoothed fractions it
+// is 0.5 and 0.8 (osteomill_study render, normals).
 //
-// Which voxels are outside is a bit each, a row of 62 and its borders in a word, so that surface voxels are
+// Each voxel has a bit for being outside, a row of 62 and its borders in a word, so that surface voxels are
 // found a row at a time.
 #pragma once
 
@@ -43,9 +43,9 @@ class SurfaceShader {
     const std::vector<SurfaceTexel>& shade(const Bone& bone, const VoxelBox& box);
 
   private:
-    /// Of the box: columns first_x to first_x + columns, at most 62.
+    /// Shades columns first_x to first_x + columns of the box, at most 62.
     void shade_columns(const glm::ivec3& size, int first_x, int columns);
-    /// Six times the sum that the normal is along.
+    /// Six times the sum along which the normal points.
     glm::ivec3 outward(const std::uint8_t* own_smoothed) const;
     SurfaceTexel texel(const glm::ivec3& outward, std::uint8_t code) const;
 
@@ -54,13 +54,13 @@ class SurfaceShader {
     LightTable light_;
     FractionSmoother smoother_;
 
-    // Of the call under way, of the box and a border of one voxel.
+    // State of the call under way, for the box and a border of one voxel.
     std::vector<std::uint8_t> fraction_;
     std::vector<std::uint8_t> code_;      ///< of the box alone
     std::vector<std::uint64_t> outside_;  ///< by row: less than half full
     std::size_t rows_per_layer_ = 0;
     std::span<const std::uint8_t> smoothed_;
-    /// To the 13 neighbours of which the opposite one is another, in smoothed_.
+    /// Offsets in smoothed_ to 13 neighbours, one of each opposite pair.
     std::array<std::ptrdiff_t, 13> offsets_{};
     std::vector<SurfaceTexel> texels_;
 };

@@ -1,4 +1,4 @@
-// The making of a bone's textures in steps of a few milliseconds: a head of 2048^3 voxels takes seconds, and
+// Build of a bone's textures in steps of a few milliseconds: a head of 2048^3 voxels takes seconds, and
 // meanwhile the drawing thread must keep the window responsive.
 //
 // The bone may be carved between steps. A step reads it in its present state, so all changes since the
@@ -31,7 +31,7 @@ class TextureBuild {
     /// 0 to 1.
     double done() const { return steps_.done(); }
 
-    /// Once it is known: how the bone will be held.
+    /// The plan of the textures, once it is known.
     const std::optional<TexturePlan>& plan() const { return plan_; }
     /// Whether the driver had no memory for a better plan.
     bool has_settled_for_less() const { return has_settled_for_less_; }

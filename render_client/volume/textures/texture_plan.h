@@ -1,4 +1,4 @@
-// Plan of the 3D textures of a bone, within what the driver and the user allow.
+// Plan of the 3D textures of a bone, within the limits of the driver and the user.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ struct TextureSize {
     std::size_t bytes = 0;
 };
 
-/// Bytes that a voxel takes in all the textures that hold voxels.
+/// Bytes of a voxel in all the textures that hold voxels.
 struct VoxelBytes {
     std::size_t needed = 1;
     std::size_t smoothed = 0;   ///< more for smoothed fractions; 0: the look has no use for them
@@ -42,7 +42,7 @@ struct VoxelBytes {
 };
 
 /// Every way that keeps within the limits, best first: the bone itself before coarser copies of it (by 2, 4,
-/// 8), smoothed before not, dense before atlas. Smoother normals are a luxury: they are had only where all
+/// 8), smoothed before not, dense before atlas. Smoother normals are a luxury: a plan has them only if all
 /// stays within half of the budget. `longest_edge_texels` of the limits must be given.
 std::vector<TexturePlan> texture_plans(const BoneContent& content, const VoxelBytes& bytes_per_voxel,
                                        const TextureLimits& limits);

@@ -2,8 +2,8 @@
 // visible part of each voxel. It is drawn like any other bone, and hidden voxels are skipped like empty
 // space.
 //
-// What decides by stiffness is the stiffest of a voxel and its 26 neighbours (copy_stiffest_codes), else a
-// surface would be full of pits; by tissue, the voxel's own label.
+// By stiffness, the stiffest of a voxel and its 26 neighbours decides (copy_stiffest_codes), or a surface
+// would be full of pits; by tissue, the voxel's own label decides.
 #pragma once
 
 #include <optional>
@@ -18,20 +18,20 @@ namespace osteomill {
 class VisibleBone {
   public:
     VisibleBone(const Bone& bone, const TransferTable& table);
-    /// Of a bone that is yet to be taken over: see fill.
+    /// Without contents; fill() copies the bone.
     explicit VisibleBone(const TransferTable& table);
 
-    /// Takes all of the bone over, once. Bricks that change meanwhile are to be followed afterwards.
+    /// Copies all of the bone, once. Pass bricks that change meanwhile to follow afterwards.
     Steps fill(const Bone& bone);
 
     /// Takes over the bricks that changed of `bone`, which is the bone of the constructor, carved since.
     void follow(const Bone& bone, std::span<const BrickChange> changes);
 
-    /// Once it is filled.
+    /// Only after fill().
     const Bone& bone() const { return *visible_; }
 
   private:
-    /// What is shown of a brick.
+    /// Copies the shown part of a brick.
     void take_over(const Bone& bone, std::int32_t slot, std::span<std::uint8_t, brick_voxel_count> shown);
 
     VoxelCodes voxel_codes_;
@@ -40,7 +40,7 @@ class VisibleBone {
     ByteBrick codes_{};  ///< of the brick that is taken over
 };
 
-/// Whether this look hides any bone at all; where not, the bone itself can be drawn.
+/// Whether this look hides any bone at all; if not, the bone itself can be drawn.
 bool hides_bone(const TransferTable& table);
 
 }  // namespace osteomill

@@ -62,7 +62,7 @@ void copy_channel(const Bone& bone, BoneChannel channel, const VoxelBox& box,
                         const std::size_t row =
                             (static_cast<std::size_t>(to.z) * box.size.y + to.y) * box.size.x + to.x;
                         const std::uint8_t* const from = source.data() + offset_in_brick({low.x, y, z});
-                        // Most rows are whole ones, and of a length that the compiler knows.
+                        // Most rows are whole, and of a length that the compiler knows.
                         if (high.x - low.x == brick_edge_voxels)
                             std::memcpy(voxels.data() + row, from, brick_edge_voxels);
                         else

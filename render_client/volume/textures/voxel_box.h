@@ -29,8 +29,8 @@ enum class BoneChannel { fraction, stiffness, tissue };
 std::span<const std::uint8_t, brick_voxel_count> channel_of_slot(const Bone& bone, BoneChannel channel,
                                                                  std::int32_t slot);
 
-/// Copies a channel within `box` (which may reach past the grid) into `voxels`, x fastest; zero where no
-/// brick is stored. The bone must have the channel.
+/// Copies a channel within `box` (which may reach past the grid) into `voxels`, x fastest; zero if no brick
+/// is stored. The bone must have the channel.
 void copy_channel(const Bone& bone, BoneChannel channel, const VoxelBox& box, std::span<std::uint8_t> voxels);
 
 }  // namespace osteomill

@@ -29,8 +29,8 @@ void copy_stiffest_codes(const Bone& bone, const VoxelCodes& codes, const VoxelB
     const VoxelBox bordered{box.first - 1, box.size + 2};
     std::vector<std::uint8_t> nearby(bordered.count());
     copy_channel(bone, BoneChannel::stiffness, bordered, nearby);
-    // The largest of 27 is the largest of three, along each axis in turn; in place, since what is overwritten
-    // is not read again.
+    // The largest of 27 is the largest of three, along each axis in turn; in place, since overwritten values
+    // are not read again.
     const auto row = static_cast<std::size_t>(bordered.size.x);
     const std::size_t layer = row * static_cast<std::size_t>(bordered.size.y);
     for (const std::size_t stride : {std::size_t{1}, row, layer})

@@ -1,4 +1,4 @@
-// Codes of voxels: the byte by which a voxel's colour and opacity are looked up.
+// Codes of voxels: the byte that selects a voxel's colour and opacity.
 //
 // A code is a voxel's stiffness, or the label of its tissue, or both in one: then each tissue whose stiffness
 // varies has a run of codes, from its softest bone to its hardest, so that dentine differs from enamel within
@@ -15,9 +15,9 @@
 namespace osteomill {
 
 struct VoxelCodes {
-    /// Whose bytes they are; none: all bone has code 0.
+    /// Source of the bytes; none: all bone has code 0.
     std::optional<BoneChannel> channel{};
-    /// Where they are of tissue and stiffness both: the code, by label * 256 + stiffness; else empty.
+    /// The code, by label * 256 + stiffness, if codes are of both tissue and stiffness; else empty.
     std::vector<std::uint8_t> by_tissue_and_stiffness{};
 
     bool exist() const { return channel.has_value() || are_of_both(); }
@@ -26,14 +26,14 @@ struct VoxelCodes {
     bool are_mostly_alike() const { return are_of_both() || channel == BoneChannel::tissue; }
 };
 
-/// Copies the codes within `box` (which may reach past the grid) into `voxels`, x fastest; zero where no
-/// brick is stored, and for a bone without codes. The bone must have the channels that the codes are of.
+/// Copies the codes within `box` (which may reach past the grid) into `voxels`, x fastest; zero if no brick
+/// is stored, and for a bone without codes. The bone must have the channels that the codes are of.
 void copy_codes(const Bone& bone, const VoxelCodes& codes, const VoxelBox& box,
                 std::span<std::uint8_t> voxels);
 
-/// The same within a box, but of stiffness codes the largest of each voxel and its 26 neighbours: a voxel at
-/// the edge of bone mixes bone and air, and its CT number makes it softer than the bone in it. Taken at its
-/// word, colour and opacity would change from voxel to voxel of a surface.
+/// Copies the codes within a box, of stiffness codes the largest of each voxel and its 26 neighbours: a voxel
+/// at the edge of bone mixes bone and air, and its CT number makes it softer than the bone in it. With its
+/// own code, colour and opacity would change from voxel to voxel of a surface.
 void copy_stiffest_codes(const Bone& bone, const VoxelCodes& codes, const VoxelBox& box,
                          std::span<std::uint8_t> voxels);
 

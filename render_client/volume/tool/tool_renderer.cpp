@@ -27,7 +27,7 @@ glm::dmat4 z_to(const glm::dvec3& axis) {
 constexpr float leave_out = 1.0f;
 constexpr float leave_only = 2.0f;
 
-/// What the shank must not hide: the burr and what is round it, on the screen.
+/// The part of the screen that the shank must not hide: the burr and its surroundings.
 struct HiddenField {
     bool is_before_eye = false;
     glm::dvec2 middle_px{0.0};  ///< y up
@@ -100,7 +100,7 @@ void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, TileMask& c
     const glm::dmat4 at_burr = pose_of(tool);
     glEnable(GL_DEPTH_TEST);
     draw_mesh(head_, at_burr, view_projection, {.polish = 1.0f}, covered);
-    // Through what is left out one must not look into the shank.
+    // The part left out must not show the inside of the shank.
     glEnable(GL_CULL_FACE);
     draw_mesh(shank_, at_burr, view_projection,
               {.polish = 1.0f, .sees_through = field.is_before_eye ? leave_out : 0.0f}, covered);
@@ -148,7 +148,7 @@ void ToolRenderer::draw_force(const DrawnTool& tool, const Camera& camera, TileM
     glEnable(GL_DEPTH_TEST);
 }
 
-// First the depth of what is nearest, then its colour: the shank is seen through once, not twice.
+// First the depth of the nearest surface, then its colour: the shank is seen through once, not twice.
 void ToolRenderer::draw_seen_through(const DrawnTool& tool, const Camera& camera,
                                      const glm::ivec2& size_px) const {
     const HiddenField field = field_of(tool, camera, size_px);

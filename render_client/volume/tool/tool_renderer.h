@@ -1,6 +1,6 @@
 // A renderer of everything beside the bone: the burr with its shank, the force on the hand as an arrow, the
-// hand's target as a ghost. All are meshes, tested against the bone's depth. Where the shank hides the burr
-// or its surroundings, it is translucent.
+// hand's target as a ghost. All are meshes, tested against the bone's depth. The part of the shank that would
+// hide the burr or its surroundings is translucent.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,7 +15,7 @@
 
 namespace osteomill {
 
-/// What stands beside the bone in one frame; patient LPS.
+/// Objects beside the bone in one frame; patient LPS.
 struct DrawnTool {
     ToolState state;
     BurrShape burr{};  ///< of that state
@@ -24,7 +24,7 @@ struct DrawnTool {
     bool is_only_a_thing = false;                ///< no part of it is seen through, no force is drawn
 };
 
-/// Of the tool's own axes (the shapes of tool_shape.h) in patient LPS, mm.
+/// Pose of the tool's own axes (the shapes of tool_shape.h) in patient LPS, mm.
 glm::dmat4 pose_of(const DrawnTool& tool);
 
 /// Patient LPS.
@@ -33,9 +33,9 @@ struct ForceArrow {
     glm::dvec3 head_mm{0.0};
 };
 
-/// The force on the hand, from the burr's surface outwards: 4 mm a newton, but at least 40 pixels as it is
-/// seen, but for an arrow that points at the eye or from it. Nothing
-/// below 0.02 N, or where the burr is not before the eye.
+/// The force on the hand, from the burr's surface outwards: 4 mm a newton, and at least 40 pixels long in the
+/// picture, unless the arrow points at the eye or away from it. Nothing below 0.02 N, or if the burr is not
+/// before the eye.
 std::optional<ForceArrow> force_arrow(const ToolState& tool, double burr_radius_mm, const Camera& camera,
                                       const glm::ivec2& size_px);
 
@@ -45,11 +45,11 @@ class ToolRenderer {
     /// Draws over the bound framebuffer, whose depth is that of Camera::projection and whose size that of the
     /// mask; marks the tiles that it may have drawn into.
     void draw(const DrawnTool& tool, const Camera& camera, TileMask& covered);
-    /// The part of the shank that is seen through: over all that draw and others have drawn behind it. Right
-    /// after draw, of the same tool and camera.
+    /// Draws the part of the shank that is seen through over all that is behind it. Call right after draw(),
+    /// with the same tool and camera.
     void draw_seen_through(const DrawnTool& tool, const Camera& camera, const glm::ivec2& size_px) const;
 
-    /// The force, outlined, over all that was drawn before: it is information, not a thing.
+    /// Draws the force, outlined, over everything drawn before: it is information, not a thing.
     void draw_force(const DrawnTool& tool, const Camera& camera, TileMask& covered) const;
 
   private:

@@ -116,7 +116,7 @@ Triangles fluted_sphere(const BurrShape& burr) {
     return sphere;
 }
 
-/// The same of another head: along its outline, with flutes that fade where a face nears the spindle.
+/// A fluted head that is no ball: along its outline, with flutes that fade where a face nears the spindle.
 Triangles fluted_head(const BurrShape& burr, const BurrProfile& profile) {
     constexpr int rows = 96;
     const double radius = 0.5 * burr.diameter_mm;

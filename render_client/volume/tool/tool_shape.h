@@ -1,4 +1,4 @@
-// The shapes of what is drawn beside the bone, as triangles: burr with shank, force arrow, sphere.
+// Shapes beside the bone, as triangles: burr with shank, force arrow, sphere.
 #pragma once
 
 #include "common/scene/burr_head.h"

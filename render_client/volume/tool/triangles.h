@@ -1,4 +1,4 @@
-// Triangles in memory: what a mesh on the graphics card is made from.
+// Triangles in memory, from which a mesh on the graphics card is made.
 #pragma once
 
 #include <cstdint>

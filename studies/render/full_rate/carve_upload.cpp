@@ -33,7 +33,7 @@ CarveUpload upload_carves(const std::string& phantom, int times) {
     };
     for (int time = 0; time < times; ++time) {
         by_ball.time([&] { take_over(with_ball, ball); });
-        take_over(bone, ball);  // Not what is measured, but without it there were nothing new.
+        take_over(bone, ball);  // Not measured, but without it there would be nothing new.
     }
     found.by_ball = by_ball.frames();
 

@@ -1,4 +1,4 @@
-// Contents of a bone's textures, and what it costs to take a carve over into them.
+// Contents of a bone's textures, and the cost of applying a carve to them.
 #pragma once
 
 #include <string>

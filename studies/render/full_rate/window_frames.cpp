@@ -23,7 +23,7 @@ class Window {
         picture_.take_in();
         if (!picture_.has_bone()) throw std::runtime_error(picture_.bone_problem());
         first_view_ = picture_.camera();
-        // Compiles shaders and draws all of it: not what is measured.
+        // Compiles shaders and draws all of it: not measured.
         for (int frame = 0; frame < 2; ++frame) draw();
     }
 

@@ -14,7 +14,7 @@ struct WindowFrames {
     FrameMilliseconds orbit{};
     FrameMilliseconds orbit_side_by_side{};  ///< for two eyes, half of the pixels each
     FrameMilliseconds orbit_both_whole{};    ///< for two eyes, all pixels each, as with a buffer for each
-    FrameMilliseconds carve{};               ///< and takes over what was cut
+    FrameMilliseconds carve{};               ///< and applies the cut
 };
 
 /// Draws `frames` of each motion of a phantom. Writes `picture`, a PNG of the last frame before the first

@@ -2,7 +2,7 @@
 // steps and Coulomb friction only where the case has a real device. Keeps a record, tick by tick.
 //
 // The order within a tick: the motion reaches the tick's time, the sensor is read, the loop answers, its
-// answer waits in the delay line, the motors give what they can until the next tick.
+// answer waits in the delay line, the motors give their possible force until the next tick.
 #pragma once
 
 #include <deque>
@@ -30,7 +30,7 @@ class BenchDevice final : public HapticDevice {
 
     BenchDevice(const MapCase& c, const ScenePlan& plan);
 
-    /// Called when the motion has reached a tick's time, with what has been recorded up to then.
+    /// Called when the motion has reached a tick's time, with the recording up to then.
     void on_tick(std::function<void(const std::vector<DeviceTick>&)> observer) {
         observer_ = std::move(observer);
     }

@@ -10,7 +10,7 @@ namespace osteomill::study {
 namespace {
 
 constexpr double mm_per_m = 1000.0;
-/// A millionfold what an arm has in a substep.
+/// A million times an arm's value in a substep.
 constexpr double guided_inertia_n_s_per_mm = 1e6;
 
 /// The hand's force on the tool half a substep ahead, without the terms that depend on the tool's velocity.

@@ -1,6 +1,6 @@
 // A cache of parts that many cases of the map share: the bone that they mill and the truth that they are
 // judged against. Made when first asked for, kept for as long as the cache lives. Any number of threads; one
-// that asks for what another is making waits for it.
+// that needs a scene in the making by another waits for it.
 #pragma once
 
 #include <functional>

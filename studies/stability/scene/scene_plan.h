@@ -1,4 +1,4 @@
-// Plan of a scene of the stability map, what happens when: the same for a sampled run and for its truth.
+// Plan of a scene of the stability map, event by event: the same for a sampled run and for its truth.
 //
 //     guided      the tool is moved as in steady motion, so that the force, filters and delay lines are there
 //     release     time 0 of the record: from here on it moves as hand and force will have it

@@ -166,7 +166,7 @@ void SweptBone::advance(const glm::dvec3& step_mm) {
     for (std::size_t i = 0; i < gap_mm_.size(); ++i)
         gap_mm_[i] = std::max(
             0.0f, gap_mm_[i] - (normal_x_[i] * step.x + normal_y_[i] * step.y + normal_z_[i] * step.z));
-    force_per_gap_rate_ = glm::dvec3(0.0);  // what cuts has closed its gap
+    force_per_gap_rate_ = glm::dvec3(0.0);  // a cutting patch has closed its gap
     burr_mm_ += step_mm;
     if (glm::distance(burr_mm_, path_mm_.back()) < path_spacing_mm) return;
     path_mm_.push_back(burr_mm_);

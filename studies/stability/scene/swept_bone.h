@@ -50,16 +50,16 @@ class SweptBone {
 
   private:
     void make_patches(double stiffness);
-    /// The same with edges that rub: each step of Newton's as long as it lowers what is left over.
+    /// The solve with edges that rub: each step of Newton's is as long as it lowers the residual.
     glm::dvec3 solve_with_edges(const glm::dmat3& of_tool, const glm::dvec3& drive_n, double substep_s);
     /// Finds the patches that cut, and those whose edges rub with all their force, at velocity w; makes them
     /// the current sets, and returns whether these changed.
     bool engage(const glm::dvec3& velocity_mm_per_s, double substep_s);
-    /// Raises gaps to what the spheres of the path have cleared whose distance is in (beyond, within].
+    /// Raises gaps to the space that the path's spheres with a distance in (beyond, within] have cleared.
     void look_at_path(double beyond_mm, double within_mm, std::vector<float>& gap_mm) const;
     /// A patch's state: 0 in air, 1 cutting more slowly than u_0, 2 cutting.
     std::uint8_t state_at(std::size_t patch, const glm::vec3& step_mm, float slow_mm) const;
-    /// Adds (or takes off) what a patch does in a state.
+    /// Adds (or subtracts) a patch's effect in a state.
     void add(std::size_t patch, std::uint8_t state, double sign);
 
     Burr burr_;

@@ -1,5 +1,5 @@
-// A run of the program's own loops at a site, in a simulated hand on the virtual clock, and what the milling
-// model says beside it.
+// A run of the program's own loops at a site, in a simulated hand on the virtual clock, and the milling
+// model's force beside it.
 #pragma once
 
 #include <cstdint>

@@ -6,9 +6,8 @@
 // substep against the force: at 10 us, 1 % of the shift by a hold of 1 ms. A constant force alone is followed
 // exactly.
 //
-// Coulomb friction is a force against the motion; where it would turn the motion round within the substep,
-// the body stops at the time that this happens, and rests while the other forces are no larger than the
-// friction.
+// Coulomb friction is a force against the motion; if it would turn the motion round within the substep, the
+// body stops at that time, and rests while the other forces are no larger than the friction.
 #pragma once
 
 #include "tests/support/bench/held_body.h"

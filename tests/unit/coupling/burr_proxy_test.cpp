@@ -90,8 +90,7 @@ std::unique_ptr<MillingResult> rubbing_along_x() {
     return result;
 }
 
-/// The map that the milling loop samples after it has carved where the proxy says. Its force is not looked
-/// at.
+/// The map that the milling loop samples after it has carved at the proxy's place. Its force is not checked.
 void refresh(MillingResult& bone, const BurrProxy& proxy) {
     ++bone.step;
     bone.spindle_on = false;
@@ -257,8 +256,8 @@ TEST(BurrProxy, EndsEveryTickInBalanceWhateverTheRingOfContacts) {
     }
 }
 
-/// The energy that a burr's spring gives a hand in a fifth of a second of moving along x and y together,
-/// where bone before it (+x) pulls it along (+y).
+/// The energy that a burr's spring gives a hand in a fifth of a second of motion along x and y together,
+/// while bone before it (+x) pulls it along (+y).
 double energy_to_hand_of_a_climb_mj(BurrProxy& proxy, double feed_mm_per_s) {
     auto bone = damper_along_x(0.01, 0.0);
     bone->engagement.patches[0].cutting_n_s_per_mm = {-0.01, 0.08, 0.0};

@@ -10,8 +10,8 @@ namespace {
 const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.2, 0.9));
 constexpr double tick_s = 0.001;
 
-/// The corrected prediction, once the correction has followed the force that `model` makes of it, for steps
-/// of so many ticks.
+/// The corrected prediction, once the correction has followed the force of `model`, for steps of so many
+/// ticks.
 template <typename Model>
 glm::dvec3 corrected(const glm::dvec3& predicted_n, Model&& model, int ticks_per_step,
                      double model_step_s = 0.0) {

@@ -143,8 +143,8 @@ TEST(ShankContact, BoneThatATiltedShankIsInPushesItOutGentlyAndAllTheWay) {
     }
 }
 
-/// Draws the hand from one place to another at 10 mm/s and lets it rest there; where the burr then is, the
-/// force on the hand, and the torque.
+/// Draws the hand from one place to another at 10 mm/s and lets it rest there; returns the burr's place then,
+/// the force on the hand, and the torque.
 CouplingOutput draw(Lockstep& loop, const glm::dvec3& from_mm, const glm::dvec3& to_mm, bool spindle_on) {
     const int ticks = static_cast<int>(100.0 * glm::distance(from_mm, to_mm));
     for (int i = 0; i < ticks; ++i)

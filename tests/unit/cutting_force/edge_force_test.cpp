@@ -1,4 +1,4 @@
-// Edges that rub, in the voxel model: against the analytical reference, and what follows from the law.
+// Edges that rub, in the voxel model: against the analytical reference, and consequences of the law.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -127,7 +127,7 @@ study::RandomMotion dive_of(double diameter_mm, double depth_mm, double dive_deg
     return drawn;
 }
 
-// Where edges see the face that the burr will have half a voxel on, each is off by a tenth or more.
+// If edges used the face that the burr will have half a voxel on, each force would be off by a tenth or more.
 TEST(EdgeForce, OfASteepShallowDiveIsThatOfTheFaceWhereTheBurrIs) {
     for (const double voxel_mm : {0.1, 0.15})
         for (const double dive_deg : {50.0, 70.0, 90.0})
@@ -187,13 +187,14 @@ TEST(EdgeForce, CountsForNothingInThePublishedLaw) {
               run_steady(without, 0.1, 0.01, 1.0).mean_force_n);
 }
 
-/// Of a force that goes with the face.
+/// The look of a force in proportion to the face.
 EdgeLook look_of(double voxels_per_look, double share) {
     return {glm::dvec3(0.0, 3.0, -1.0) * voxels_per_look, voxels_per_look * share};
 }
 
 TEST(EdgeLook, FollowsAFaceThatGrowsBackToTheMiddleOfTheStep) {
-    // A face of 100 where the burr is that grows by 80 a look: means of 140 over the look, 120 over its half.
+    // A face of 100 at the burr that grows by 80 over the path ahead: means of 140 over the path, 120 over
+    // its half.
     const EdgeLook whole = look_of(140.0, 1.0);
     const EdgeLook half = look_of(120.0, 0.5);
     const auto face = [&](double step_share) {

@@ -39,7 +39,7 @@ TEST(BrickNeighbourhood, SamplesWhatTheBoneHoldsInsideAndOutsideTheGrid) {
             const glm::vec3 position(at - glm::dvec3(bricks.base()));
             EXPECT_NEAR(bricks.fraction(position), fraction_by_lookups(bone, at), 0.01);
             const glm::ivec3 nearest = bricks.base() + glm::ivec3(position + 0.5f);
-            // Past the grid's edge a stored brick may hold anything: there is no bone to be stiff.
+            // Past the grid's edge a stored brick may hold any value: there is no bone.
             if (contains(bone.grid(), nearest)) {
                 EXPECT_EQ(bricks.stiffness(position), bone.stiffness_at(nearest));
             }

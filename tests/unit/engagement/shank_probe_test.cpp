@@ -53,7 +53,7 @@ TEST(ShankProbe, CoversTheShankOutsideTheBurr) {
     EXPECT_NEAR(area_mm2(*cone), 2.0 * std::numbers::pi * 1.0 * std::hypot(10.0, 1.0), 0.02 * 60.0);
     for (std::size_t i = 0; i < cone->shank_count; ++i)
         EXPECT_NEAR(cone->shank_patches[i].normal.z, -1.0 / std::hypot(10.0, 1.0), 1e-12);
-    // A neck that begins within the ball: only what is outside is looked at.
+    // A neck that begins within the ball: only the part outside is sampled.
     const auto neck = sampled({{0.5, 0.3}, {8.0, 0.3}}, bone, glm::dvec3(0.0));
     EXPECT_LT(neck->shank_count, Engagement::max_shank_patches);
     for (std::size_t i = 0; i < neck->shank_count; ++i)

@@ -25,7 +25,7 @@ void carve(Bone& bone, ChangeQueue& queue, BrickIndex brick, std::size_t voxel, 
     queue.push({brick, VoxelMask().set(voxel)}, fractions);
 }
 
-/// Applies what is in the queue; how many changes that were.
+/// Applies the queue's changes; returns their number.
 std::size_t follow(ChangeQueue& queue, Bone& copy) {
     return queue.consume_all([&](const BrickChange& change, BrickFractions fractions) {
         EXPECT_TRUE(apply(change, fractions, copy));

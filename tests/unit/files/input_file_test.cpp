@@ -80,7 +80,7 @@ TEST(Secret, IsItsOwnersAlone) {
                 HasSubstr("is a key that others may read (its mode is 604)"));
     EXPECT_THAT(failure_at(owner | perms::others_write), HasSubstr("(its mode is 602)"));
     EXPECT_THAT(failure_at(owner | perms::group_write), HasSubstr("chmod 600 " + key.string()));
-    // A group's key is fine where root has put it.
+    // A group's key is fine in a place of root's.
     EXPECT_EQ(failure_at(owner | perms::group_read).empty(), ::geteuid() == 0);
     EXPECT_THAT(failure_of([&] { read_secret(folder / "none", small_kind); }), HasSubstr("cannot be read"));
 }

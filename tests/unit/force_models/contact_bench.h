@@ -1,4 +1,4 @@
-// A burr pressed into a block whose top face is z = 0, and what a contact law makes of it.
+// A burr pressed into a block whose top face is z = 0, and the result of a contact law.
 #pragma once
 
 #include "simulation/force_models/contact_law.h"

@@ -99,8 +99,8 @@ TEST(BoneFromHu, AMixedVoxelOnTheSurfaceIsAsStiffAsTheBoneBesideItAndBearsItsLab
     EXPECT_EQ(bone.tissue_at({8, 8, 8}), 3);
 }
 
-/// A block with a surface at z = 0, bone below: the volume in it of what `is_tissue` says of places, mm^3,
-/// and of all bone.
+/// A block with a surface at z = 0, bone below: the volume in it of the tissue given by `is_tissue(place)`,
+/// mm^3, and of all bone.
 template <typename IsTissue>
 std::vector<double> volumes_in_block_mm3(const IsTissue& is_tissue) {
     const Grid grid{.size_voxels = {101, 99, 97}, .spacing_mm = 0.1, .origin_mm = {-5.03, -4.87, -7.26}};

@@ -20,7 +20,7 @@ using testing::eventually;
 using testing::FrameProxy;
 using testing::ServedBone;
 
-/// A proxy that meddles with a session, and counts what passes.
+/// A proxy that meddles with a session, and counts its frames.
 class Meddler {
   public:
     enum class Mode { watch, drop_states, drop_one_brick };

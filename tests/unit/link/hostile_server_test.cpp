@@ -26,7 +26,7 @@ using boost::asio::ip::tcp;
 using testing::eventually;
 using ::testing::HasSubstr;
 
-/// Listens; the test says what each connection is told.
+/// A server that sends each connection the test's bytes.
 class HostileServer : public ::testing::Test {
   protected:
     HostileServer() { acceptor_.non_blocking(true); }

@@ -11,12 +11,12 @@ namespace {
 
 using testing::MadeRecording;
 
-/// A viewer that copies only what it is told has changed, as textures do.
+/// A viewer that copies only reported changes, as textures do.
 class Viewer {
   public:
     explicit Viewer(RecordingPlayer& player) : player_(player) {}
 
-    /// Lets time pass, and takes in what that brings.
+    /// Lets time pass, and reads the changes of that time.
     const LinkUpdate& look(double elapsed_s = 0.0) {
         now_ += std::chrono::duration_cast<std::chrono::steady_clock::duration>(
             std::chrono::duration<double>(elapsed_s));

@@ -99,7 +99,7 @@ TEST(RealTimeCode, AllocatesNothingWithAHeadThatIsNoBallAndTilts) {
 }
 
 TEST(RealTimeCode, AllocatesNothingWithASimulatedHand) {
-    // Every model under the default coupling or what stands in for it, every coupling on the default model.
+    // Every model under the default coupling or its replacement, every coupling on the default model.
     std::vector<std::pair<std::string, std::string>> pairs;
     for (const ForceModelEntry& model : force_models())
         pairs.emplace_back(model.name, model.has_cutting_law ? coupling_names().front() : "interpolate");

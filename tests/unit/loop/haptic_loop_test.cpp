@@ -497,7 +497,7 @@ TEST(HapticLoop, PlacesTheToolUnderAHandThatStaysWhereItIs) {
     EXPECT_LT(glm::distance(bench.shown().spindle_axis, wanted.spindle_axis), 1e-9);
     EXPECT_EQ(bench.shown().depth_mm, 0.0);
 
-    // The hand moves on from there, as far as before, and feels what the patient's axes say.
+    // The hand moves on from there, as far as before, and feels the force by the patient's axes.
     bench.gate.stillness.set(false);
     bench.device.script = [](double) { return DeviceState{.position_mm = {3.0, 4.0, 7.0}}; };
     bench.run(1000);

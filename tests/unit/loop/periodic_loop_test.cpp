@@ -8,7 +8,7 @@
 namespace osteomill {
 namespace {
 
-/// Wakes late by what the test says, tick by tick.
+/// Wakes late by the test's delays, tick by tick.
 class LateClock final : public Clock {
   public:
     explicit LateClock(std::vector<double> late_s) : late_s_(std::move(late_s)) {}

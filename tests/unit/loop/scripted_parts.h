@@ -26,7 +26,7 @@ class ScriptedDevice final : public HapticDevice {
     std::string name() const override { return "scripted"; }
     DeviceLimits limits() const override { return device_limits; }
     void start() override { ++started; }
-    /// A script's pedal is said when it is read; at the first reading it is up.
+    /// A script's pedal changes when it is read; at the first reading it is up.
     DeviceState read(double now_s) noexcept override {
         DeviceState state = script(now_s);
         if (state.pedal.said_s < 0.0) state.pedal.said_s = now_s;
@@ -41,7 +41,7 @@ class ScriptedDevice final : public HapticDevice {
     bool was_read_ = false;
 };
 
-/// Wants what `force` says; the burr is rigidly the hand.
+/// Renders `force`; the burr is rigidly the hand.
 class ForcefulCoupling final : public Coupling {
   public:
     std::function<glm::dvec3(const HandState&)> force = [](const HandState&) { return glm::dvec3(0.0); };

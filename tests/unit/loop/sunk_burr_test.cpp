@@ -1,5 +1,5 @@
-// A hand that sinks into real bone while the device is lost, and what it feels of every coupling and force
-// model when the device is back: nothing until it has lifted the burr out, and then a wall that pushes out.
+// A hand that sinks into real bone while the device is lost, and its force by every coupling and force model
+// when the device is back: none until it has lifted the burr out, and then a wall that pushes out.
 #include <gtest/gtest.h>
 
 #include <cmath>

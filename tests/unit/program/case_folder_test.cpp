@@ -89,7 +89,7 @@ TEST_F(CaseFolder, HoldsASceneThatLoadsByItself) {
     ASSERT_EQ(loaded.structures.size(), 1U);
     const double ball_mm3 = 4.0 / 3.0 * std::numbers::pi;
     EXPECT_NEAR(loaded.structures[0].mask.volume_mm3(), ball_mm3, 0.05 * ball_mm3);
-    // The flap is the later of the two, but what is planned lies over it.
+    // The flap is the later of the two, but the planned tissue takes precedence.
     const double target_mm3 = loaded.source.loaded_mm3.at(read.tissues[0].label);
     EXPECT_NEAR(target_mm3, 1.5 * 1.5 * 1.5 * ball_mm3, 0.1 * target_mm3);
 }
@@ -230,7 +230,7 @@ TEST_F(CaseFolder, OfALargeRegionIsCoarserWhereNobodyChose) {
                "space directions: (20,0,0) (0,20,0) (0,0,20)\nspace origin: (0,0,0)\nencoding: raw\n\n"
             << std::string(512, '\xfa');
     }
-    // Said before the scan is read, which is where this ends: the rest takes a while.
+    // Printed before the scan is read, where this test ends: the rest takes a while.
     struct Ends {};
     const auto voxels_of = [&](bool may_be_coarser) {
         std::ostringstream messages;

@@ -16,7 +16,7 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
-/// Collects what a status line writes.
+/// Collects a status line's output.
 class Paper {
   public:
     LineStream& stream() { return stream_; }

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double exposed_spacing_mm = 0.1;
 
-/// A cube of 6.4 mm of which what `is_cut` goes; `structure` is the tissue of label 2, or a mask.
+/// A cube of 6.4 mm from which the voxels that `is_cut` are removed; `structure` is the tissue of label 2, or
+/// a mask.
 std::vector<ExposureMetrics> exposures(const std::function<bool(const glm::dvec3&)>& is_nerve,
                                        const std::function<bool(const glm::dvec3&)>& is_cut,
                                        double ball_radius_mm = 0.0) {
@@ -80,7 +81,7 @@ TEST(ExposureMetricsTest, AreOfTheSideThatWasOpened) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_NEAR(found[0].thin_share[0], 0.5, 0.01);
     EXPECT_NEAR(found[0].thin_share[2], 0.5, 0.01);
-    // Of what was milled itself nothing is over any more; half of both faces.
+    // Nothing is left over the milled part itself: half of both faces.
     const auto milled = exposures(is_sheet, [](const glm::dvec3& at) { return at.x < 0.0 && at.z < 0.5; });
     EXPECT_NEAR(milled[0].bare_share, 0.5, 0.02);
 }

@@ -54,7 +54,7 @@ class NearANerve : public ::testing::Test {
         written_.finish();
         return nearness_metrics(read_trace(folder_ / "a.pcap", [](double) {}));
     }
-    /// Of the burr's centre, so far from the nerve.
+    /// Place of the burr's centre at a distance from the nerve.
     static double height_mm(double distance_mm) { return nerve_mm - burr_radius_mm - distance_mm; }
 
     testing::TemporaryFolder folder_;
@@ -90,7 +90,7 @@ TEST_F(NearANerve, ForceAndFeedAreThoseOfEachDistance) {
 }
 
 TEST_F(NearANerve, StrokesLeadWhereTheirSlopeSays) {
-    // Of 45 degrees to the nerve's plane is the border.
+    // The border is at 45 degrees to the nerve's plane.
     const auto slope = [&](double up_deg, double length_mm, double from_mm) {
         place({-1.5, 0.0, height_mm(from_mm)});
         cut_by({length_mm * std::cos(glm::radians(up_deg)), 0.0, length_mm * std::sin(glm::radians(up_deg))},

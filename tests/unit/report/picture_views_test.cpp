@@ -121,7 +121,7 @@ TEST_F(Approached, DrawsStructureAndPlanIntoTheSection) {
     EXPECT_EQ(red_of(15, 15), 250) << "the nerve's, in the middle";
     EXPECT_LT(red_of(15, 9), 240) << "bone, 1.1 mm beside it";
     EXPECT_GT(red_of(15, 9), 100);
-    // 2.5 of 3 mm to the right: pixel 22.5. The border is of another colour than what it encloses.
+    // 2.5 of 3 mm to the right: pixel 22.5. The border's colour differs from that of its inside.
     EXPECT_EQ(red_of(15, 23), 0);
     EXPECT_GT(red_of(15, 27), 100);
 }

@@ -95,8 +95,8 @@ TEST_F(RatedSession, DecidesOverWhatWasMeasured) {
 }
 
 TEST_F(RatedSession, MeasuresTheItemsRegion) {
-    // A sphere of 2 mm about the middle of the top: half of it is bone, of which what lies above z = 3 goes:
-    // a zone of the half ball, pi (r^2 h - h^3 / 3) with h = 1.
+    // A sphere of 2 mm about the middle of the top: half of it is bone. Bone above z = 3 is removed: a zone
+    // of the half ball, pi (r^2 h - h^3 / 3) with h = 1.
     const double r = 2.0;
     const double half_mm3 = 2.0 / 3.0 * 3.14159265 * r * r * r;
     const double zone_mm3 = 3.14159265 * (r * r * 1.0 - 1.0 / 3.0);
@@ -175,8 +175,8 @@ TEST_F(RatedSession, ShowsHostileItemsAsText) {
 }
 
 TEST_F(RatedSession, HasEveryQuantityThatARatingMayAskFor) {
-    // With every structure near and every row there is, each key of the table is a row's and each row's key
-    // is in the table, but for what judges the session.
+    // With every structure near and every possible row, each key of the table is a row's and each row's key
+    // is in the table, except for those that judge the session.
     SessionMetrics metrics;
     metrics.motion.burr_in_view_share = 1.0;
     metrics.structures = {{.name = "nerve"}};

@@ -104,7 +104,7 @@ TEST_F(ReportedSession, TellsIdleTimeFromPausesAndFromTheTurningSpindle) {
 }
 
 TEST_F(ReportedSession, CountsNoPlacementAsAWayOfTheHand) {
-    // 5 mm/s along x; the tool is placed 40 mm off twice. The frame that tells of it may have the tool of
+    // 5 mm/s along x; the tool is placed 40 mm off twice. The frame that reports it may have the tool of
     // before.
     for (int i = 0; i <= 100; ++i) {
         const double placed_mm = (i >= 30 ? 40.0 : 0.0) + (i >= 61 ? 40.0 : 0.0);
@@ -348,7 +348,7 @@ TEST_F(ReportedSession, MeasuresTheNearestApproachFromTheBallToTheStructure) {
     EXPECT_FALSE(structures[0].first_touch_s);
 }
 
-// A nerve beside the cube, where no bone is: a ball of 1.5 mm about x = 6, which only the recording tells of.
+// A nerve beside the cube, outside bone: a ball of 1.5 mm about x = 6, of which only the recording knows.
 TEST_F(ReportedSession, MeasuresASoftStructureThatOnlyTheRecordingTells) {
     const Grid grid{.size_voxels = {96, 32, 32}, .spacing_mm = spacing_mm, .origin_mm = glm::dvec3(-3.1)};
     auto builder = BoneBuilder::homogeneous(grid, 1.0, false);

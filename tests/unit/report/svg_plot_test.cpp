@@ -43,7 +43,7 @@ TEST(SvgPlotTest, KeepsTheNamesOfManyLinesInThePicture) {
     EXPECT_THAT(to_svg(plot), HasSubstr("viewBox='0 0 900 210'"));
     for (int i = 3; i < 12; ++i)
         plot.lines.push_back({.name = "trainee " + std::to_string(i), .x = {1, 2}, .y = {1, 2}});
-    // 94 or 101 units a name, and 824 of room: two rows of 18.
+    // 94 or 101 units a name, and 824 available: two rows of 18.
     const std::string svg = to_svg(plot);
     EXPECT_THAT(svg, HasSubstr("viewBox='0 0 900 246'"));
     EXPECT_THAT(svg, HasSubstr("y='242.0'>trainee 11"));

@@ -79,8 +79,8 @@ struct Reached {
         next.ticks_of_fault = next.monitor.fault() == Fault::none ? 0 : std::min(1000, ticks_of_fault + 1);
         return next;
     }
-    /// All that the future depends on: two monitors that agree in this behave alike. Times are told apart by
-    /// the ticks that went by in a state.
+    /// All that the future depends on: two monitors that agree in this behave alike. Times differ by the
+    /// number of ticks in a state.
     using Key = std::tuple<State, bool, bool, double, int, int>;
     Key key(int ticks_in_state) const {
         return {monitor.state(),
@@ -244,8 +244,7 @@ TEST(SafetyMonitor, ComesBackFromEveryStateOnceAllIsWell) {
     }
 }
 
-/// A session in which what is wrong, tick by tick, is a set of faults; the pedal is held unless a test lets
-/// go.
+/// A session with a set of faults for each tick; the pedal is held unless a test lets go.
 class WrongSession {
   public:
     /// All faults of the watchdog's own that occur outside the bone.

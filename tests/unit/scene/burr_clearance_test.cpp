@@ -67,7 +67,7 @@ TEST(BurrClearance, OfEveryHeadIsThatOfItsProfile) {
             const std::optional<double> found_mm = clearance.clearance_mm(field, pose);
             ASSERT_TRUE(found_mm);
             // Half a voxel for the field, up to the cube's half diagonal for the speck's size, a third of a
-            // step for the samples. Inside, only that it touches is told as well.
+            // step for the samples. Inside, only the touch is as exact.
             if (expected_mm > 0.2) {
                 EXPECT_NEAR(*found_mm, expected_mm, 0.05 + 0.087 + 0.08) << static_cast<int>(shape);
             } else if (expected_mm < -0.2) {

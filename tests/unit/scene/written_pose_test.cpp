@@ -27,7 +27,7 @@ TEST(WrittenPose, IsItsOwnAndTheTextOfItsDecimals) {
             ASSERT_EQ(from_code(to_code(written.spindle_axis[axis], axis_decimals), axis_decimals),
                       written.spindle_axis[axis]);
         }
-        // Whoever reads it takes it for a unit vector, as it is.
+        // A reader uses it as a unit vector, unchanged.
         ASSERT_EQ(unit_direction(written.spindle_axis), written.spindle_axis);
     }
 }

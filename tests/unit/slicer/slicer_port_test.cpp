@@ -32,7 +32,7 @@ class SlicerPortTest : public ::testing::Test {
         port_.run_for(5ms);
         return socket;
     }
-    /// Whether what is sent now arrives there.
+    /// Whether a message that is sent now arrives there.
     bool receives(tcp::socket& socket) {
         port_.send(status_message("BurrStatus", true, "the force is on"));
         port_.run_for(5ms);

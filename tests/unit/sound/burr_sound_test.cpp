@@ -25,7 +25,7 @@ const SoundCue in_dentine{.rev_per_s = 40'000.0 / 60.0,
                           .tooth_ripple_n = 0.3,
                           .relative_stiffness = 1.2};
 
-/// So many samples of a tool that goes on as the cue says, told of thirty times a second.
+/// So many samples of a tool that goes on according to the cue, which is updated thirty times a second.
 std::vector<float> samples_of(BurrSound& sound, const SoundCue& cue, std::size_t count) {
     std::vector<float> samples(count);
     for (std::size_t at = 0; at < count; at += frame) {

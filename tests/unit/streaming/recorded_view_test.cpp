@@ -41,7 +41,7 @@ class RecordedViewTest : public ::testing::Test {
         EXPECT_TRUE(eventually([&] { return link->poll().status == LinkStatus::live; }));
         return link;
     }
-    /// Until what the link said has come into the recording.
+    /// Waits until the link's messages are in the recording.
     bool holds(double x_mm) const {
         return eventually([&] {
             served_->carve(1);

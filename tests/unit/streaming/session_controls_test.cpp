@@ -245,7 +245,7 @@ TEST_F(SessionControlsTest, ResetsManyStrokesInOneChangeOfEachBrick) {
     frames(60);
     EXPECT_EQ(checksum(mirror_), whole);
     EXPECT_LE(gate_.restored_changes, milled_.content().brick_of_slot.size());
-    // And all of it again, asked for one by one.
+    // And all of it again, requested one by one.
     std::size_t left = controls_.status().redo_steps;
     while (left > 0) {
         for (std::size_t i = 0; i < std::min(left, SessionControls::most_waiting); ++i)

@@ -35,7 +35,7 @@ v2::ClientFrame greeting(std::uint32_t major = protocol_major) {
 
 enum class Says { hello, nothing };
 
-/// A client that says hello, if anything, and then does only what it is told: its next frame is number 2.
+/// A client that sends at most a hello, and then only what the test sends: its next frame is number 2.
 class RawClient {
   public:
     explicit RawClient(std::uint16_t port, Says first = Says::hello) {
@@ -52,7 +52,7 @@ class RawClient {
         append_frame(frame, bytes);
         send(bytes);
     }
-    /// Hands what has come to the replica, frame by frame.
+    /// Passes received frames to the replica, one by one.
     void read_into(testing::Replica& replica) {
         std::array<std::uint8_t, 65536> bytes;
         boost::system::error_code error;

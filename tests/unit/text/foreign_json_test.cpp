@@ -40,7 +40,7 @@ TEST(ForeignJson, CountsNoBracketsOfTexts) {
     EXPECT_EQ(depth_of_json("\"\\\\\"" + lists(2)), 2U) << "the text ended before the lists";
 }
 
-/// A parse of the library's own reads what this program itself has printed, and nothing else.
+/// The library's own parser reads only output of this program itself.
 TEST(ForeignJson, IsWhatEveryReaderOfAFileParses) {
     const std::vector<std::string> of_own_texts{"haptic_server/session/session_settings.cpp",
                                                 "analysis/report/html_text.cpp",

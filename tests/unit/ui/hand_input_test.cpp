@@ -11,7 +11,7 @@
 namespace osteomill::hand_input_test {
 namespace {
 
-/// A link without a server: tells of a tool, and keeps what is sent.
+/// A link without a server: it reports a tool, and keeps sent messages.
 class DeskSource final : public SessionSource {
   public:
     LinkUpdate poll() override { return {}; }

@@ -9,7 +9,7 @@ namespace {
 const glm::ivec2 size_px(320, 240);
 constexpr double frame_s = 1.0 / 30.0;
 
-/// The scripted session, of which a link tells as it is told to.
+/// The scripted session, as a link reports it.
 class ToldSession final : public SessionSource {
   public:
     LinkUpdate poll() override {

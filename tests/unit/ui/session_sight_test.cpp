@@ -37,7 +37,7 @@ constexpr State states[]{
     {"a recording that is paused", LinkStatus::live, 9.0, true, true, SessionSight::now},
 };
 
-/// Each element of the window that tells of the session, in each state.
+/// Each element of the window that shows the session, in each state.
 TEST(SessionSight, ShowsInEachStateOnlyWhatIsSo) {
     SessionInfo session;
     session.scene_name = "jaw";

@@ -243,7 +243,7 @@ TEST(Translation, NameNoOptionOfAProgram) {
 
 TEST(FaultRemedies, AreOfEachFaultThatTheServerWords) {
     for (const Fault fault : all_faults) {
-        if (fault == Fault::paused) continue;  // which is shown as what it is
+        if (fault == Fault::paused) continue;  // which is shown unchanged
         EXPECT_NE(std::string(remedy_of(describe(fault))), remedy_of("another")) << describe(fault);
     }
 }

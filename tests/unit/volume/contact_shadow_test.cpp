@@ -34,7 +34,7 @@ class ContactShadowTest : public OffscreenTest {
             shadow.draw(bone, {0.0, 0.0, height_mm}, radius_mm_, {0.0, 0.0, 1.0}, camera_, covered);
         return picture.read_back();
     }
-    /// 1 where the bone at a place on its upper side is as bright as without a burr.
+    /// 1 if the bone at a place on its upper side is as bright as without a burr.
     double light_at(const Picture& shadowed, const Picture& bare, const glm::dvec2& place_mm) {
         const glm::ivec2 pixel(pixel_of(camera_, {place_mm, 0.0}, size_px_));
         return static_cast<double>(shadowed.at(pixel.x, pixel.y)[1]) / bare.at(pixel.x, pixel.y)[1];

@@ -10,7 +10,7 @@ namespace {
 constexpr std::int64_t pixels = 480'000;
 constexpr double frame_s = 0.030;
 
-/// A control that knows what a pixel costs.
+/// A control that knows the cost of a pixel.
 DetailControl knowing(double s_per_px, double rest_s = 0.0) {
     DetailControl control(frame_s);
     control.drew(Extent::whole, 1000, 1000 * s_per_px);

@@ -94,7 +94,7 @@ TEST(EmptySpace, ReportsEveryBlockThatAnUpdateChanged) {
     });
 }
 
-// Undoing, or playing a recording backwards, fills again what was milled away.
+// Undo, or a recording played backwards, restores milled bone.
 TEST(EmptySpace, FollowsBoneThatComesBack) {
     Bone bone = ball();
     const Bone whole = bone;

@@ -63,7 +63,7 @@ TEST_F(ShaderFilesTest, AllCompileInAllTheirPrograms) {
 }
 
 TEST_F(ShaderFilesTest, ErrorsNameFileAndLine) {
-    // Without background.glsl, what it has is unknown.
+    // Without background.glsl, its names are unknown.
     const std::vector<std::string_view> names{"lighting.glsl", "background.frag.glsl"};
     const auto file = std::find_if(shader_files().begin(), shader_files().end(),
                                    [&](const ShaderFile& each) { return each.name == names[1]; });

@@ -60,7 +60,7 @@ TEST_F(SilhouettesTest, ChangeWhatIsBesideALeapOfDepthAndNothingElse) {
             }
         }
     EXPECT_GT(outline, 300);
-    // Of the two pixels beside an outline it runs through one.
+    // An outline runs through one of the two pixels beside it.
     EXPECT_GT(changed_at_outline, outline / 3);
     EXPECT_TRUE(std::equal(before.at(110, 100), before.at(110, 100) + 3, after.at(110, 100)));
 }

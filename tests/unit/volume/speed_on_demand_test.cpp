@@ -60,7 +60,7 @@ class SpeedOnDemand : public OffscreenTest {
             picture.draw(&*textures_, nullptr, camera);
         }
     }
-    /// The first picture is coarse: nothing is known yet of what one costs.
+    /// The first picture is coarse: its cost is not known yet.
     void refine(ScenePicture& picture) {
         picture.draw(&*textures_, nullptr, camera_);
         for (int frame = 0; frame < 50 && !picture.quality().refined; ++frame)
@@ -109,8 +109,8 @@ TEST_F(SpeedOnDemand, RefinesToThePictureOfFullQualityWithinTheFramesThatItsPixe
     while (!picture.quality().refined && frames < 20) {
         const std::int64_t before = renderer.pixels;
         picture.draw(&*textures_, nullptr, camera_);
-        // No frame longer than its room, three times that of a moving one, but for the tile that began within
-        // it.
+        // No frame takes longer than allowed, three times a moving one's time, except for the tile that began
+        // within it.
         EXPECT_LE(renderer.pixels - before, 3 * all_pixels / 4 + tile_edge_px * tile_edge_px);
         ++frames;
     }

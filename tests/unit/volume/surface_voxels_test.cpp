@@ -73,7 +73,7 @@ TEST(SurfaceVoxels, AreLitByTheNormalOfTheBall) {
     EXPECT_LT(sum / count, 0.005);
 }
 
-/// The definition in double precision; alpha 0 where it is no surface voxel.
+/// The definition in double precision; alpha 0 if it is no surface voxel.
 glm::dvec4 defined_texel(const Bone& bone, const TransferTable& table, const glm::ivec3& voxel) {
     if (!is_on_surface(bone, voxel)) return glm::dvec4(0.0);
     FractionSmoother smoother(table);

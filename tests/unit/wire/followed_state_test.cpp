@@ -17,7 +17,7 @@ class FollowedStateTest : public ::testing::Test {
         std::ranges::copy(servers_.fractions(3), changed.fractions.begin());
         return changed;
     }
-    /// Halves the first voxel of that brick, and tells of it.
+    /// Halves the first voxel of that brick, and reports it.
     StateArrived halve_a_voxel() {
         servers_.fractions(3)[0] /= 2;
         return {.changes = {told(VoxelMask().set(0))}, .bone_checksum = checksum(servers_)};

@@ -86,7 +86,7 @@ TEST(PackedTicks, HaveTheHandAndItsInputExactly) {
     std::mt19937 random(3);
     std::vector<TickSample> ticks;
     for (std::uint64_t i = 0; i < most_ticks_of_message; ++i) ticks.push_back(input_tick_of(random, i));
-    // Half way between two numbers of the fourth decimal, where one rounding must not take another's side.
+    // Half way between two numbers of the fourth decimal, at which two roundings must not differ.
     ticks[3].hand_mm = {0.00005, -0.00015, 12.34565};
     ticks[4].hand_mm = {-0.0, 0.0, -0.000001};
     TickPacker packer;

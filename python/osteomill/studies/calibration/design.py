@@ -1,6 +1,6 @@
-"""The runs that tell most about the six coefficients: a D-optimal design (largest determinant of the information
-matrix, smallest volume of the coefficients' joint confidence region), found by exchange (Fedorov 1972 in the form of
-Cook and Nachtsheim 1980) over a lattice of settings that the lab can give.
+"""The most informative runs for the six coefficients: a D-optimal design (largest determinant of the information matrix, smallest
+volume of the coefficients' joint confidence region), found by exchange (Fedorov 1972 in the form of Cook and Nachtsheim 1980)
+over a lattice of settings that the lab can give.
 
 The mean force is linear in the coefficients, so the design does not depend on their values. All forces count as
 equally well known: noise and drift of a dynamometer hardly depend on the force. A setting is taken once; a lab
@@ -20,13 +20,13 @@ from osteomill.studies.calibration.forces import COEFFICIENTS, Array, regressors
 
 FEWEST_RUNS = 3
 STARTS = 8
-#: Of the logarithm of a determinant: two designs, mirrored left to right, are equally good.
+#: 
 EQUAL = 1e-9
 
 
 @dataclasses.dataclass(frozen=True)
 class Lattice:
-    """What the lab can set; every combination is a candidate but those deeper than the burr's radius."""
+    """Settings that the lab can make; every combination is a candidate, except those deeper than the burr's radius."""
 
     diameters_mm: Sequence[float] = (2.0, 4.0)
     feeds_mm_per_s: Sequence[float] = (1.0, 4.0, 16.0)
@@ -44,12 +44,12 @@ class Lattice:
 
 @dataclasses.dataclass(frozen=True)
 class Design:
-    """Settings and what they tell: of forces that are all known to 1 N."""
+    """Settings and their information, for forces that are all known to 1 N."""
 
     settings: pd.DataFrame
-    determinant: float  #: of the information matrix, 0 where coefficients are lost
+    determinant: float  #: of the information matrix, 0 if coefficients are lost
     condition: float  #: see LARGEST_CONDITION
-    uncertainty: Array  #: standard, of each coefficient for each N of spread; infinite where it is lost
+    uncertainty: Array  #: standard, of each coefficient for each N of spread; infinite if it is lost
 
 
 def candidates_of(lattice: Lattice) -> tuple[pd.DataFrame, Array]:
@@ -65,15 +65,15 @@ def candidates_of(lattice: Lattice) -> tuple[pd.DataFrame, Array]:
             if first is None:
                 first = pd.Series(settings[-1])
                 of_geometry = regressors_of(first)
-            # Geometry decides the forces. Of the rest chip forces know only the feed of a revolution, edge forces nothing.
+            # Geometry decides the forces. Beyond it, chip forces depend only on the feed of a revolution, edge forces on nothing.
             faster = (feed / rpm) / (first.feed_mm_per_s / first.rpm)
             regressors.append(of_geometry * ([faster] * 3 + [1.0] * 3))
     return pd.DataFrame(settings), np.array(regressors)
 
 
 def optimal_design(settings: pd.DataFrame, regressors: Array, runs: int, seed: int) -> Design:
-    """The best of STARTS exchanges from random designs. ValueError in one line where there are fewer candidates than
-    runs, fewer than three runs, or no design tells all coefficients apart.
+    """The best of STARTS exchanges from random designs. ValueError in one line if there are fewer candidates than runs, fewer
+    than three runs, or no design separates all coefficients.
     """
     if runs < FEWEST_RUNS:
         raise ValueError(f"{runs} runs cannot give six coefficients; at least {FEWEST_RUNS}")
@@ -97,12 +97,12 @@ def optimal_design(settings: pd.DataFrame, regressors: Array, runs: int, seed: i
 
 
 def _exchanged(information: Array, runs: int, random: np.random.Generator) -> tuple[float, list[int]]:
-    """From a random design: each run is exchanged for the best candidate until no exchange is for the better.
+    """Improves a random design: each run is exchanged for the best candidate until no exchange is an improvement.
 
     The logarithm of the determinant, and the candidates in their order.
     """
     taken = random.permutation(len(information))[:runs]
-    # A random design may tell nothing of a coefficient: a trace of everything lets it grow out of that.
+    # A random design may hold no information on a coefficient: a trace of everything lets it recover.
     total = EQUAL * np.eye(len(COEFFICIENTS)) + information[taken].sum(axis=0)
     has_changed = True
     while has_changed:
@@ -156,7 +156,8 @@ def design_of(settings: pd.DataFrame, regressors: Array) -> Design:
 
 
 def efficiency(design: Design, other: Design) -> float:
-    """How many runs of `other` tell as much as one of `design`; infinite where it does not tell the coefficients apart."""
+    """Number of runs of `other` that are as informative as one of `design`; infinite if `other` does not separate the
+    coefficients."""
     if other.determinant == 0.0:
         return np.inf
     return float((design.determinant / other.determinant) ** (1.0 / len(COEFFICIENTS)))

@@ -2,16 +2,14 @@
 
 Each force is divided by its spread, so that chi^2 = sum ((measured - fitted) / spread)^2 is least. The spreads are
 standard deviations that the lab has measured, so the intervals are those of known variances (GUM: 1.96 standard
-uncertainties), not estimated again from a few residuals. Only where chi^2 is larger than one set of runs in twenty
-would make it by chance do the spreads not explain the scatter; then the uncertainties are multiplied by the Birge
-ratio, sqrt(chi^2 / degrees of freedom), which is an estimate from the residuals, and Student's t takes the place
-of 1.96.
+uncertainties), not estimated again from a few residuals. If chi^2 is so large that chance would exceed it in less than one set
+of runs in twenty, the spreads do not explain the scatter. Then the uncertainties are multiplied by the Birge ratio, sqrt(chi^2 /
+degrees of freedom), which is an estimate from the residuals, and Student's t takes the place of 1.96.
 
-A robust fit takes less than the square of what is far from the law (soft L1, the smooth form of Huber's loss), so
-that runs that went wrong have little weight. Then nothing is known of the distribution of what is left, so the
-interval comes from the runs themselves: the jackknife, which fits again without each run (Tukey 1958), and
-Student's t with a degree of freedom less than there are runs. It holds also where all three forces of a run went
-wrong together.
+A robust fit takes less than the square of a large residual (soft L1, the smooth form of Huber's loss), so that runs that went
+wrong have little weight. The distribution of the residuals is then unknown, so the interval comes from the runs themselves: by
+the jackknife, which fits again without each run (Tukey 1958), and Student's t with a degree of freedom less than there are runs.
+It also holds if all three forces of a run went wrong together.
 """
 
 import dataclasses
@@ -29,25 +27,24 @@ from osteomill.studies.calibration.forces import AXES, COEFFICIENTS, SLOPES, ZER
 #: factor in the coefficients, and 30 turns 3 % into everything. It is also where Belsley, Kuh and Welsch (1980) begin
 #: to call dependencies strong.
 LARGEST_CONDITION = 30.0
-#: How much the feed of a tooth must vary over the runs, largest over smallest. With one feed the law's geometry alone
-#: parts chip forces from edge forces: K_t t and K_te differ by how t falls towards the flanks of the slot, and a fit
-#: would take that on trust.
+#: With one feed the law's geometry alone
+#: parts chip forces from edge forces: K_t t and K_te differ by how t falls towards the flanks of the slot, and a fit : could not
+#: check that.
 LEAST_VARIATION_OF_FEED = 2.0
-#: Below this share of runs that are as they should be, the spreads are not believed.
+#: 
 IMPROBABLE = 0.05
 TWO_SIDED_95 = 0.975
-#: Where soft L1 turns from squares to distances, in spreads: Huber's choice, which costs a twentieth of the
-#: information where nothing went wrong.
+#: 
 LARGE_RESIDUAL = 1.345
-#: What a median of absolute residuals tells of their scatter, as a share of what their squares tell where all are sound.
+#: 
 EFFICIENCY_OF_MEDIAN = 0.37
-#: A coefficient is named where its part in a dependency is at least this share of the largest part.
+#: 
 NOTABLE_PART = 0.2
 
 
 @dataclasses.dataclass(frozen=True)
 class Solution:
-    """What the forces say, before anything is made of their scatter."""
+    """Solution from the forces, before their scatter is judged."""
 
     value: Array
     covariance: Array  #: for forces that scatter by their spreads
@@ -71,13 +68,13 @@ class Fit:
     condition: float
     fitted_n: Array
     weight: Array  #: of each force, 1 in a fit of least squares
-    predicted_n: Array  #: (runs, 3), of each run by the others; NaN where they cannot tell the coefficients apart
+    predicted_n: Array  #: (runs, 3), of each run by the others; NaN if they cannot separate the coefficients
     studentised: Array  #: (runs, 3), what is wrong with that, in standard deviations
     outlying: Array  #: (runs,), probability that a run is so far off by chance
 
 
 def refuse_one_feed(settings: Any) -> None:
-    """ValueError in one line where the feed of a tooth hardly varies."""
+    """ValueError in one line if the feed of a tooth hardly varies."""
     feeds_mm = feed_per_tooth_mm(settings)
     smallest, largest = feeds_mm.min(), feeds_mm.max()
     if largest < LEAST_VARIATION_OF_FEED * smallest:
@@ -88,7 +85,7 @@ def refuse_one_feed(settings: Any) -> None:
 
 
 def scaled_condition(design: Array) -> float:
-    """Infinite where a column has no part in anything, or there are fewer rows than columns."""
+    """Infinite if a column has no part in anything, or there are fewer rows than columns."""
     lengths = np.linalg.norm(design, axis=0)
     if len(design) < design.shape[1] or not lengths.all():
         return np.inf
@@ -96,9 +93,9 @@ def scaled_condition(design: Array) -> float:
 
 
 def fit_forces(forces: Forces, is_robust: bool = False) -> Fit:
-    """ValueError in one line: for fewer than three runs (six forces leave nothing to check six coefficients by), for a
-    design that cannot tell coefficients apart (which), for an interval that stands for more force than was measured
-    anywhere (which).
+    """ValueError in one line: for fewer than three runs (six forces leave nothing to check six coefficients by), for a design
+    that cannot separate coefficients (it names them), for an interval that means more force than was measured anywhere (it names
+    it).
     """
     _refuse_too_few(forces)
     _refuse_inseparable(forces)
@@ -145,7 +142,7 @@ def _students(freedom: int) -> float:
 
 
 def solve(forces: Forces, is_robust: bool = False) -> Solution:
-    """Of a design that tells all unknowns apart."""
+    """Solution of a design that separates all unknowns."""
     design = forces.design()
     lengths = np.linalg.norm(design, axis=0)  # coefficients differ by a factor of a hundred and more
     left, singular, right = np.linalg.svd(design / lengths, full_matrices=False)
@@ -180,7 +177,7 @@ def _softly_fitted(design: Array, measured: Array, begin: Array) -> Array:
 
 
 def _weights(residuals: Array) -> Array:
-    """Of soft L1: psi(r) / r."""
+    """Weights of soft L1: psi(r) / r."""
     weights: Array = 1.0 / np.sqrt(1.0 + (residuals / LARGE_RESIDUAL) ** 2)
     return weights
 
@@ -194,7 +191,7 @@ def _scatter(residuals: Array, freedom: int, is_robust: bool) -> float:
 
 
 def _jackknifed(forces: Forces, rest: Sequence[Solution | None]) -> Array:
-    """Covariance of the values, by what each run changes in them."""
+    """Covariance of the values, from the change that each run makes in them."""
     for run, others in zip(forces.runs, rest):
         if others is None:
             raise ValueError(f"a robust fit cannot tell whether run {run} is right: without it coefficients cannot be told "
@@ -209,8 +206,8 @@ def _predicted_n(run: Forces, others: Solution | None) -> Array:
 
 
 def _surprise(run: Forces, others: Solution | None) -> tuple[Array, float]:
-    """How far a run is from what the others say: each force by the standard deviation of the difference (externally
-    studentised), and how probable all three together are by chance (Hotelling's F). NaN where the others cannot tell.
+    """Distance of a run from the prediction by the others: of each force by the standard deviation of the difference (externally
+    studentised), and the probability of all three together by chance (Hotelling's F). NaN if the others cannot predict it.
     """
     error_n = run.force_n - _predicted_n(run, others)
     if others is None or not others.scatter > 0.0:
@@ -260,8 +257,7 @@ def _advice(names: list[str]) -> str:
 
 
 def _refuse_what_tells_nothing(forces: Forces, fit: Fit) -> None:
-    """An interval of a coefficient stands for forces: those that its half width would make in the run where it makes
-    most."""
+    """An interval of a coefficient means a force: the one that its half width would make in the run where it makes most."""
     largest_n = np.abs(forces.force_n).max()
     for i, (name, unit) in enumerate(COEFFICIENTS.items()):
         stands_for_n = fit.half_width[i] * np.abs(forces.regressors[:, i]).max()

@@ -1,9 +1,9 @@
-"""The mean forces of runs, linear in what is to be found: the six coefficients of the mechanistic milling law, and a
-drift of the dynamometer.
+"""The mean forces of runs, linear in the unknowns: the six coefficients of the mechanistic milling law, and a drift
+of the dynamometer.
 
 Each piece ds of an edge takes chip forces, K_t K_r K_a times the chip's cross-section, and edge forces,
-K_te K_re K_ae times ds (Lee and Altintas 1996). The column of a coefficient is the force where it is 1 and the
-others are 0: along the feed, across it (to the left), and up, of the bone on the burr.
+K_te K_re K_ae times ds (Lee and Altintas 1996). The column of a coefficient is the force if it is 1 and the others
+are 0: along the feed, across it (to the left), and up, of the bone on the burr.
 """
 
 import dataclasses
@@ -24,7 +24,7 @@ FORCES_OF_A_RUN = len(AXES)
 
 SLOPES = [f"drift_{axis}" for axis in AXES]  # N, from the first run that was made to the last
 ZEROS = [f"zero_{axis}" for axis in AXES]  # N, at the first
-#: What each way of drifting adds to what is to be found.
+#: 
 DRIFTS: dict[str, list[str]] = {"none": [], "slope": SLOPES, "line": SLOPES + ZEROS}
 
 
@@ -39,7 +39,7 @@ class Forces:
     spread_n: Array
 
     def design(self) -> Array:
-        """In spreads."""
+        """The design in spreads."""
         return self.regressors / self.spread_n[:, None]
 
     def of_run(self, run: int) -> "Forces":
@@ -55,7 +55,7 @@ class Forces:
 
 
 def forces_of(runs: pd.DataFrame, drift: str = "none") -> Forces:
-    """Of a table as read_runs gives it. A drift adds to each axis a zero that stays, and a slope times the run's
+    """Forces of a table from read_runs. A drift adds to each axis a constant zero, and a slope times the run's
     `time`."""
     of_each_axis = np.eye(FORCES_OF_A_RUN)
     law = np.vstack([regressors_of(run) for run in runs.itertuples()])
@@ -72,7 +72,7 @@ def forces_of(runs: pd.DataFrame, drift: str = "none") -> Forces:
 
 
 def regressors_of(run: Any, finer: int = 1) -> Array:
-    """(3, 6) of a run's setting, a row of a table; within 0.3 % of a far finer quadrature."""
+    """(3, 6), for a run's setting, a row of a table; within 0.3 % of a far finer quadrature."""
     tilt, toward = np.radians((run.tilt_deg, run.tilt_direction_deg))
     higher = getattr(run, "previous_groove_mm_higher", np.nan)
     columns = [
@@ -95,5 +95,5 @@ def regressors_of(run: Any, finer: int = 1) -> Array:
 
 
 def feed_per_tooth_mm(runs: Any) -> Any:
-    """Of a run, or of each run of a table."""
+    """Feed of a tooth in a run, or in each run of a table."""
     return runs.feed_mm_per_s / (runs.rpm / 60.0) / runs.edges

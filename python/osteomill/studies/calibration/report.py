@@ -1,4 +1,4 @@
-"""Report of a calibration: its numbers, its residuals, which runs to distrust, a scene fragment, charts."""
+"""Report of a calibration: its numbers, its residuals, the runs to distrust, a scene fragment, charts."""
 
 import dataclasses
 import math
@@ -14,26 +14,26 @@ from osteomill.studies.calibration.fit import Fit
 from osteomill.studies.calibration.forces import AXES, COEFFICIENTS, FORCES_OF_A_RUN
 from osteomill.studies.calibration.runs import FORCES, SPREADS
 
-#: A run is named where chance puts any run of a table so far off in one table of twenty.
+#: 
 SURPRISING = 0.05
 
 
 @dataclasses.dataclass(frozen=True)
 class Calibration:
-    """The runs of one material and what came of them."""
+    """The runs of one material and their results."""
 
     material: str
     runs: pd.DataFrame
     fit: Fit
 
     def distrusted(self) -> list[tuple[str, float]]:
-        """Runs that are too far from what the others say, with the probability of it for any run of the table."""
+        """Runs that are too far from the prediction by the others, with the probability of it for any run of the table."""
         of_any = np.minimum(1.0, len(self.runs) * self.fit.outlying)
         return [(run, float(p)) for run, p in zip(self.runs.run, of_any) if p < SURPRISING]
 
 
 def cross_validation_of(c: Calibration) -> dict[str, Any]:
-    """Root mean square of what is wrong with the predictions of runs by the others."""
+    """Root mean square error of the predictions of runs by the others."""
     errors_n = c.runs[FORCES].to_numpy(float) - c.fit.predicted_n
     is_predicted = ~np.isnan(errors_n).any(axis=1)
     in_spreads = errors_n / c.runs[SPREADS].to_numpy(float)
@@ -47,7 +47,7 @@ def cross_validation_of(c: Calibration) -> dict[str, Any]:
 
 
 def warnings_of(c: Calibration) -> list[str]:
-    """What a reader of the numbers should know, each in one sentence."""
+    """Warnings for a reader of the numbers, each in one sentence."""
     fit = c.fit
     warnings = []
     if fit.widened_by > 1.0:
@@ -129,9 +129,9 @@ def residuals_of(calibrations: Sequence[Calibration]) -> pd.DataFrame:
 
 
 def runs_of(calibrations: Sequence[Calibration]) -> pd.DataFrame:
-    """A line for each run, the most distrusted first in each material: how far its forces are from what the others say,
-    in standard deviations of that difference; the probability of all three, for this run and for any of the table; its
-    weight, 1 in a fit of least squares.
+    """A line for each run, the most distrusted first in each material: distance of its forces from the prediction by the others,
+    in standard deviations of that difference; the probability of all three, for this run and for any of the table; its weight, 1
+    in a fit of least squares.
     """
     tables = []
     for c in calibrations:
@@ -194,7 +194,7 @@ def _drift(fit: Fit) -> list[tuple[str, float, float]]:
 
 
 def chart_of_fit(calibrations: Sequence[Calibration]) -> Figure:
-    """Measured forces against what the fitted coefficients say, a panel a material."""
+    """Measured forces against those of the fitted coefficients, a panel for each material."""
     figure = _panels(calibrations, "Mean forces of the bone on the burr: measured, with their spread, against fitted")
     for axes, c in zip(figure.axes, calibrations):
         fitted_n = c.fit.fitted_n.reshape(-1, FORCES_OF_A_RUN)
@@ -208,7 +208,7 @@ def chart_of_fit(calibrations: Sequence[Calibration]) -> Figure:
 
 
 def chart_of_residuals(calibrations: Sequence[Calibration]) -> Figure:
-    """What the fit leaves of each force, in spreads, against the force, a panel a material."""
+    """Residual of each force, in spreads, against the force, a panel for each material."""
     figure = _panels(calibrations, "Measured less fitted force: 95 % should lie between the dashed lines")
     for axes, c in zip(figure.axes, calibrations):
         fitted_n = c.fit.fitted_n.reshape(-1, FORCES_OF_A_RUN)

@@ -1,5 +1,5 @@
-"""The table of runs on a dynamometer: one straight slot of a spherical burr a line, its mean force, and how well that
-is known.
+"""The table of runs on a dynamometer: each line is one straight slot of a spherical burr, its mean force, and the uncertainty
+of that.
 
 The frame of a run: x along the feed (the burr's velocity relative to the specimen), z up, out of the flat
 specimen, y across = up x feed. The force is that of the bone on the burr.
@@ -25,7 +25,7 @@ MAY_BE_MISSING = (GROOVE, "order")
 SENSES = ("clockwise", "counter-clockwise")
 SETTINGS = ["diameter_mm", "edges", "turns", "rpm", "feed_mm_per_s", "depth_mm", "tilt_deg", "tilt_direction_deg"]
 
-#: Of each column of numbers: what is right, in words, and whether a number is.
+#: 
 NUMBERS: dict[str, tuple[str, Callable[[float], bool]]] = {
     "diameter_mm": ("a number from 0.2 to 20", lambda v: 0.2 <= v <= 20.0),
     "edges": ("a whole number from 1 to 64", lambda v: 1 <= v <= 64 and v == int(v)),
@@ -47,7 +47,7 @@ def read_runs(file: pathlib.Path) -> pd.DataFrame:
     """A row for each run: the COLUMNS, a groove that is not there NaN; and `time`, 0 of the first run that was made to
     1 of the last, evenly by their order or, without that, their lines.
 
-    Raises in one line, FILE:LINE, what is wrong and what would be right.
+    Raises one line, FILE:LINE, that says what is wrong and what would be right.
     """
     header: list[str] = []
     rows: list[dict[str, Any]] = []

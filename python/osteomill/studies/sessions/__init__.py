@@ -88,7 +88,7 @@ def _read(files: list[pathlib.Path], study: StudyRun) -> tuple[list[SessionRecor
 
 
 def _read_one(store: str, case: dict[str, str]) -> dict[str, Any]:
-    """What an earlier study has kept of a recording, or what is in it."""
+    """The record that an earlier study has kept of a recording, or else its contents."""
     from osteomill.studies.sessions.database import SessionStore
 
     kept = SessionStore(pathlib.Path(store)).find(case["digest"])
@@ -109,7 +109,7 @@ def _write(sessions: list[SessionRecord], compare: list[str], skipped: list[str]
 
 
 def _report_address(recording: pathlib.Path, out: pathlib.Path) -> str:
-    """As an address in a page that lies in `out`; empty where there is no report beside the recording."""
+    """Address of the report in a page that lies in `out`; empty if there is no report beside the recording."""
     report = recording.parent / "report.html"
     if not os.path.isfile(report):
         return ""

@@ -1,4 +1,4 @@
-"""The sessions of one case, in the order of their start, and what is asked of them together."""
+"""The sessions of one case, in the order of their start, and the questions asked of them together."""
 
 import dataclasses
 from collections.abc import Iterable
@@ -15,13 +15,13 @@ EXPERTS = "expert"  # the group that others are shown against
 
 @dataclasses.dataclass(frozen=True)
 class Headline:
-    """A metric by which people judge a session: how it is called, shown and read."""
+    """A metric by which people judge a session: its name, its form and its meaning."""
 
     key: str  # docs/metrics.md; of several structures the sum
     text: str
     unit: str  # as shown
     scale: float  # from the metric's own unit to the shown one
-    better: str  # which is, in words; empty: neither
+    better: str  # which is better, in words; empty: neither
     is_count: bool  # compared by ranks, not by means
 
     @property
@@ -48,14 +48,15 @@ class Attempt:
 
 @dataclasses.dataclass(frozen=True)
 class Case:
-    """Sessions of a case that began alike; `apart`: in which way unlike most sessions of the case, empty: as most."""
+    """Sessions of a case that began alike; `apart`: their difference from most sessions of the case, empty: none."""
 
     name: str
     attempts: list[Attempt]
     apart: str = ""
 
     def learners(self) -> "Case":
-        """Without the sessions of experts, whose level and trend are others; all where all are of experts."""
+        """The case without the sessions of experts, whose level and trend differ; all sessions if all are of
+        experts."""
         some = [one for one in self.attempts if one.session.group != EXPERTS]
         return dataclasses.replace(self, attempts=some or self.attempts)
 
@@ -76,7 +77,7 @@ class Case:
         return [float(mean) for mean in values.groupby("trainee")["value"].mean()]
 
     def expert_band(self, what: Headline) -> Interval | None:
-        """Where the middle half of the experts' sessions lies."""
+        """Band of the middle half of the experts' sessions."""
         values = self.values(what)
         return middle_half(values["value"][values["group"] == EXPERTS].tolist())
 
@@ -90,7 +91,7 @@ class Case:
 
 
 def cases_of(sessions: Iterable[SessionRecord]) -> list[Case]:
-    """In the order in which the cases first come; of one case those sessions first that began as most did."""
+    """In the order in which the cases first occur; within a case, sessions that began as most did come first."""
     cases: dict[str, dict[Any, list[SessionRecord]]] = {}
     for session in sessions:
         start = (session.bone_at_start, *sorted(session.settings.items()))

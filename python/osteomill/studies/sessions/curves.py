@@ -16,7 +16,8 @@ MARKERS = "osD^vPX*<>h"
 
 
 def learning_curves(case: Case) -> dict[str, Figure]:
-    """By the metric's key, of headlines that some session has: a line for each trainee, the trend, the experts' band."""
+    """Curves by the metric's key, of headlines that some session has: a line for each trainee, the trend, the experts'
+    band."""
     return {what.key: _curve_of(case, what) for what in HEADLINES if not case.values(what).empty}
 
 
@@ -58,7 +59,8 @@ def _curve_of(case: Case, what: Headline) -> Figure:
 
 
 def _look_of(case: Case, trainee: str) -> dict[str, Any]:
-    """The same in all charts of a case. The number of markers is prime to that of colours: 88 are told apart."""
+    """A trainee's style, the same in all charts of a case. The numbers of markers and colours have no common factor: 88
+    trainees can be told apart."""
     place = sorted({one.session.trainee for one in case.attempts}).index(trainee)
     return {"color": f"C{place % 8}", "marker": MARKERS[place % len(MARKERS)]}
 
@@ -86,5 +88,5 @@ def _finish(axes: Any, trainees: int) -> None:
 
 
 def _legend_text(name: str) -> str:
-    """Matplotlib leaves out what begins with an underscore."""
+    """Matplotlib leaves out a label that begins with an underscore."""
     return f" {name}" if name.startswith("_") else name

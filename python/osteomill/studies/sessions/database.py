@@ -47,7 +47,7 @@ _MADE_BY = sa.Table("made_by", sa.MetaData(), sa.Column("version", sa.Text, prim
 
 BUSY_S = 30.0  # another study may be writing the file
 
-# How long to wait for a database that says nothing: to connect, and for the network to carry what was sent.
+# Time to wait for a silent database: to connect, and for the network to carry sent data.
 LIMITS = {
     "connect_timeout": 10,
     "keepalives_idle": 10,
@@ -57,7 +57,7 @@ LIMITS = {
 }
 # Unless the address has a limit of its own.
 _LIMIT_OF_LOCKS = "SELECT set_config('lock_timeout', '30s', true) WHERE current_setting('lock_timeout') = '0'"
-# Whoever adds sessions has this lock until its transaction ends; any number that is always the same.
+# A station that adds sessions holds this lock until its transaction ends; any constant number.
 _ONE_AT_A_TIME = "SELECT pg_advisory_xact_lock(1869836397)"
 _ADVICE = {
     "55P03": "; another station is adding its sessions, or was left in the middle of it: try again",
@@ -66,15 +66,15 @@ _ADVICE = {
 
 
 class SessionStore:
-    """A small SQLite file. It only saves time: it is made again where it is missing, damaged or of another version.
+    """A small SQLite file. It only saves time: it is made again if it is missing, damaged or of another version.
 
-    version: of the programs that filled it, others may measure otherwise. RuntimeError naming the file where it can
-    be neither read nor made.
+    version: of the programs that filled it; others may measure differently. RuntimeError naming the file if it can be
+    neither read nor made.
     """
 
     def __init__(self, file: pathlib.Path, version: str = _studies.VERSION) -> None:
         self.file = file
-        if file.is_symlink():  # its name is ours, and what a link of that name leads to is not
+        if file.is_symlink():  # its name is ours, but the target of a link of that name is not
             file.unlink()
         address = sa.engine.URL.create("sqlite", database=str(file))
         self._engine = sa.create_engine(address, poolclass=NullPool, connect_args={"timeout": BUSY_S})
@@ -86,7 +86,7 @@ class SessionStore:
             raise RuntimeError(f"{file}: cannot be made: it is no file that can be written")
 
     def find(self, digest: str) -> SessionRecord | None:
-        """What is kept of the recording with this digest."""
+        """The kept record of the recording with this digest."""
         with self._errors_named(), self._engine.connect() as connection:
             session = connection.execute(_SESSION.select().where(_SESSION.c.digest == digest)).first()
             start = connection.execute(_START.select().where(_START.c.digest == digest)).first()
@@ -98,7 +98,7 @@ class SessionStore:
                                  bone_at_start=start.bone, settings=json.loads(start.settings))
 
     def keep(self, record: SessionRecord) -> None:
-        """Replaces what is kept of it."""
+        """Replaces the kept record."""
         with self._errors_named(), self._engine.begin() as connection:
             for table in (_METRIC, _START):  # SQLite does not cascade by itself
                 connection.execute(table.delete().where(table.c.digest == record.digest))
@@ -131,9 +131,9 @@ class SessionStore:
 def add_to_database(address: str, sessions: Iterable[SessionRecord]) -> None:
     """Adds sessions to a department's PostgreSQL database; one that is there already, by its digest, is replaced.
 
-    All of them or none: several stations may do so at once, and lose nothing. `address` is libpq's, and may set
-    limits of its own. RuntimeError in one line where the database cannot be reached or written, says nothing, or is
-    held by another station for more than half a minute.
+    All of them or none: several stations may do so at once, and lose nothing. `address` is libpq's, and may set limits of
+    its own. RuntimeError in one line if the database cannot be reached or written, is silent, or is held by another
+    station for more than half a minute.
     """
     import psycopg2
 
@@ -154,7 +154,7 @@ def _connect(address: str) -> Any:
 
     own = psycopg2.extensions.parse_dsn(address)
     limits = {name: limit for name, limit in LIMITS.items() if name not in own}
-    # What sessions hold is in UTF-8, whatever the database keeps it in.
+    # The texts of sessions are in UTF-8, whatever encoding the database keeps.
     return psycopg2.connect(address, client_encoding="UTF8", **limits)
 
 
@@ -175,7 +175,7 @@ def _replace(connection: Any, session: SessionRecord) -> None:
 
 
 def _reason_of(error: Exception) -> str:
-    """The first line of what the database says, and what can be done about it."""
+    """The first line of the database's error, and a remedy."""
     original = getattr(error, "orig", None) or error
     lines = str(original).strip().splitlines() or [type(original).__name__]
     return lines[0] + _ADVICE.get(getattr(original, "pgcode", None) or "", "")

@@ -23,9 +23,9 @@ class Groups:
         return cls(file, _studies.trainee_groups(file) if file else {})
 
     def assign(self, sessions: list[SessionRecord]) -> list[str]:
-        """Says each session's group; returns a line for each line of the file that matches nobody.
+        """Sets each session's group; returns a line for each line of the file that matches nobody.
 
-        Names that only differ in how a letter and its dots are put together are the same.
+        Names that differ only in the composition of letters and accents are the same.
         """
         trainees = {_composed(session.trainee): session.trainee for session in sessions}
         groups = {_composed(name): group for name, (group, _) in self.of_trainee.items()}
@@ -39,7 +39,7 @@ class Groups:
 
 
 def groups_text(sessions: list[SessionRecord]) -> str:
-    """How many trainees are in which group; empty where nobody is in one."""
+    """Number of trainees in each group; empty if nobody is in one."""
     group_of = {session.trainee: session.group for session in sessions}
     count = Counter(group for group in group_of.values() if group)
     return "; groups: " + ", ".join(f"{number} {group}" for group, number in sorted(count.items())) if count else ""

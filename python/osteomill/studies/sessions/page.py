@@ -1,4 +1,4 @@
-"""The overview: for each case a line a session, what the sessions say together, and the learning curves."""
+"""The overview: for each case a line for each session, statistics of the sessions together, and the learning curves."""
 
 import dataclasses
 import math
@@ -40,7 +40,7 @@ def sessions_table(sessions: list[SessionRecord]) -> pd.DataFrame:
 
 
 def compared_groups(sessions: list[SessionRecord], wanted: list[str]) -> list[str]:
-    """Two groups to compare: those that are wanted, or those that there are, if they are two.
+    """Two groups to compare: the requested ones, or the existing ones if there are just two.
 
     RuntimeError for a group without a session.
     """
@@ -62,7 +62,7 @@ class Overview:
 
 
 def overview(sessions: list[SessionRecord], compared: list[str], skipped: list[str], nobodies: Sequence[str] = ()) -> Overview:
-    """`sessions` in the order of their start; `skipped`: what was left out and why; `nobodies`: lines of groups.csv."""
+    """`sessions` in the order of their start; `skipped`: recordings left out and why; `nobodies`: lines of groups.csv."""
     files: dict[str, str] = {}
     shown = []
     for number, case in enumerate(cases_of(sessions), 1):
@@ -124,7 +124,7 @@ def _undone(session: SessionRecord) -> str:
 
 
 def _rating_rows(case: Case) -> list[tuple[str, str]]:
-    """Of each item, in how many of the rated sessions it is reached."""
+    """For each item, the number of rated sessions in which it is reached."""
     reached: dict[str, list[bool]] = {}
     for one in case.attempts:
         for name, points in one.session.rating_items().items():
@@ -150,7 +150,7 @@ def _mean_cells(case: Case, what: Headline) -> list[str]:
 
 
 def _trend_cells(case: Case, what: Headline) -> list[str]:
-    """Of a doubling of attempts."""
+    """Trend of a doubling of attempts."""
     trend = practice_trend(case.learners().values(what))
     if trend is None:
         return [NONE, NONE]

@@ -1,4 +1,4 @@
-"""Recorded sessions: where they lie, and what a study of several keeps of each."""
+"""Recorded sessions: their places, and the record that a study of several keeps of each."""
 
 import dataclasses
 import os
@@ -25,7 +25,7 @@ class Metric:
 
 @dataclasses.dataclass
 class SessionRecord:
-    """Whose a session is, of what, when, and its metrics."""
+    """A session's trainee, case, time and metrics."""
 
     digest: str  # of the recording's bytes
     file: str
@@ -33,24 +33,24 @@ class SessionRecord:
     case_name: str  # or the scene's
     began_unix_ns: int
     metrics: list[Metric]
-    # Of the study, not of the recording.
+    # These belong to the study, not to the recording.
     group: str = ""  # of the trainee; empty: none
     report: str = ""  # address of its report from the overview; empty: there is none
-    # What it began with: only sessions that began alike are attempts at one task.
+    # Its start conditions: only sessions that began alike are attempts at one task.
     bone_at_start: str = ""  # a digest
     settings: dict[str, str] = dataclasses.field(default_factory=dict)  # those that a trainee feels
 
     def value(self, key: str) -> float | None:
-        """Of a metric, added up over tissues, burrs or structures; None where none has a value."""
+        """Value of a metric, added up over tissues, burrs or structures; None if none has a value."""
         values = [metric.value for metric in self.metrics if metric.key == key and metric.value is not None]
         return sum(values) if values else None
 
     def rating_items(self) -> dict[str, float]:
-        """The points of each item of the case's rating, by its name; empty where it has none, or was not rated."""
+        """The points of each item of the case's rating, by its name; empty if it has none, or was not rated."""
         return {metric.of: metric.value for metric in self.metrics if metric.key == "rating_item_points" and metric.value is not None}
 
     def opened(self) -> list[Metric]:
-        """Protected structures that lost bone, given back or not: of each the volume."""
+        """Volume lost by each protected structure that lost bone, given back or not."""
         volume_mm3: dict[str, float] = {}
         for metric in self.metrics:
             if metric.key in ("structure_dose_mm3", "structure_undone_mm3") and metric.value:
@@ -59,11 +59,11 @@ class SessionRecord:
 
 
 def recordings_in(places: Iterable[pathlib.Path]) -> list[pathlib.Path]:
-    """Recordings that are meant: a file itself; of a folder DIR all DIR/*.pcap and DIR/*/session.pcap.
+    """Recordings in the given places: a file itself; in a folder DIR all DIR/*.pcap and DIR/*/session.pcap.
 
-    In the order of their paths, each once. Also what has a recording's name and is none, and links that lead
-    nowhere: whoever reads them says what is wrong with each. RuntimeError for what is neither file nor folder, and
-    for a folder without any.
+    In the order of their paths, each once. Files that merely have a recording's name, and links that lead nowhere, are included:
+    reading them reports the error of each. RuntimeError for a place that is neither file nor folder, and for a folder without
+    any.
     """
     found: list[pathlib.Path] = []
     for place in places:
@@ -83,7 +83,7 @@ def groups_file(places: Iterable[pathlib.Path]) -> pathlib.Path | None:
 
 
 def digest_of(file: pathlib.Path) -> str:
-    """Of a recording's bytes. RuntimeError in one line for what is none."""
+    """Digest of a recording's bytes. RuntimeError in one line if it is no recording."""
     try:
         if not stat.S_ISREG(os.stat(file).st_mode):
             raise RuntimeError(f"{file}: is no file")
@@ -93,7 +93,7 @@ def digest_of(file: pathlib.Path) -> str:
 
 
 def read(file: str) -> dict[str, Any]:
-    """What _studies.read_session says of a whole recording, or `why_not` it cannot be read."""
+    """The result of _studies.read_session for a whole recording, or `why_not` it cannot be read."""
     try:
         return _studies.read_session(file)
     except RuntimeError as error:
@@ -101,14 +101,14 @@ def read(file: str) -> dict[str, Any]:
 
 
 def record_of(digest: str, file: str, found: dict[str, Any]) -> SessionRecord:
-    """Of what `read` found."""
+    """The record of the result of `read`."""
     metrics = [Metric(**row) if isinstance(row, dict) else Metric(*row) for row in found["metrics"]]
     return SessionRecord(digest, file, found["trainee"], found["case_name"], found["began_unix_ns"], metrics,
                          bone_at_start=found["bone_at_start"], settings=found["settings"])
 
 
 def has_entry(path: pathlib.Path) -> bool:
-    """Whether there is something, even a link that leads nowhere or in a circle."""
+    """Whether something exists, even a link that leads nowhere or in a circle."""
     return os.path.lexists(path)
 
 

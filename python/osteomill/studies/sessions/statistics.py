@@ -1,4 +1,4 @@
-"""What several sessions say together: means, trends with practice, two groups compared, runs of passes.
+"""Statistics of several sessions: means, trends with practice, two groups compared, runs of passes.
 
 Intervals are of 95 %.
 """
@@ -15,21 +15,21 @@ import scipy.stats
 
 CONFIDENCE = 0.95
 FEWEST_REFERENCES = 4
-FEWEST_COMPARED = 3  # of each group: fewer say nothing of others
+FEWEST_COMPARED = 3  # of each group: fewer allow no statement about others
 MOST_RANKED = 200
 
 Interval = tuple[float, float]
 
 
 class Possible(enum.Enum):
-    """Which values a metric can have."""
+    """Range of values that a metric can have."""
 
     ANY = enum.auto()
     NOT_NEGATIVE = enum.auto()
     SHARE = enum.auto()  # from 0 to 1
 
     def interval(self, mean: float, half: float) -> Interval:
-        """Student's interval mean -+ half, carried to a scale on which nothing impossible lies, and back.
+        """Student's interval mean -+ half, computed on a scale without impossible values, and carried back.
 
         The scale is the square root, for shares its arcsine; to first order (the delta method) both stretch `half` by
         their slope at the mean.
@@ -48,14 +48,14 @@ class Possible(enum.Enum):
         return min(max(interval[0], low), high), min(max(interval[1], low), high)
 
     def difference(self, interval: Interval) -> Interval:
-        """Of two such values: two shares are never more than 1 apart."""
+        """Interval of the difference of two such values: two shares are never more than 1 apart."""
         most = 1.0 if self is Possible.SHARE else math.inf
         return max(interval[0], -most), min(interval[1], most)
 
 
 @dataclasses.dataclass(frozen=True)
 class Mean:
-    """Of values that are about normal, with its interval by Student's t; None for fewer than two values."""
+    """Mean of values that are about normal, with its interval by Student's t; None for fewer than two values."""
 
     n: int
     mean: float
@@ -63,7 +63,7 @@ class Mean:
 
 
 def mean_of(values: Sequence[float], possible: Possible = Possible.ANY) -> Mean | None:
-    """None where there are no values."""
+    """None if there are no values."""
     n = len(values)
     if n == 0:
         return None
@@ -86,8 +86,8 @@ def middle_half(values: Sequence[float]) -> Interval | None:
 class PracticeTrend:
     """y_ij = a_i + b ln(n_ij) + e_ij: a level a_i for each trainee, one slope b for all, by least squares.
 
-    So differences between trainees are not taken for learning; R: lm(y ~ trainee + log(n)). The line is that of the
-    trainees at their mean level, each weighed by the number of attempts; its interval is that of this mean.
+    So differences between trainees do not count as learning; R: lm(y ~ trainee + log(n)). The line is that of the trainees at
+    their mean level, each weighed by the number of attempts; its interval is that of this mean.
     """
 
     n: int
@@ -118,7 +118,8 @@ class PracticeTrend:
 
 
 def practice_trend(values: pd.DataFrame) -> PracticeTrend | None:
-    """Of columns trainee, attempt (from 1) and value; None where no trainee has two attempts, or none is to spare."""
+    """Trend from columns trainee, attempt (from 1) and value; None if no trainee has two attempts, or no degree of freedom is
+    left."""
     if values.empty:
         return None
     both = pd.DataFrame({"log": np.log(values["attempt"]), "value": values["value"]})
@@ -144,7 +145,7 @@ class WelchComparison:
 
 
 def compare_means(first: Sequence[float], second: Sequence[float]) -> WelchComparison | None:
-    """None where a group has fewer than two values, or neither varies."""
+    """None if a group has fewer than two values, or neither varies."""
     if len(first) < 2 or len(second) < 2:
         return None
     n = np.array([len(first), len(second)], float)
@@ -180,7 +181,7 @@ class RankComparison:
 
 
 def compare_ranks(first: Sequence[float], second: Sequence[float]) -> RankComparison | None:
-    """None where a group is empty, or there are more than MOST_RANKED values."""
+    """None if a group is empty, or there are more than MOST_RANKED values."""
     n1, n2 = len(first), len(second)
     if n1 == 0 or n2 == 0 or n1 + n2 > MOST_RANKED:
         return None
@@ -195,7 +196,7 @@ def compare_ranks(first: Sequence[float], second: Sequence[float]) -> RankCompar
 
 
 def _ways_of_sums(ranks: "np.ndarray[tuple[int], np.dtype[np.int64]]", count: int) -> "np.ndarray[tuple[int], np.dtype[np.float64]]":
-    """In how many ways `count` of the ranks have each sum."""
+    """Number of ways in which `count` of the ranks have each sum."""
     ways = np.zeros((count + 1, int(ranks.sum()) + 1))
     ways[0, 0] = 1.0
     behind = 1  # the largest sum so far
@@ -211,14 +212,13 @@ def _ways_of_sums(ranks: "np.ndarray[tuple[int], np.dtype[np.int64]]", count: in
 class CusumDesign:
     """Cumulative sum of failures against an acceptable rate: Wald's sequential test.
 
-    A failure adds 1 - step, a pass subtracts step. From one level on, a rise says that failures are at the
-    unacceptable rate, a fall that they are at the acceptable one. Bolsin and Colson, International Journal for
-    Quality in Health Care 12 (2000).
+    A failure adds 1 - step, a pass subtracts step. A rise beyond one level shows that failures are at the unacceptable rate, a
+    fall that they are at the acceptable one. Bolsin and Colson, International Journal for Quality in Health Care 12 (2000).
     """
 
     acceptable_rate: float = 0.2
     unacceptable_rate: float = 0.4
-    error: float = 0.1  # the chance of either to be said wrongly
+    error: float = 0.1  # the probability of either wrong conclusion
 
     def step(self) -> float:
         return self._q() / (self._p() + self._q())
@@ -228,7 +228,7 @@ class CusumDesign:
         return math.log((1.0 - self.error) / self.error) / (self._p() + self._q())
 
     def sums(self, has_passed: Sequence[bool]) -> list[float]:
-        """From 0 on."""
+        """Sums, from 0 on."""
         steps = [(0.0 if passed else 1.0) - self.step() for passed in has_passed]
         return [0.0, *np.cumsum(steps).tolist()]
 
@@ -240,7 +240,7 @@ class CusumDesign:
 
 
 def _errors(degrees: float) -> float:
-    """How many standard errors lie between an estimate and either end of its interval."""
+    """Number of standard errors between an estimate and either end of its interval."""
     return float(scipy.stats.t.ppf(0.5 + 0.5 * CONFIDENCE, degrees))
 
 

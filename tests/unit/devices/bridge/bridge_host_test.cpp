@@ -198,7 +198,7 @@ TEST(BridgeHost, AnArmThatIsAliveAgainIsNotTakenOver) {
     ASSERT_TRUE(arm.says_hello(1000 * ms));
     ASSERT_TRUE(arm.says_pose(1001 * ms));
     EXPECT_FALSE(waiting.says_hello(1200 * ms)) << "one at a time";
-    // Silent for long enough, another asks; then the first is back before that one has said a pose.
+    // After a long silence another arm connects; then the first is back before that one has sent a pose.
     ASSERT_TRUE(waiting.says_hello(1300 * ms));
     EXPECT_TRUE(arm.says_pose(1301 * ms));
     EXPECT_TRUE(host.has_fresh_pose() || arm.says_pose(1302 * ms));
@@ -318,7 +318,7 @@ TEST(BridgeHost, TakesNoPoseForFreshBecauseTheArmsClockSaysSo) {
     clocks.emplace_back(
         [](std::uint64_t now_ns) { return now_ns / 300'000'000 % 2 * 5'000'000'000 + now_ns; });
     for (std::size_t which = 0; which < clocks.size(); ++which) {
-        // The server stands still for longer and longer; then it finds what the arm has said meanwhile.
+        // The server stands still for longer and longer; then it finds the arm's messages of that time.
         for (const int away_ms : {20, 120, 500, 3000}) {
             BridgePair bridge;
             bridge.arm_clock_ns = clocks[which];
@@ -359,7 +359,7 @@ TEST(BridgeHost, WithAKeyHearsOnlyWhoHasIt) {
     EXPECT_FALSE(none.host.arm());
 }
 
-// Whoever listens may send again all that was ever said, in this session or one before.
+// An eavesdropper may send again any message of this session or one before.
 TEST(BridgeHost, WithAKeyNothingThatWasSaidMovesItAgain) {
     const testing::TemporaryFolder folder;
     std::ofstream(folder / "key") << std::string(40, 'k');

@@ -56,7 +56,7 @@ class BridgePair {
         answer();
         return state;
     }
-    /// The arm speaks, now, and the server hears what `pass_on` makes of each datagram.
+    /// The arm sends now, and the server receives the datagrams that `pass_on` returns for each.
     omb_state say() {
         const omb_state state = omb_exchange_at(&link, &pose, &force, arm_clock_ns(now_ns));
         if (is_server_stopped) return state;

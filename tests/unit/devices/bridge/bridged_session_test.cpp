@@ -87,7 +87,7 @@ class LateDevice final : public HapticDevice {
     glm::dvec3 force_n_{0.0};
 };
 
-/// The same arm in what would be another process: all it knows and feels goes through messages.
+/// The same arm as if in another process: it exchanges only messages.
 class BridgedDevice final : public HapticDevice {
   public:
     explicit BridgedDevice(SimulatedDevice& arm) : bridge(arm_of(arm.limits())), arm_(arm) {

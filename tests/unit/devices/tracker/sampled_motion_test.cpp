@@ -274,7 +274,7 @@ std::vector<OddClock> odd_clocks() {
 TEST(SampledMotion, IsNeverFarBehindTheHandWhateverTheSendersClockDoes) {
     for (const OddClock& clock : odd_clocks()) {
         const Followed followed = follow(clock);
-        // Beside what is allowed, by the steps of samples; and if none comes, by the silence.
+        // In addition to the allowed motion, by the steps of samples; and if none comes, by the silence.
         const double step_s = 1.0 / clock.rate_hz;
         const double silence_s =
             std::clamp(5.0 * step_s, SampledMotion::least_silence_s, SampledMotion::most_silence_s);

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 class StartPageTest : public ::testing::Test {
   protected:
-    /// A program of that name that does what the script says.
+    /// A program of that name that runs the script.
     void make_program(const std::string& name, const std::string& script) {
         const auto file = folder_ / name;
         std::ofstream(file) << "#!/bin/sh\n" << script << "\n";

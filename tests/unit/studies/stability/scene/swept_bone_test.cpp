@@ -11,7 +11,7 @@ namespace {
 
 constexpr double substep_s = 1e-5;
 
-/// Moves the burr at a velocity that nothing holds back, for so many ticks; the force at the end.
+/// Moves the burr at a constant velocity, for so many ticks; returns the force at the end.
 glm::dvec3 force_when_moved(SweptBone& bone, const glm::dvec3& velocity_mm_per_s, int ticks) {
     constexpr double unyielding_n_s_per_mm = 1e4;
     glm::dvec3 force_n(0.0);

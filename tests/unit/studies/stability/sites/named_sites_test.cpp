@@ -1,4 +1,5 @@
-// Sites and walks are well made: bone where they say, a hand that starts clear of it and cuts some.
+// Sites and walks are well made: they have bone at the stated places, and a hand that starts clear of it and
+// cuts some.
 #include "studies/stability/sites/named_sites.h"
 
 #include <gtest/gtest.h>
