@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "imaging/phantoms/air_cells.h"
 #include "imaging/phantoms/anatomy_slices.h"
 #include "imaging/phantoms/distance_fields.h"
 #include "imaging/phantoms/noise.h"
@@ -20,28 +21,14 @@ namespace df = distance_field;
 
 constexpr double saw_front_y_mm = -17.0, saw_back_y_mm = 29.0, saw_inner_x_mm = -25.0;
 
-// Air cells: balls about the points of a jittered lattice.
-constexpr double cell_lattice_mm = 2.7, cell_jitter = 0.33, least_cell_mm = 0.8, largest_cell_mm = 1.65;
-
 // Bone that mastoid cells leave around the parts that they border on, mm.
 constexpr double cortex_mm = 2.2, plate_mm = 0.9, capsule_mm = 1.3, nerve_wall_mm = 0.9;
-
-struct Ball {
-    glm::dvec3 centre_mm{0.0};
-    double radius_mm = 0.0;
-};
-
-Ball cell_at(const glm::ivec3& point) {
-    const auto noise = [&](int channel) { return lattice_noise(point + glm::ivec3(1000 * channel, 0, 0)); };
-    return {cell_lattice_mm * (glm::dvec3(point) + cell_jitter * glm::dvec3(noise(0), noise(1), noise(2))),
-            glm::mix(least_cell_mm, largest_cell_mm, 0.5 + 0.5 * noise(-1))};
-}
 
 class TemporalBone {
   public:
     struct Near {
         std::vector<const AnatomyPart*> parts;
-        std::vector<Ball> cells;
+        std::vector<AirCell> cells;
     };
 
     std::optional<Near> near(const glm::dvec3& centre, double reach_mm) const {
@@ -54,14 +41,8 @@ class TemporalBone {
             if (distance < slope * reach_mm) is_empty = false;  // vessels go on outside the bone
         }
         if (is_empty) return std::nullopt;
-        const glm::ivec3 middle(glm::floor(centre / cell_lattice_mm + 0.5));
-        glm::ivec3 step;
-        for (step.z = -1; step.z <= 1; ++step.z)
-            for (step.y = -1; step.y <= 1; ++step.y)
-                for (step.x = -1; step.x <= 1; ++step.x)
-                    if (const Ball cell = cell_at(middle + step);
-                        glm::distance(cell.centre_mm, centre) < cell.radius_mm + reach_mm + 0.5)
-                        near.cells.push_back(cell);
+        if (pneumatised_mm(centre) < slope * reach_mm + sheet_mm)
+            near.cells = air_cells_near(centre, reach_mm);
         return near;
     }
 
@@ -134,16 +115,11 @@ class TemporalBone {
         cavity = std::max(cavity, std::max(0.9 - labyrinth, 0.3 - facial));
         cavity = std::min(cavity, std::max(part_mm(TemporalPart::oval_niche), 0.05 - labyrinth));
 
-        double cells = 100.0;
-        for (const Ball& cell : near.cells)
-            cells = df::smooth_union(cells, glm::distance(p, cell.centre_mm) - cell.radius_mm, 0.25);
-        if (cells < 1.0) {
-            const double keep_off =
-                std::max(std::max(std::max(cortex_mm + body, pneumatised_mm(p)),
-                                  std::max(plate_mm - part_mm(TemporalPart::sinus), capsule_mm - labyrinth)),
-                         std::max(nerve_wall_mm - facial, 1.3 - canal));
-            cavity = std::min(cavity, std::max(cells, keep_off));
-        }
+        const double keep_off =
+            std::max(std::max(std::max(cortex_mm + body, pneumatised_mm(p)),
+                              std::max(plate_mm - part_mm(TemporalPart::sinus), capsule_mm - labyrinth)),
+                     std::max(nerve_wall_mm - facial, 1.3 - canal));
+        if (keep_off < 1.0) cavity = std::min(cavity, std::max(air_cells_mm(p, near.cells), keep_off));
         cavity = std::min(cavity, std::min(lumen, std::max(part_mm(TemporalPart::fossa), 1.2 - canal)));
 
         d.bone_mm = std::max(std::max(body, -cavity), saw_mm(p));
