@@ -91,7 +91,7 @@ std::map<std::string, TraineeGroup> trainee_groups(const std::filesystem::path& 
         const std::string trainee = trimmed(fmt::format("{}", fmt::join(cells, ",")));
         if (number == 1 && trainee == "trainee" && group == "group") continue;
         if (trainee.empty() || group.empty()) fail("a line is TRAINEE,GROUP, and neither is empty");
-        if (const auto [known, is_new] = groups.try_emplace(trainee, group, number);
+        if (const auto [known, is_new] = groups.try_emplace(trainee, TraineeGroup{group, number});
             !is_new && known->second.group != group)
             fail(fmt::format("\"{}\" is in group \"{}\" already", trainee, known->second.group));
     }
