@@ -1,0 +1,58 @@
+"""A case's rating puts simulated hands into the right order, and says the same everywhere."""
+
+import concurrent.futures
+import json
+import multiprocessing
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+from support import program
+
+import osteomill as om
+
+
+def rated(name, motion, ms, file):
+    with om.Session(om.Case(name).with_(set=motion), hand="firm", record=file) as session:
+        session.run(ms)
+    with om.Recording(file) as recording:
+        return recording.rating()
+
+
+class RatingTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        held = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(held.cleanup)
+        cls.folder = pathlib.Path(held.name)
+
+    def test_ten_hands_of_a_caries_preparation(self):
+        # The first of either five takes the lesion alone; the others go ever deeper, to the pulp, or leave ever more of it.
+        too_deep = [["trajectory.width_mm=5.6", f"trajectory.depth_mm={mm}"] for mm in (4.4, 5.0, 5.5, 6.0, 6.5)]
+        too_little = [["trajectory.depth_mm=4.4", f"trajectory.width_mm={mm}"] for mm in (5.6, 5.0, 4.4, 3.6, 2.8)]
+        with concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as pool:
+            found = [hand.result() for hand in [pool.submit(rated, "jaw", motion, 40_000, self.folder / f"{number}.pcap")
+                                                for number, motion in enumerate(too_deep + too_little)]]
+        points = [one["points"] for one in found]
+        for worse_and_worse in (points[:5], points[5:]):
+            self.assertEqual(worse_and_worse, sorted(worse_and_worse, reverse=True))
+            self.assertGreaterEqual(worse_and_worse[0], 0.9 * found[0]["most_points"])
+            self.assertLessEqual(worse_and_worse[-1], 0.25 * found[0]["most_points"])
+        self.assertGreaterEqual(len(set(points)), 5)
+
+        report = self.folder / "report"
+        subprocess.run([program("packet_replay"), self.folder / "0.pcap", "--report", report], check=True, capture_output=True)
+        self.assertEqual(json.loads((report / "metrics.json").read_text())["rating"], found[0])
+
+    def test_a_case_without_one_has_none(self):
+        file = self.folder / "tooth.pcap"
+        with om.Session(om.Case("tooth"), record=file) as session:
+            session.step()
+        with om.Recording(file) as recording:
+            self.assertIsNone(recording.rating())
+            self.assertNotIn("rating_share", recording.metrics())
+
+
+if __name__ == "__main__":
+    unittest.main()
