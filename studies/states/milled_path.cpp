@@ -1,5 +1,6 @@
 #include "studies/states/milled_path.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -111,7 +112,7 @@ class PathMill {
         for (const EngagedPatch& patch : std::span(map.patches).first(map.count)) {
             if (patch.gap_mm > touching_voxels * map.spacing_mm) continue;
             touching_mm2 += patch.area_mm2;
-            if (!to.spindle_on) continue;
+            if (!to.spindle_on || patch.is_wall) continue;
             const double area_mm2 = share_of_part * patch.area_mm2;
             const double stiffness = stiffness_of(patch, burr, frame);
             const double psi = std::atan2(glm::dot(patch.normal, frame[1]), glm::dot(patch.normal, frame[0]));

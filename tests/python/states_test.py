@@ -165,7 +165,7 @@ class FarSideTest(unittest.TestCase):
         way = states_truth.FarSide(case, case.start_axis, positions_mm, 0.5)
         self.assertLessEqual(way.distance_mm(positions_mm)[-1], 0.0)
 
-    def test_pores_in_front_are_not_the_far_side(self):
+    def test_state_is_what_the_page_says(self):
         state = states_truth.state_of(np.array([False, True, True, True]), np.array([np.nan, np.nan, 1.0, -0.1]), np.array([0.0, 0.1, 1.0, 1.0]))
         self.assertEqual([states_truth.STATES[one] for one in state], ["air", "cancellous", "cortical", "breakthrough"])
 

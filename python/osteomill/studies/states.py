@@ -69,6 +69,8 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
     motions = motions_asked(options)
     if options.baseline:
         from osteomill.studies import states_baseline  # before anything is worked out for it
+    if not options.no_samples:
+        import h5py  # noqa: F401  likewise
     out = None if options.no_samples else study.file("motions.csv").parent
     outcomes = study.sweep(functools.partial(measure, out=out, every=options.every), motions, name_of)
     windows = windows_table(motions, outcomes)
