@@ -13,6 +13,7 @@ void bind_scenes(pybind11::module_& module);
 void bind_sessions(pybind11::module_& module);
 void bind_forces(pybind11::module_& module);
 void bind_stability(pybind11::module_& module);
+void bind_states(pybind11::module_& module);
 void bind_polishing(pybind11::module_& module);
 void bind_real_time(pybind11::module_& module);
 void bind_bridge(pybind11::module_& module);

@@ -18,6 +18,7 @@ PYBIND11_MODULE(_studies, module) {
     osteomill::python::bind_sessions(module);
     osteomill::python::bind_forces(module);
     osteomill::python::bind_stability(module);
+    osteomill::python::bind_states(module);
     osteomill::python::bind_polishing(module);
     osteomill::python::bind_real_time(module);
     osteomill::python::bind_bridge(module);

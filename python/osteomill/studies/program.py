@@ -33,6 +33,7 @@ STUDIES = (
     ("render", "render", "the pictures: frame time against accuracy, how smooth a cut looks"),
     ("realtime", "realtime", "how late the haptic loop wakes and how long it takes, in turns with cyclictest; then under stress-ng"),
     ("bridge", "bridge", "the way to an arm behind the bridge and back, beside a bare echo of the same size"),
+    ("states", "states", "the states of milling as data: force within the tooth period, vibration, sound, and what is true of the bone"),
     ("calibrate", "calibrate", "the six coefficients of the milling law from forces on a dynamometer; or which runs to make"),
     ("sessions", "sessions", "recorded sessions of several trainees: tables, learning curves, an overview, a tidy CSV"),
     ("repeat", REPEAT, "run a study again, twice, and say what differs from its folder by more than its noise; or a recording, to the bit"),
