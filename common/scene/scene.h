@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/scene/burr.h"
+#include "common/scene/fixture.h"
 #include "common/scene/motor.h"
 #include "common/scene/pass_marks.h"
 #include "common/scene/plan.h"
@@ -136,6 +137,7 @@ struct Scene {
     std::optional<Plan> plan{};  ///< what a session is measured against
     PassMarks pass{};            ///< what it has to reach
     Rating rating{};             ///< what earns it points
+    std::vector<Fixture> fixtures{};  ///< what helps the hand by force
 
     bool operator==(const Scene&) const = default;
 };
