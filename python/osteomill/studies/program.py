@@ -35,6 +35,7 @@ STUDIES = (
     ("bridge", "bridge", "the way to an arm behind the bridge and back, beside a bare echo of the same size"),
     ("calibrate", "calibrate", "the six coefficients of the milling law from forces on a dynamometer; or which runs to make"),
     ("sessions", "sessions", "recorded sessions of several trainees: tables, learning curves, an overview, a tidy CSV"),
+    ("assist", "assist", "recorded hands once more, with and without a virtual fixture: damage, time, force"),
     ("repeat", REPEAT, "run a study again, twice, and say what differs from its folder by more than its noise; or a recording, to the bit"),
 )
 
