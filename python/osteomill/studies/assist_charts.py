@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from osteomill.studies import charts
 from osteomill.studies.assist import OUTCOMES, RECORDED, WITH, WITHOUT
 
+LEAST_SHOWN = 0.01
 COLOURS = (charts.BLUE, charts.RED, charts.GREEN, charts.PINK, charts.AMBER, charts.SKY)
 
 
@@ -36,7 +37,8 @@ def outcomes(table: pd.DataFrame) -> Figure:
         recorded = table[table["fixture"] == RECORDED]
         if key in recorded and recorded[key].notna().any():
             axes.axhline(float(recorded.groupby("trainee")[key].mean().mean()), color=charts.GREY, linestyle="--")
-        axes.set(ylabel=_labelled(text, unit), ylim=(0.0, None))
+        # Rounding is no energy.
+        axes.set(ylabel=_labelled(text, unit), ylim=(0.0, max(LEAST_SHOWN, axes.get_ylim()[1])))
     panels[0].legend()
     return figure
 
