@@ -134,9 +134,9 @@ struct Scene {
     DeviceMapping device;
     ToolPose start_pose;
     TrajectorySpec trajectory;
-    std::optional<Plan> plan{};  ///< what a session is measured against
-    PassMarks pass{};            ///< what it has to reach
-    Rating rating{};             ///< what earns it points
+    std::optional<Plan> plan{};       ///< what a session is measured against
+    PassMarks pass{};                 ///< what it has to reach
+    Rating rating{};                  ///< what earns it points
     std::vector<Fixture> fixtures{};  ///< what helps the hand by force
 
     bool operator==(const Scene&) const = default;
