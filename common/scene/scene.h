@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/scene/burr.h"
+#include "common/scene/fixture.h"
 #include "common/scene/motor.h"
 #include "common/scene/pass_marks.h"
 #include "common/scene/plan.h"
@@ -133,9 +134,10 @@ struct Scene {
     DeviceMapping device;
     ToolPose start_pose;
     TrajectorySpec trajectory;
-    std::optional<Plan> plan{};  ///< the goal of a session
-    PassMarks pass{};            ///< marks that it has to reach
-    Rating rating{};             ///< items that earn it points
+    std::optional<Plan> plan{};       ///< the goal of a session
+    PassMarks pass{};                 ///< marks that it has to reach
+    Rating rating{};                  ///< items that earn it points
+    std::vector<Fixture> fixtures{};  ///< virtual fixtures that help the hand by force
 
     bool operator==(const Scene&) const = default;
 };

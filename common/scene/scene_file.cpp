@@ -9,6 +9,7 @@
 
 #include "common/files/needed_version.h"
 #include "common/scene/apply_change.h"
+#include "common/scene/fixture_table.h"
 #include "common/scene/phantom_names.h"
 #include "common/scene/plan_table.h"
 #include "common/scene/rating_table.h"
@@ -234,6 +235,7 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     if (auto table = reader.table("trajectory"))
         scene.trajectory = read_trajectory(*table, folder, scene.burrs[scene.start_burr]);
     if (auto table = reader.table("plan")) scene.plan = read_plan(*table, scene.tissues);
+    scene.fixtures = read_fixtures(reader.tables("fixture"), scene.tissues);
     scene.rating = read_rating(reader.tables("rating"), scene);
     if (auto table = reader.table("pass")) scene.pass = read_pass_marks(*table, scene);
     reader.refuse_other_keys();

@@ -20,6 +20,10 @@
 //                      start_mm, travel_direction, speed_mm_per_s, depth_mm, width_mm
 //     [plan]           tissue = "carious lesion"   or   sphere = { centre_mm, radius_mm }   or
 //                      cylinder = { from_mm, to_mm, radius_mm }; margin_mm
+//     [[fixture]]      name, kind = "guide" | "forbidden" | "slow", on = true;
+//                      line = { from_mm, to_mm } or plane = { at_mm, normal }, radius_mm, reach_mm   or
+//                      tissue = "pulp", distance_mm; fade_mm, stiffness_n_per_mm, damping_n_s_per_m,
+//                      max_force_n, spindle_share
 //     [pass]           time_s, plan_removed_share, plan_excess_mm3, structure_touches, peak_force_n
 //
 // Paths are relative to the scene file. Only name and [bone] are required; all else has the defaults of

@@ -242,6 +242,37 @@ std::string rating_text(const Rating& rating, SceneText extent) {
     return text;
 }
 
+std::string path_text(const std::variant<LineGuide, PlaneGuide>& path) {
+    if (const auto* line = std::get_if<LineGuide>(&path))
+        return fmt::format("line = {{ from_mm = {}, to_mm = {} }}\n", toml_text(line->from_mm),
+                           toml_text(line->to_mm));
+    const auto& plane = std::get<PlaneGuide>(path);
+    return fmt::format("plane = {{ at_mm = {}, normal = {} }}\n", toml_text(plane.at_mm),
+                       toml_text(plane.normal));
+}
+
+std::string fixture_text(const Fixture& fixture, SceneText extent) {
+    const Fixture usual = usual_fixture(fixture.kind);
+    Keys keys(extent);
+    keys.add("name", fixture.name)
+        .add("kind", fixture_kind_names[static_cast<std::size_t>(fixture.kind)])
+        .add("on", fixture.is_on, true);
+    if (fixture.kind == FixtureKind::guide)
+        keys.add_text(path_text(fixture.path))
+            .add("radius_mm", fixture.radius_mm, usual.radius_mm)
+            .add("reach_mm", fixture.reach_mm, usual.reach_mm);
+    else
+        keys.add("tissue", fixture.tissue).add("distance_mm", fixture.distance_mm, usual.distance_mm);
+    keys.add("fade_mm", fixture.fade_mm, usual.fade_mm)
+        .add("damping_n_s_per_m", fixture.damping_n_s_per_m, usual.damping_n_s_per_m);
+    if (fixture.kind == FixtureKind::slow)
+        keys.add("spindle_share", fixture.spindle_share, usual.spindle_share);
+    else
+        keys.add("stiffness_n_per_mm", fixture.stiffness_n_per_mm, usual.stiffness_n_per_mm)
+            .add("max_force_n", fixture.max_force_n, usual.max_force_n);
+    return "[[fixture]]\n" + keys.text();
+}
+
 }  // namespace
 
 std::string write_scene(const Scene& scene, SceneText extent) {
@@ -270,7 +301,10 @@ std::string write_scene(const Scene& scene, SceneText extent) {
     Keys pass(extent);
     for (const auto& [metric, mark] : scene.pass) pass.add(metric.c_str(), mark);
     text += pass.below("\n# What a session has to reach.\n[pass]\n");
-    return text + rating_text(scene.rating, extent);
+    text += rating_text(scene.rating, extent);
+    if (!scene.fixtures.empty()) text += "\n# What helps the hand by force.\n";
+    for (const Fixture& fixture : scene.fixtures) text += fixture_text(fixture, extent);
+    return text;
 }
 
 }  // namespace osteomill

@@ -18,6 +18,7 @@
 #include "common/text/words.h"
 #include "devices/simulated/hand_model.h"
 #include "devices/simulated/recorded_device.h"
+#include "imaging/case/structures.h"
 #include "simulation/loop/milling_session.h"
 
 namespace osteomill {
@@ -151,7 +152,11 @@ class Repeat {
         if (!first.input) throw NotRepeatable(only_to_four_decimals);
         const SessionInfo& info = playhead_.session();
         const Scene scene = scene_of(info);
-        const MillingSessionOptions options = options_of(info);
+        MillingSessionOptions options = options_of(info);
+        if (!scene.fixtures.empty()) {
+            options.structures = playhead_.structures();
+            add_structures_in_bone(scene, *start_, options.structures);
+        }
         is_real_ = options.repeats_real_clock;
         if (is_real_ && options.milling_rate_hz != 1.0 / MillingSession::tick_s)
             throw NotRepeatable(

@@ -30,6 +30,7 @@ MillingSessionOptions milling_options(const SessionOptions& options, const Sessi
         throw std::runtime_error("--clock virtual: the trajectory never ends; give --duration-s");
     MillingSessionOptions milling = options.milling;
     milling.removed_before_mm3 = scene.source.removed_before_mm3;
+    if (!scene.scene.fixtures.empty()) milling.structures = scene.structures;
     milling.changes_are_consumed = milling.can_be_controlled = options.shown.has_value();
     return milling;
 }
@@ -71,6 +72,7 @@ SessionAssembly::SessionAssembly(SessionScene scene, DeviceParts device, Session
     tick_logs_.add(options.more_ticks);
     session_ = std::make_unique<MillingSession>(scene_.scene, std::move(scene_.bone), *device_.device,
                                                 options_, &tick_logs_, logs_.milling());
+    options_.structures.clear();
     if (!options.shown) return;
     options.shown->streaming.paced_by_session = is_virtual();
     shown_.emplace(*std::move(options.shown), scene_, *std::move(mirror), *session_, device_);

@@ -188,6 +188,7 @@ void SteppedSession::step(const HandInput& input) {
 TickState SteppedSession::state() const {
     TickState state{
         .tool = run_.tool, .milling_force_n = milling_force_n(), .removed_in_all_mm3 = removed_in_all_mm3()};
+    state.fixture_force_n = run_.assembly->session().fixture_force_n();
     state.spindle_torque_n_mm = spindle_torque_n_mm();
     state.spindle_power_w = power_w(state.spindle_torque_n_mm, loaded_->settings().burrs[run_.tool.burr]);
     state.removed_mm3.reserve(loaded_->labels().size());

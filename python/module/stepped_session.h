@@ -57,6 +57,7 @@ struct TickState {
         0.0};  ///< of the bone on the burr, mean over the newest milling step known to the tick
     std::vector<double> removed_mm3{};  ///< so far, by LoadedCase::labels()
     double removed_in_all_mm3 = 0.0;
+    glm::dvec3 fixture_force_n{0.0};   ///< of the scene's fixtures on the burr
     double spindle_torque_n_mm = 0.0;  ///< that the cut takes (spindle_torque.h), in the tick's ms
     double spindle_power_w = 0.0;
 };

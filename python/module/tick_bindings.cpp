@@ -50,11 +50,11 @@ py::tuple said(const Tick& tick) {
         tool.peak_force_n.value_or(0.0), tool.touches_protected, std::string(tool.fault.text()),
         std::string(tool.notice.text()), tick.state.removed_in_all_mm3, tick.state.removed_mm3,
         tick.distance_mm, tick.names->tissues, tick.names->structures, tick.state.spindle_torque_n_mm,
-        tick.state.spindle_power_w);
+        tick.state.spindle_power_w, row(tick.state.fixture_force_n));
 }
 
 Tick tick_that_said(const py::tuple& said) {
-    if (said.size() != 21) throw std::invalid_argument("this is no Step of this version");
+    if (said.size() != 22) throw std::invalid_argument("this is no Step of this version");
     Tick tick;
     tick.state.tool = {.time_s = said[0].cast<double>(),
                        .burr_position_mm = vector_in(said[2]),
@@ -73,6 +73,7 @@ Tick tick_that_said(const py::tuple& said) {
     tick.state.removed_in_all_mm3 = said[14].cast<double>();
     tick.state.spindle_torque_n_mm = said[19].cast<double>();
     tick.state.spindle_power_w = said[20].cast<double>();
+    tick.state.fixture_force_n = vector_in(said[21]);
     tick.state.removed_mm3 = said[15].cast<std::vector<double>>();
     tick.distance_mm = said[16].cast<std::vector<double>>();
     tick.names = std::make_shared<const StepNames>(
@@ -120,6 +121,10 @@ void bind_tick(py::module_& module) {
                                vector([](const TickState& s) { return s.milling_force_n; }),
                                "Of the bone on the burr, mean over the newest milling step that the tick "
                                "knew, limited by nothing: (3,), N.")
+        .def_property_readonly("fixture_force_n",
+                               vector([](const TickState& s) { return s.fixture_force_n; }),
+                               "Of the scene's fixtures on the burr, which the hand feels through the "
+                               "coupling: (3,), N; 0 without any.")
         .def_property_readonly(
             "depth_mm", [](const Tick& tick) { return tick.state.tool.depth_mm.value_or(0.0); },
             "Of the burr below where it first met bone, along the spindle axis of that moment; 0 before.")

@@ -151,14 +151,14 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
                                          const Engagement& engagement) noexcept {
     glm::dmat3 damping_n_per_mm(0.0);
     LinearPull damped = pull;
-    const glm::dvec3 damper_follows_mm = followed_mm(hand_step_mm, -pull.offset_n);
+    const glm::dvec3 damper_follows_mm = followed_mm(hand_step_mm, pull.of_fixtures_n - pull.offset_n);
     const auto add_up = [&](const ContactStep& step) {
         iterations_ += step.iterations;
         return step;
     };
     const auto solve = [&] {
         damped.offset_n = pull.offset_n + damping_n_per_mm * damper_follows_mm;
-        damped.damping_n_per_mm = damping_n_per_mm;
+        damped.damping_n_per_mm = pull.damping_n_per_mm + damping_n_per_mm;
         // If edges rub, from rest, which finds the balance nearby. Newton may be caught where a contact
         // begins; then the other start succeeds.
         const glm::dvec3 free_mm = damped.free_step_mm();
@@ -202,11 +202,12 @@ ContactStep BurrProxy::balance_with_bone(const LinearPull& pull, const glm::dvec
 
 void BurrProxy::move(const glm::dvec3& step_mm, const glm::dvec3& target_mm, const LinearPull& pull,
                      double tick_s) noexcept {
-    const glm::dvec3 change_n = pull.force_n(step_mm) - pulled_n_;
+    const glm::dvec3 change_n = pull.tie_n(step_mm) - pulled_n_;
     const double most_n = most_release_n_per_s * tick_s;
     if (pulled_n_ != glm::dvec3(0.0) && glm::length(change_n) > most_n) {
         const glm::dvec3 lets_go_to_n = pulled_n_ + no_longer_than(change_n, most_n);
-        const glm::dvec3 slowed_mm = (pull.offset_n - lets_go_to_n) / pull.stiffness_n_per_mm;
+        const glm::dvec3 slowed_mm =
+            (pull.offset_n - pull.of_fixtures_n - lets_go_to_n) / pull.stiffness_n_per_mm;
         if (glm::length(slowed_mm) < glm::length(step_mm)) {
             position_mm_ += slowed_mm;
             return;
@@ -271,7 +272,8 @@ void BurrProxy::press_toward(const glm::dvec3& target_mm, const LinearPull& pull
 
 void BurrProxy::remember_pull(const LinearPull& pull, const glm::dvec3& before_mm,
                               const glm::dvec3& target_mm) noexcept {
-    pulled_n_ = position_mm_ == target_mm ? glm::dvec3(0.0) : pull.force_n(position_mm_ - before_mm);
+    const bool is_hand = position_mm_ == target_mm && !pull.has_fixtures;
+    pulled_n_ = is_hand ? glm::dvec3(0.0) : pull.tie_n(position_mm_ - before_mm);
 }
 
 void BurrProxy::advance(const glm::dvec3& target_mm, const glm::dvec3& hand_mm, const LinearPull& pull,

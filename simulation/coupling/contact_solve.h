@@ -33,13 +33,20 @@ struct Contact {
 struct LinearPull {
     glm::dvec3 offset_n{0.0};
     double stiffness_n_per_mm = 1.0;
-    /// Symmetric, no eigenvalue below 0: it also resists the step, some ways more than others.
+    /// Symmetric, no eigenvalue below 0: it also resists the step, some ways more than others. Of hidden
+    /// damping, and of fixtures.
     glm::dmat3 damping_n_per_mm{0.0};
+    bool has_fixtures = false;
+    glm::dvec3 of_fixtures_n{0.0};  ///< in `offset_n`, and not of the tie to the hand
 
     glm::dmat3 resistance_n_per_mm() const { return glm::dmat3(stiffness_n_per_mm) + damping_n_per_mm; }
     glm::dvec3 free_step_mm() const { return glm::inverse(resistance_n_per_mm()) * offset_n; }
     glm::dvec3 force_n(const glm::dvec3& step_mm) const {
         return offset_n - stiffness_n_per_mm * step_mm - damping_n_per_mm * step_mm;
+    }
+    /// Without hidden damping and fixtures: what the hand feels the opposite of.
+    glm::dvec3 tie_n(const glm::dvec3& step_mm) const {
+        return offset_n - of_fixtures_n - stiffness_n_per_mm * step_mm;
     }
 };
 

@@ -9,6 +9,7 @@
 #include "common/scene/solve_counts.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/exchange/milling_step.h"
+#include "simulation/fixtures/fixtures.h"
 
 namespace osteomill {
 
@@ -40,6 +41,9 @@ class Coupling {
     /// Outcomes of the solves so far; zero for a coupling that does not solve.
     virtual SolveCounts solve_counts() const noexcept { return {}; }
 
+    /// Of the scene's fixtures on the burr in the last tick, patient axes.
+    virtual glm::dvec3 fixture_force_n() const noexcept { return glm::dvec3(0.0); }
+
     /// Clears all state, as after a fault or a jump of the device: the next tick starts from the hand's pose.
     virtual void reset() noexcept = 0;
 
@@ -55,6 +59,7 @@ struct CouplingOptions {
     bool model_holds_wall = false;
     /// Coulomb's coefficient of a burr at rest on bone, for couplings that solve a balance.
     double wall_friction = 0.0;
+    std::shared_ptr<const Fixtures> fixtures{};  ///< null: none; else only of couplings that take them
 };
 
 }  // namespace osteomill

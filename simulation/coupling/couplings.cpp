@@ -64,6 +64,7 @@ const std::vector<CouplingEntry>& couplings() {
         {.name = "implicit",
          .text = "a burr on a spring, solved with the milling force at the tick's end",
          .needs_cutting_law = true,
+         .takes_fixtures = true,
          .make = plain<ImplicitCoupling>()},
         {.name = "hold", .text = "the newest model force, held", .takes_addition = true, .make = hold},
         {.name = "interpolate",
@@ -86,6 +87,7 @@ const std::vector<CouplingEntry>& couplings() {
          .make = direct(Estimate::trapezoid, ForceShape::line)},
         {.name = "virtual-coupling",
          .text = "a virtual tool with a mass under the held force, tied to the hand",
+         .takes_fixtures = true,
          .make = plain<VirtualCoupling>()},
         {.name = "passivity",
          .text = "hold, damped while it has given more than it took",
@@ -126,6 +128,11 @@ std::unique_ptr<Coupling> make_coupling(const std::string& name, const CouplingO
         throw std::invalid_argument("the " + name +
                                     " coupling solves a cutting law, and the force model has none; choose "
                                     "another, such as interpolate");
+    if (options.fixtures && !coupling.takes_fixtures)
+        throw std::invalid_argument(
+            "the " + name +
+            " coupling takes no [[fixture]], for its burr is rigidly the hand; choose "
+            "implicit or virtual-coupling, or set the fixtures' 'on' to false");
     return coupling.make(options);
 }
 

@@ -20,6 +20,7 @@ struct CouplingEntry {
     bool needs_cutting_law = false;  ///< it solves one: not with a force model that has none
     bool is_interpolated = false;    ///< a line between two model forces, as the published method has it
     bool takes_addition = false;     ///< it can be combined: NAME+damper, NAME+passivity
+    bool takes_fixtures = false;     ///< its burr is on a spring, and fixtures act on that
     CouplingFactory make;
 };
 
@@ -35,7 +36,7 @@ std::string coupling_choices();
 CouplingEntry find_coupling(const std::string& name);
 
 /// Throws as find_coupling does, and std::invalid_argument for a coupling that needs a cutting law with a
-/// model that has none.
+/// model that has none, or that takes no fixtures where there are some.
 std::unique_ptr<Coupling> make_coupling(const std::string& name, const CouplingOptions& options);
 
 }  // namespace osteomill

@@ -16,6 +16,7 @@
 #include "simulation/coupling/burr_proxy.h"
 #include "simulation/coupling/coupling.h"
 #include "simulation/coupling/coupling_spring.h"
+#include "simulation/coupling/fixture_pull.h"
 #include "simulation/coupling/position_observer.h"
 
 namespace osteomill {
@@ -25,9 +26,13 @@ class ImplicitCoupling final : public Coupling {
     explicit ImplicitCoupling(const CouplingOptions& options);
 
     CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept override;
-    void reset() noexcept override { placed_ = false; }
+    void reset() noexcept override {
+        placed_ = false;
+        fixtures_.reset();
+    }
     std::unique_ptr<Coupling> copy() const override { return std::make_unique<ImplicitCoupling>(*this); }
     SolveCounts solve_counts() const noexcept override { return proxy_.counts(); }
+    glm::dvec3 fixture_force_n() const noexcept override { return fixtures_.force_n(); }
 
     /// Filter on the burr's side of the damping, ten times the hand's: the proxy moves unevenly, as its map
     /// is refreshed and contacts come and go, and the hand should not feel that.
@@ -37,6 +42,7 @@ class ImplicitCoupling final : public Coupling {
     PositionObserver hand_;
     BurrProxy proxy_;
     CouplingSpring spring_;
+    FixturePull fixtures_;
     bool placed_ = false;
 };
 

@@ -16,6 +16,7 @@
 #include "simulation/coupling/burr_proxy.h"
 #include "simulation/coupling/coupling.h"
 #include "simulation/coupling/coupling_spring.h"
+#include "simulation/coupling/fixture_pull.h"
 #include "simulation/coupling/position_observer.h"
 
 namespace osteomill {
@@ -25,9 +26,13 @@ class VirtualCoupling final : public Coupling {
     explicit VirtualCoupling(const CouplingOptions& options);
 
     CouplingOutput tick(const HandState& hand, const MillingResult& latest) noexcept override;
-    void reset() noexcept override { placed_ = false; }
+    void reset() noexcept override {
+        placed_ = false;
+        fixtures_.reset();
+    }
     std::unique_ptr<Coupling> copy() const override { return std::make_unique<VirtualCoupling>(*this); }
     SolveCounts solve_counts() const noexcept override { return tool_.counts(); }
+    glm::dvec3 fixture_force_n() const noexcept override { return fixtures_.force_n(); }
 
   private:
     double mass_n_s2_per_mm_;
@@ -35,6 +40,7 @@ class VirtualCoupling final : public Coupling {
     PositionObserver hand_;
     CouplingSpring tie_;
     BurrProxy tool_;
+    FixturePull fixtures_;
     bool placed_ = false;
     glm::dvec3 velocity_mm_per_s_{0.0};  // of the tool
 };

@@ -103,6 +103,8 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_.burr()};
     if (safety_.has_hand()) hand = hand_state(now_s, elapsed_s, device);
     hand.speed_share = speed_share(elapsed_s);
+    if (parts_.fixtures != nullptr)
+        hand.speed_share *= parts_.fixtures->spindle_share(burr_pose_, burr_.burr());
 
     glm::dvec3 wanted_n(0.0);
     glm::dvec3 shank_torque_n_mm(0.0);

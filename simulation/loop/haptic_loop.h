@@ -46,6 +46,7 @@ struct HapticLoopParts {
     HandpieceVibration* vibration = nullptr;        ///< added to the coupling's force; null: none
     SessionGate* gate = nullptr;                    ///< read and written; null: the session never holds still
     TripleBuffer<Placement>* placements = nullptr;  ///< read, with `gate`
+    const Fixtures* fixtures = nullptr;  ///< that may slow a spindle whose speeds the options say; null: none
 };
 
 struct HapticLoopOptions {

@@ -118,12 +118,16 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
       log_(log),
       milling_log_(milling_log),
       model_(make_force_model(options.force_model, std::move(bone), felt_burrs(scene), scene.tissues)),
+      fixtures_(make_fixtures(
+          scene, options.structures,
+          in_patient_space(device.limits(), ArmScale(scene.device.scale)).max_stiffness_n_per_mm)),
       coupling_(make_coupling(
           options.coupling,
           {.device = in_patient_space(device.limits(), ArmScale(scene.device.scale)),
            .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
            .model_holds_wall = !find_force_model(options.force_model).has_cutting_law,
-           .wall_friction = find_force_model(options.force_model).has_friction ? scene.wall_friction : 0.0})),
+           .wall_friction = find_force_model(options.force_model).has_friction ? scene.wall_friction : 0.0,
+           .fixtures = fixtures_})),
       exchange_(model_->bone(), tool_at_start(scene),
                 {.consume_changes = options.changes_are_consumed, .control = options.can_be_controlled}),
       vibration_(make_vibration(scene, device, options)),
@@ -143,7 +147,9 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
       milling_steps_(1.0 / options.milling_rate_hz,
                      // On the real clock it finds a fresh command, and is done before the next tick.
                      options.clock == ClockKind::real || options.repeats_real_clock ? 0.5 * tick_s : 0.0,
-                     milling_work()) {}
+                     milling_work()) {
+    options_.structures.clear();
+}
 
 MillingSession::MillingSession(const MillingSession& other, HapticDevice& device, SampleLog<TickSample>* log)
     : options_(followed_by_nobody(other.options_)),
@@ -151,6 +157,7 @@ MillingSession::MillingSession(const MillingSession& other, HapticDevice& device
       log_(log),
       milling_log_(nullptr),
       model_(other.model_->copy()),
+      fixtures_(other.fixtures_),
       coupling_(other.coupling_->copy()),
       exchange_(other.exchange_, model_->bone()),
       vibration_(other.vibration_),
@@ -172,7 +179,8 @@ HapticLoopParts MillingSession::haptic_parts() noexcept {
             .log = log_,
             .vibration = vibration_ ? &*vibration_ : nullptr,
             .gate = exchange_.restored ? &exchange_.gate : nullptr,
-            .placements = exchange_.restored ? &exchange_.placements : nullptr};
+            .placements = exchange_.restored ? &exchange_.placements : nullptr,
+            .fixtures = fixtures_.get()};
 }
 
 MillingLoopParts MillingSession::milling_parts(const std::optional<Motor>& motor) noexcept {

@@ -59,6 +59,8 @@ struct MillingSessionOptions {
     /// choice.
     std::optional<int> haptic_cpu{};
     std::optional<int> milling_cpu{};
+    /// Of the scene's protected tissues, for its fixtures; not kept.
+    std::vector<Structure> structures{};
 };
 
 struct MillingSessionReport {
@@ -87,7 +89,8 @@ class MillingSession {
     static constexpr std::uint64_t settling_ticks = 100;
     /// `device` and the logs (may be null) outlive the session. Throws std::invalid_argument for a milling
     /// rate out of range, a processor that this process may not use, an unknown coupling or force model, a
-    /// coupling that the force model has no law for, or a scene that the parts refuse.
+    /// coupling that the force model has no law for or that takes no fixtures where the scene has some, or a
+    /// scene that the parts refuse.
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,
                    SampleLog<TickSample>* log = nullptr, SampleLog<MillingSample>* milling_log = nullptr);
     /// Another on the virtual clock that goes on where `other` is, between two calls of its advance(): with
@@ -132,6 +135,9 @@ class MillingSession {
 
     /// After run() or end().
     MillingSessionReport report() const;
+    /// Of the scene's fixtures on the burr in the last tick, patient axes; on the virtual clock between two
+    /// calls of advance().
+    glm::dvec3 fixture_force_n() const { return coupling_->fixture_force_n(); }
     SolveCounts solve_counts() const { return coupling_->solve_counts(); }
     const std::array<std::uint64_t, HapticLoop::fault_kinds>& fault_counts() const {
         return haptic_loop_.fault_counts();
@@ -169,6 +175,7 @@ class MillingSession {
     SampleLog<TickSample>* log_;
     SampleLog<MillingSample>* milling_log_;
     std::unique_ptr<ForceModel> model_;
+    std::shared_ptr<const Fixtures> fixtures_;  // null: none
     std::unique_ptr<Coupling> coupling_;
     SessionExchange exchange_;
     std::optional<HandpieceVibration> vibration_;

@@ -199,6 +199,15 @@ TEST(Documents, DescribeEveryKeyOfAScene) {
                   .warn_mm = 3.0};
     scene.tissues = {tissue, tissue};
     scene.tissues[1].strength->material = "enamel";
+    scene.fixtures = {{.kind = FixtureKind::guide, .is_on = false, .radius_mm = 9.0, .reach_mm = 9.0},
+                      {.kind = FixtureKind::guide, .path = PlaneGuide{}},
+                      {.kind = FixtureKind::forbidden,
+                       .distance_mm = 9.0,
+                       .fade_mm = 9.0,
+                       .stiffness_n_per_mm = 9.0,
+                       .damping_n_s_per_m = 9.0,
+                       .max_force_n = 9.0},
+                      {.kind = FixtureKind::slow, .spindle_share = 0.5}};
     std::set<std::string> keys{"phantom", "file", "sphere", "cylinder"};  // a scene has only one of these
     const std::string scene_text = write_scene(scene);
     for (std::sregex_iterator match(scene_text.begin(), scene_text.end(), key), end; match != end; ++match)

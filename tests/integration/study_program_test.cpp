@@ -309,7 +309,7 @@ TEST_F(StudyProgram, SaysInOneLineWhatIsWrong) {
     expect_refused(
         "", 2,
         "a study to run: force, tradeoff, choose, stability, arms, polishing, render, realtime, bridge, "
-        "states, calibrate, sessions or repeat");
+        "states, calibrate, sessions, assist or repeat");
     expect_refused("farce", 2, "farce");
     expect_refused("realtime --quick --duration-s 60", 2, "--duration-s");
     expect_refused(std::string("force --cases ") + case_file + " --voxel-mm 0", 2, "--voxel-mm");

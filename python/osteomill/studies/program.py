@@ -36,6 +36,7 @@ STUDIES = (
     ("states", "states", "the states of milling as data: force within the tooth period, vibration, sound, and what is true of the bone"),
     ("calibrate", "calibrate", "the six coefficients of the milling law from forces on a dynamometer; or which runs to make"),
     ("sessions", "sessions", "recorded sessions of several trainees: tables, learning curves, an overview, a tidy CSV"),
+    ("assist", "assist", "recorded hands once more, with and without a virtual fixture: damage, time, force"),
     ("repeat", REPEAT, "run a study again, twice, and say what differs from its folder by more than its noise; or a recording, to the bit"),
 )
 

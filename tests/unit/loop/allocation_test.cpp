@@ -19,6 +19,7 @@
 #include "simulation/force_models/force_models.h"
 #include "simulation/loop/haptic_loop.h"
 #include "simulation/loop/milling_loop.h"
+#include "tests/support/ball_structure.h"
 #include "tests/support/block.h"
 #include "tests/support/eventually.h"
 #include "tests/support/haply_service.h"
@@ -35,17 +36,18 @@ const ToolPose start{{-3.0, 0.0, 1.1}, {0.0, 0.0, 1.0}};
 /// Slides through a block with the spindle on: the loops are in the middle of their work.
 struct Rig {
     Rig(const std::string& force_model, const std::string& coupling_name, HapticDevice& device,
-        const Burr& used)
+        const Burr& used, const std::shared_ptr<const Fixtures>& fixtures)
         : model(make_force_model(force_model, testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1),
                                  {used}, {})),
-          coupling(
-              make_coupling(coupling_name,
-                            {.device = in_patient_space(device.limits(), ArmScale()),
-                             .milling_period_s = 0.001,
-                             .model_holds_wall = !osteomill::find_force_model(force_model).has_cutting_law})),
+          coupling(make_coupling(
+              coupling_name, {.device = in_patient_space(device.limits(), ArmScale()),
+                              .milling_period_s = 0.001,
+                              .model_holds_wall = !osteomill::find_force_model(force_model).has_cutting_law,
+                              .fixtures = fixtures})),
           vibration({used}, {.max_force_n = 3.3, .max_slew_n_per_s = ForceGuard::slew_n_per_s}),
-          haptic({device, *coupling, *results, commands, tool, status, &log, &vibration},
-                 {.has_shank = true, .start_pose = start}) {}
+          haptic({device, *coupling, *results, commands, tool, status, &log, &vibration, nullptr, nullptr,
+                  fixtures.get()},
+                 {.spindle_rev_per_s = {used.spindle_rev_per_s}, .has_shank = true, .start_pose = start}) {}
 
     testing::TemporaryFolder folder;
     ForceLog log{folder / "forces.csv"};
@@ -65,8 +67,9 @@ struct Rig {
 /// Returns in how many ticks the shank touched bone.
 int expect_no_allocation(
     const std::string& force_model, const std::string& coupling_name, HapticDevice& device,
-    const std::function<void()>& before_tick = [] {}, const Burr& used = burr) {
-    const auto rig = std::make_unique<Rig>(force_model, coupling_name, device, used);
+    const std::function<void()>& before_tick = [] {}, const Burr& used = burr,
+    const std::shared_ptr<const Fixtures>& fixtures = nullptr) {
+    const auto rig = std::make_unique<Rig>(force_model, coupling_name, device, used, fixtures);
     int touching = 0;
     const std::size_t before = testing::allocation_count();
     for (int tick = 0; tick < 2000; ++tick) {
@@ -112,6 +115,32 @@ TEST(RealTimeCode, AllocatesNothingWithASimulatedHand) {
                                            {2.0, {{3.0, 0.0, 0.2}, {0.0, 0.0, 1.0}}, false, std::nullopt}}),
                                DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
         expect_no_allocation(model, coupling, device);
+    }
+}
+
+TEST(RealTimeCode, AllocatesNothingWithFixtures) {
+    Scene scene;
+    scene.burrs = {burr};
+    scene.tissues = {{.label = 1, .name = "nerve", .is_protected = true}};
+    for (const FixtureKind kind : {FixtureKind::guide, FixtureKind::forbidden, FixtureKind::slow}) {
+        scene.fixtures.push_back(usual_fixture(kind));
+        scene.fixtures.back().tissue = "nerve";
+    }
+    scene.fixtures[0].path = LineGuide{{-3.0, 0.2, 0.3}, {3.0, 0.2, 0.3}};
+    scene.fixtures[2].spindle_share = 0.5;
+    const Grid grid{.size_voxels = {16, 16, 16}, .spacing_mm = 0.1, .origin_mm = {-0.75, -0.75, -2.0}};
+    const std::vector<Structure> nerve{
+        {.tissue = 0, .mask = testing::ball_mask(grid, {0.0, 0.0, -1.2}, 0.5)}};
+    const auto fixtures = make_fixtures(scene, nerve, 1.5);
+    ASSERT_NE(fixtures->pull_on({{0.0, 0.0, 0.25}, {0.0, 0.0, 1.0}}, 0).force_n, glm::dvec3(0.0));
+    for (const char* coupling : {"implicit", "virtual-coupling"}) {
+        SimulatedDevice device(Trajectory({{0.0, start, true, std::nullopt},
+                                           {0.15, {{-2.7, 0.0, 0.4}, {0.0, 0.0, 1.0}}, true, std::nullopt},
+                                           {1.5, {{1.5, 0.0, 0.25}, {0.0, 0.0, 1.0}}, false, std::nullopt},
+                                           {2.0, {{3.0, 0.0, 0.2}, {0.0, 0.0, 1.0}}, false, std::nullopt}}),
+                               DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
+        expect_no_allocation(
+            force_model_names().front(), coupling, device, [] {}, burr, fixtures);
     }
 }
 
