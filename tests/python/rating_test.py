@@ -32,7 +32,7 @@ class RatingTest(unittest.TestCase):
         too_deep = [["trajectory.width_mm=5.6", f"trajectory.depth_mm={mm}"] for mm in (4.4, 5.0, 5.5, 6.0, 6.5)]
         too_little = [["trajectory.depth_mm=4.4", f"trajectory.width_mm={mm}"] for mm in (5.6, 5.0, 4.4, 3.6, 2.8)]
         with concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as pool:
-            found = [hand.result() for hand in [pool.submit(rated, "jaw", motion, 40_000, self.folder / f"{number}.pcap")
+            found = [hand.result() for hand in [pool.submit(rated, "jaw", motion, 70_000, self.folder / f"{number}.pcap")
                                                 for number, motion in enumerate(too_deep + too_little)]]
         points = [one["points"] for one in found]
         for worse_and_worse in (points[:5], points[5:]):
