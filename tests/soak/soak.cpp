@@ -236,8 +236,25 @@ class Soak {
         });
     }
 
+    /// Waits until all have been live for a while: a server that hangs up on who was away too long does it
+    /// a moment after the cable is mended, and whoever comes back to a server that ends finds nobody.
+    bool all_stay_live() {
+        constexpr auto a_while = 3s;
+        for (int tries = 0; tries < 5; ++tries) {
+            if (!all_become(&Station::is_live, true)) return false;
+            bool stayed = true;
+            for (const auto began = Clock::now(); stayed && Clock::now() < began + a_while;) {
+                std::this_thread::sleep_for(20ms);
+                for (const auto& station : stations_) station->poll();
+                stayed = std::ranges::all_of(stations_, [](const auto& s) { return s->is_live(); });
+            }
+            if (stayed) return true;
+        }
+        return false;
+    }
+
     bool end_and_compare() {
-        const bool live = all_become(&Station::is_live, true);
+        const bool live = all_stay_live();
         if (!live) print_stations("not all are live");
         server_->send_signal(SIGINT);
         const bool finished = all_become(&Station::is_finished, false);
