@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 
 namespace osteomill {
 
@@ -73,6 +74,9 @@ IgtlMessage image_message(const std::string& name, const Grid& grid, const Reduc
     set_ras(matrix, glm::dmat3(1.0), centre_mm);
     const igtl::ImageMessage::Pointer message = igtl::ImageMessage::New();
     const glm::ivec3 size = box.size();
+    if (values.size() != static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+                             static_cast<std::size_t>(size.z))
+        throw std::invalid_argument("an image takes a value for each voxel of its box");
     message->SetDimensions(grid.size_voxels.x, grid.size_voxels.y, grid.size_voxels.z);
     message->SetSubVolume(size.x, size.y, size.z, box.first.x, box.first.y, box.first.z);
     const auto spacing_mm = static_cast<float>(grid.spacing_mm);

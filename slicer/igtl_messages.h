@@ -37,7 +37,8 @@ IgtlMessage transform_message(const std::string& name, const glm::dvec3& origin_
 /// square to it and to each other.
 glm::dmat3 axes_about(const glm::dvec3& axis);
 
-/// Part of an image of bytes on `grid`: `values` of the voxels of `box`, x fastest.
+/// Part of an image of bytes on `grid`: `values` of the voxels of `box`, x fastest. Throws
+/// std::invalid_argument for more or fewer values.
 IgtlMessage image_message(const std::string& name, const Grid& grid, const ReducedBox& box,
                           std::span<const std::uint8_t> values);
 

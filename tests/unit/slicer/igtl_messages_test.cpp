@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 
 #include "common/igtl/igtl_stream.h"
 
@@ -34,7 +35,7 @@ TEST(IgtlMessages, HaveNoTimeUntilTheyAreSentAndThenThatOne) {
     const Grid grid{.size_voxels = {2, 2, 2}, .spacing_mm = 0.5};
     const std::vector<std::uint8_t> values(8, 1);
     for (IgtlMessage message : {transform_message("Burr", glm::dvec3(0.0), glm::dmat3(1.0)),
-                                image_message("Bone", grid, {{0, 0, 0}, {1, 1, 1}}, values),
+                                image_message("Bone", grid, {{0, 0, 0}, {2, 2, 2}}, values),
                                 string_message("Session", "text"), status_message("BurrStatus", true, "")}) {
         const auto bits = [&message] {
             std::uint64_t sum = 0;
@@ -46,6 +47,12 @@ TEST(IgtlMessages, HaveNoTimeUntilTheyAreSentAndThenThatOne) {
         EXPECT_EQ(bits(), 1'700'000'000U * (std::uint64_t{1} << 32U) + (std::uint64_t{1} << 30U));
         EXPECT_EQ(message[42], 0) << "the size of the body follows";
     }
+}
+
+TEST(IgtlMessages, AnImageTakesAValueAVoxelOfItsBoxAndNoMore) {
+    const Grid grid{.size_voxels = {2, 2, 2}, .spacing_mm = 0.5};
+    const std::vector<std::uint8_t> values(8, 1);
+    EXPECT_THROW(image_message("Bone", grid, {{0, 0, 0}, {1, 1, 1}}, values), std::invalid_argument);
 }
 
 TEST(IgtlMessages, AnImageLiesInRasWithItsCentreAsPosition) {
