@@ -1,6 +1,7 @@
 // A step of a library in a process of its own: a file over which the library ends its process ends no other.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -23,8 +24,11 @@ class SharedBytes {
 };
 
 /// Runs `step` quietly in a child (fork) and waits for it: true if it returned true; false if it returned
-/// false, threw, or ended its process (an assertion, a signal). Its only results are in SharedBytes made
-/// before. Throws std::system_error where no process can be begun.
-bool succeeds_apart(const std::function<bool()>& step);
+/// false, threw, or ended its process (an assertion, a signal). A child that does not compute
+/// for `stuck_after` is ended, and the step tried once more: another thread may have held a lock at the fork,
+/// which nobody opens in the child. Its only results are in SharedBytes made before. Throws std::system_error
+/// if no process can be begun.
+bool succeeds_apart(const std::function<bool()>& step,
+                    std::chrono::seconds stuck_after = std::chrono::seconds(20));
 
 }  // namespace osteomill

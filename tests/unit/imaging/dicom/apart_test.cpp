@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <stdexcept>
@@ -22,6 +23,21 @@ TEST(Apart, EndsAloneWhereALibraryEndsItsProcess) {
     EXPECT_FALSE(succeeds_apart([]() -> bool { std::_Exit(3); }));
     EXPECT_FALSE(succeeds_apart([] { return ::raise(SIGKILL) == 0; }));
     EXPECT_FALSE(succeeds_apart([]() -> bool { std::abort(); }));
+}
+
+TEST(Apart, EndsAChildThatStandsStillAndTriesOnceMore) {
+    const SharedBytes tries(1);
+    const auto waits_for_ever = [&](int times) {
+        return [&tries, times] {
+            if (++tries.bytes()[0] <= times) ::pause();
+            return true;
+        };
+    };
+    EXPECT_TRUE(succeeds_apart(waits_for_ever(1), std::chrono::seconds(2)));
+    EXPECT_EQ(tries.bytes()[0], 2);
+    tries.bytes()[0] = 0;
+    EXPECT_FALSE(succeeds_apart(waits_for_ever(2), std::chrono::seconds(2)));
+    EXPECT_EQ(tries.bytes()[0], 2);
 }
 
 }  // namespace
