@@ -1,13 +1,12 @@
 #include "simulation/loop/cut_report.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <utility>
 
 #include "common/bone/finite.h"
 #include "common/scene/burr_frame.h"
+#include "simulation/loop/patch_stiffness.h"
 #include "simulation/loop/spindle_torque.h"
 
 namespace osteomill {
@@ -16,8 +15,6 @@ namespace {
 
 /// For the rounding of sums of periods, s.
 constexpr double report_tolerance_s = 1e-7;
-/// At the tip a patch is as far from the axis as it is wide.
-constexpr double least_lever_share = 0.05;
 
 }  // namespace
 
@@ -64,7 +61,6 @@ CutReport::Sums CutReport::sum(const MillingResult& latest, const Burr& burr,
                                const glm::dvec3& feed_mm_per_s) const noexcept {
     const Engagement& engagement = latest.engagement;
     const glm::dmat3 frame = burr_frame(latest.pose.spindle_axis);
-    const double coefficient_n_per_mm2 = glm::length(burr.cutting_coefficients_n_per_mm2);
     Sums sums;
     for (std::size_t i = 0; i < engagement.count; ++i) {
         const EngagedPatch& patch = engagement.patches[i];
@@ -78,15 +74,12 @@ CutReport::Sums CutReport::sum(const MillingResult& latest, const Burr& burr,
         sums.cosine_n += 2.0 * std::cos(burr.edges * azimuth_rad) * force_n;
         sums.sine_n += 2.0 * std::sin(burr.edges * azimuth_rad) * force_n;
 
-        const double lever_mm = burr.radius_mm() * std::max(least_lever_share, std::hypot(x, y));
+        const double lever_mm = patch_lever_mm(burr, std::hypot(x, y));
         const glm::dvec3 along_turn = -std::sin(azimuth_rad) * frame[0] + std::cos(azimuth_rad) * frame[1];
         sums.torque_n_mm -= burr.sigma() * lever_mm * glm::dot(force_n, along_turn);
-        // The law of EngagedPatch, solved for s.
         const double weight_n = glm::length(chip_n);
-        const double stiffness = glm::length(patch.cutting_n_s_per_mm) * 2.0 * std::numbers::pi * lever_mm *
-                                 burr.spindle_rev_per_s / (coefficient_n_per_mm2 * patch.area_mm2);
         sums.chips_n += weight_n;
-        sums.stiffness_chips_n += weight_n * stiffness;
+        sums.stiffness_chips_n += weight_n * patch_stiffness(patch, burr, lever_mm);
     }
     return sums;
 }

@@ -1,6 +1,5 @@
 #include "studies/states/milled_path.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -18,6 +17,7 @@
 #include "simulation/device/device_limits.h"
 #include "simulation/force_models/milling_model.h"
 #include "simulation/loop/cut_report.h"
+#include "simulation/loop/patch_stiffness.h"
 #include "simulation/loop/spindle_torque.h"
 #include "simulation/safety/force_guard.h"
 
@@ -114,7 +114,8 @@ class PathMill {
             touching_mm2 += patch.area_mm2;
             if (!to.spindle_on || patch.is_wall) continue;
             const double area_mm2 = share_of_part * patch.area_mm2;
-            const double stiffness = stiffness_of(patch, burr, frame);
+            const double out = std::hypot(glm::dot(patch.normal, frame[0]), glm::dot(patch.normal, frame[1]));
+            const double stiffness = patch_stiffness(patch, burr, patch_lever_mm(burr, out));
             const double psi = std::atan2(glm::dot(patch.normal, frame[1]), glm::dot(patch.normal, frame[0]));
             const std::complex<double> middle = std::polar(1.0, -burr.edges * psi);
             for (const Turn& turn : turns) {
@@ -141,15 +142,6 @@ class PathMill {
         milled_.engaged_mm2.push_back(touching_mm2);
         milled_.relative_stiffness.push_back(weight_n > 0.0 ? stiffness_n / weight_n : 0.0);
         push(milled_.normal, cutting_mm2 > 0.0 ? area_by_normal / cutting_mm2 : glm::dvec3(0.0));
-    }
-
-    /// The law of EngagedPatch, solved for s, as the report of the cut solves it (cut_report.cpp).
-    static double stiffness_of(const EngagedPatch& patch, const Burr& burr, const glm::dmat3& frame) {
-        const double least_lever_share = 0.05;
-        const double out = std::hypot(glm::dot(patch.normal, frame[0]), glm::dot(patch.normal, frame[1]));
-        const double lever_mm = burr.radius_mm() * std::max(least_lever_share, out);
-        return glm::length(patch.cutting_n_s_per_mm) * 2.0 * std::numbers::pi * lever_mm *
-               burr.spindle_rev_per_s / (glm::length(burr.cutting_coefficients_n_per_mm2) * patch.area_mm2);
     }
 
     void shake(const PathStep& to) {
