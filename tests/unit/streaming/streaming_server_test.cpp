@@ -360,15 +360,18 @@ TEST(StreamingServer, RecordsAsIfForOneMoreClient) {
 
     Playhead playhead(folder / "a.pcap");
     bool has_goodbye = false;
+    int states = 0;
     for (auto step = Playhead::Step::state; step != Playhead::Step::end;) {
         step = playhead.step(std::numeric_limits<double>::infinity());
         has_goodbye = has_goodbye || step == Playhead::Step::goodbye;
+        states += step == Playhead::Step::state ? 1 : 0;
     }
     EXPECT_TRUE(has_goodbye);
     EXPECT_EQ(playhead.bone_checksum(), served.mirror_checksum());
     EXPECT_GE(playhead.counts().checksums_verified, 3U);
-    // A state of a time that another had has one of its own, 0.1 ms later.
-    EXPECT_THAT(playhead.time_s(), ::testing::DoubleNear(playhead.tool()->time_s, 1.1e-4));
+    // A state of a time that others had has one of its own, 0.1 ms after the last of them: many have, where the loop gets no processor.
+    EXPECT_GE(playhead.time_s(), playhead.tool()->time_s - 1e-5);
+    EXPECT_LE(playhead.time_s(), playhead.tool()->time_s + 1e-4 * states);
 }
 
 TEST(StreamingServer, ShowsFramesWhenItIsToldToWhereTheSessionKeepsTheTime) {
