@@ -73,7 +73,7 @@ Scene scene_of(const SessionInfo& session) {
 }
 
 MillingSessionOptions options_of(const SessionInfo& session) {
-    const std::string& coupling = setting(session, "coupling");
+    const std::string coupling = setting(session, "coupling");
     if ((coupling == "damper" || coupling.ends_with("+damper")) &&
         setting(session, "device") != "prescribed" && setting(session, "grip") != rails_name)
         throw NotRepeatable("its coupling " + coupling +
