@@ -145,8 +145,8 @@ hold again once it is clear of bone.)")
 hand: "prescribed" (its pose is what step and rollout say), or "light" or "firm": a simulated hand of that grip holds a simulated
 arm and follows the case's trajectory. coupling, force_model, milling_rate_hz, vibration: as the options of haptic_server; None:
 what is usual. start_mm (3,), start_axis (3,): where the tool starts, patient LPS, instead of the case's. arm: an Arm of
-one's own; None: the usual one, of up to 3.3 N. record: a file (.pcap)
-to record the session into; it is whole once the session is closed.
+one's own; None: the usual one, of up to 3.3 N; at prescribed poses it has no encoder steps and bears a spring of 2.3 N/mm, not 1.5.
+record: a file (.pcap) to record the session into; it is whole once the session is closed.
 ValueError, RuntimeError: in one line, what is wrong and what would be right.)")
         .def("step", &step, py::kw_only(), py::arg("hand_mm") = py::none(), py::arg("axis") = py::none(),
              py::arg("pedal") = false, py::arg("burr") = py::none(), py::arg("ms") = 1,

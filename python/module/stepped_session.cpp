@@ -53,8 +53,9 @@ std::string origin_of(const std::map<std::string, std::string>& settings, const 
     return text + scene_toml;
 }
 
-/// A prescribed hand is read without encoder steps.
-DeviceLimits limits_without_encoder(ArmModel arm) {
+/// Limits of the arm at a prescribed hand, which is read without encoder steps.
+DeviceLimits limits_at_prescribed_hand(const std::optional<ArmModel>& given) {
+    ArmModel arm = given.value_or(ideal_arm());
     arm.resolution_mm = 0.0;
     return limits_of(arm);
 }
@@ -129,8 +130,7 @@ void SteppedSession::begin() {
         run_.simulated = parts.simulated;
     } else {
         auto prescribed = std::make_unique<PrescribedDevice>(
-            run_.hand, scene.scene.device,
-            options_.arm ? limits_without_encoder(*options_.arm) : DeviceLimits{});
+            run_.hand, scene.scene.device, limits_at_prescribed_hand(options_.arm));
         run_.prescribed = prescribed.get();
         parts.device = std::move(prescribed);
     }

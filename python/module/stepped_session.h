@@ -34,7 +34,7 @@ struct SteppedOptions {
     std::optional<double> milling_rate_hz{};  ///< nothing: the usual one
     bool vibration = false;
     std::optional<ToolPose> start{};  ///< in place of the scene's
-    std::optional<ArmModel> arm{};    ///< nothing: the simulated hand's usual one, or an ideal one
+    std::optional<ArmModel> arm{};    ///< nothing: the simulated one, or at prescribed poses the ideal one
     std::optional<std::filesystem::path> record{};
 };
 

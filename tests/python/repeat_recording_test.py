@@ -62,7 +62,7 @@ class RepeatRecordingTest(unittest.TestCase):
         np.testing.assert_allclose(told["removed_mm3"][1:], ticks["removed_mm3"]["total"], atol=5.1e-6)
 
     def test_a_recorded_motion_on_rails(self):
-        file, _, _ = self.record("a.pcap")
+        file, _, _ = self.record("a.pcap", arm=om.Arm())
         subprocess.run([program("packet_replay"), file, "--trajectory", self.folder / "a.csv"], check=True, capture_output=True)
         self.serve("--clock", "virtual", "--trajectory", self.folder / "a.csv", "--grip", "rails", "--record", self.folder / "b.pcap",
                    "--duration-s", "1.5")
