@@ -52,7 +52,8 @@ DatasetContents contents_of(const std::string& cameras, const std::string& camer
     return {.cameras = cameras_text.empty() ? cameras_named(cameras)
                                             : parse_cameras(cameras_text, "cameras", std::filesystem::path()),
             .images = images_named(images),
-            .randomise = randomise};
+            .randomise = randomise,
+            .look = usual_look(randomise.has_value())};
 }
 
 std::unique_ptr<Rendering> begin(std::filesystem::path recording, const std::string& cameras,

@@ -36,6 +36,14 @@ struct DatasetPart {
     bool has(std::size_t frame) const { return frame % of == number - 1; }
 };
 
+/// The look of a window whose user changed none of it; by lot, bone is wet under the lamps of the lot alone.
+inline SceneAppearance usual_look(bool is_by_lot) {
+    SceneAppearance look;
+    look.specular = is_by_lot ? 0.0f : usual_wetness;
+    look.grain = look.neutral_sawn_faces = true;
+    return look;
+}
+
 struct DatasetContents {
     std::vector<DatasetCamera> cameras = default_cameras();
     double from_s = 0.0;                   ///< recorded time from which on there are frames

@@ -27,7 +27,10 @@ DatasetContents contents_of(const RenderOptions& options) {
             .look = {.ambient_occlusion = options.ambient_occlusion,
                      .thin_bone = options.thin_bone,
                      .smooth_silhouettes = options.smooth_silhouettes,
-                     .specular = static_cast<float>(options.specular)},
+                     .specular = options.specular ? static_cast<float>(*options.specular)
+                                                  : usual_look(dataset.randomise.has_value()).specular,
+                     .grain = options.grain,
+                     .neutral_sawn_faces = options.neutral_sawn_faces},
             .limits = {.budget_bytes = options.texture_budget_bytes}};
 }
 

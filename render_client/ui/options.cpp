@@ -111,8 +111,14 @@ void add_look(CLI::App& app, RenderOptions& options) {
         "Thin bone hides what is behind it; unless given, it takes on the colour of a sinus or a nerve");
     app.add_flag("--smooth-silhouettes", options.smooth_silhouettes,
                  "Antialiased outlines of the bone, at about a seventh of a frame's time; never of slices");
-    app.add_option("--specular", options.specular,
-                   "Highlights on the bone, as where it is wet, 0 to 1 (0: matt); not with surface-voxels")
+    app.add_flag("!--no-grain", options.grain,
+                 "No fine grain of bone, which stays with it; never with surface-voxels");
+    app.add_flag(
+        "!--no-neutral-sawn-faces", options.neutral_sawn_faces,
+        "Tissue colours also where the piece is sawn off; unless given, its sawn faces are grey-beige");
+    app.add_option(
+           "--specular", options.specular,
+           "Highlights on the bone, as where it is wet, 0 to 1 (0.25; 0: matt); not with surface-voxels")
         ->check(within(0.0, 1.0));
     app.add_option_function<std::vector<std::string>>(
            "--cut",

@@ -41,7 +41,9 @@ struct RenderOptions {
     bool ambient_occlusion = true;
     bool thin_bone = true;
     bool smooth_silhouettes = false;
-    double specular = 0.0;  ///< highlights on bone
+    std::optional<double> specular{};  ///< highlights on bone; absent: as usual, none by another's lamps
+    bool grain = true;                 ///< of bone
+    bool neutral_sawn_faces = true;
     bool light_field = false;
     InsetKind inset = InsetKind::off;
     CutSettings cuts;  ///< the bone's bounds are not known yet

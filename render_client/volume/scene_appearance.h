@@ -22,6 +22,9 @@ struct CutPlane {
 /// A renderer heeds the first so many.
 inline constexpr std::size_t most_cut_planes = 4;
 
+/// Highlights on bone unless its user says otherwise, see SceneAppearance::specular.
+inline constexpr float usual_wetness = 0.25f;
+
 struct SceneAppearance {
     std::vector<CutPlane> cuts{};
     std::shared_ptr<const CtVolume>
@@ -36,7 +39,9 @@ struct SceneAppearance {
     /// Highlights of the lamps on the bone, as on wet bone: 0 matt, 1 as bright as the lamps. Not on surface
     /// voxels.
     float specular = 0.0f;
-    bool light_field = false;  ///< only a microscope's round field is lit
+    bool grain = false;               ///< of bone (bone_grain.h). Not on surface voxels
+    bool neutral_sawn_faces = false;  ///< where the piece is sawn off (sawn_faces.h). Not on surface voxels
+    bool light_field = false;         ///< only a microscope's round field is lit
 
     bool operator==(const SceneAppearance&) const = default;
 };

@@ -11,14 +11,23 @@ namespace osteomill {
 
 namespace {
 
+GrainTable grain_by_stiffness(double stiffness_per_code) {
+    GrainTable grain;
+    for (std::size_t code = 0; code < grain.size(); ++code)
+        grain[code] = grain_of_stiffness(static_cast<double>(code) * stiffness_per_code);
+    return grain;
+}
+
 TransferTable by_stiffness(const BoneContent& content, const TransferFunction& transfer) {
     require_valid(transfer);
     TransferTable table{.mode = transfer.mode};
     if (content.stiffness.empty()) {
         table.by_code.fill(look_of(transfer, content.homogeneous_stiffness));
+        table.grain_by_code.fill(grain_of_stiffness(content.homogeneous_stiffness));
         return table;
     }
     table.codes.channel = BoneChannel::stiffness;
+    table.grain_by_code = grain_by_stiffness(content.stiffness_per_code);
     for (std::size_t code = 0; code < table.by_code.size(); ++code)
         table.by_code[code] = look_of(transfer, static_cast<double>(code) * content.stiffness_per_code);
     return table;
@@ -33,13 +42,18 @@ TransferTable opaque(std::optional<BoneChannel> channel, const ColourTable& colo
 
 TransferTable by_tissue(const BoneContent& content, std::span<const TissueColour> tissues) {
     TransferTable table = opaque(BoneChannel::tissue, colours_by_tissue(tissues));
+    std::array<double, 256> stiffness{};
     std::array<std::uint8_t, 256> label_by_code{};
     std::iota(label_by_code.begin(), label_by_code.end(), std::uint8_t{0});
     if (const std::optional<TissueShades> shades = tissue_shades(content, tissues)) {
         table = opaque(std::nullopt, shades->by_code);
         table.codes = shades->codes;
         label_by_code = shades->label;
+        stiffness = shades->relative_stiffness;
+    } else {
+        stiffness = median_stiffness_by_label(content);
     }
+    std::ranges::transform(stiffness, table.grain_by_code.begin(), grain_of_stiffness);
     for (const TissueColour& tissue : tissues) {
         for (std::size_t code = 0; code < label_by_code.size(); ++code)
             if (label_by_code[code] == tissue.label)
@@ -57,11 +71,17 @@ TransferTable table_without_seen(const BoneContent& content, std::span<const Tis
                                  const ShadingSettings& look) {
     if (look.transfer) return by_stiffness(content, *look.transfer);
     if (!content.tissue.empty()) return by_tissue(content, tissues);
-    if (!content.stiffness.empty())
-        return opaque(BoneChannel::stiffness, colours_by_stiffness(content.stiffness_per_code));
+    if (!content.stiffness.empty()) {
+        TransferTable table =
+            opaque(BoneChannel::stiffness, colours_by_stiffness(content.stiffness_per_code));
+        table.grain_by_code = grain_by_stiffness(content.stiffness_per_code);
+        return table;
+    }
     ColourTable plain;
     plain.fill(plain_bone_colour());
-    return opaque(std::nullopt, plain);
+    TransferTable table = opaque(std::nullopt, plain);
+    table.grain_by_code.fill(grain_of_stiffness(content.homogeneous_stiffness));
+    return table;
 }
 
 bool shows_through(const TissueColour& tissue) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "render_client/volume/bone_colours.h"
+#include "render_client/volume/bone_grain.h"
 #include "render_client/volume/textures/voxel_codes.h"
 #include "render_client/volume/thin_bone.h"
 #include "render_client/volume/transfer_function.h"
@@ -30,6 +31,7 @@ struct ShadingSettings {
 struct TransferTable {
     VoxelCodes codes{};                    ///< without any all bone looks like code 0
     std::array<glm::vec4, 256> by_code{};  ///< linear RGB and opacity
+    GrainTable grain_by_code{};            ///< by the stiffness of the code's bone
     TransferMode mode = TransferMode::surface;
     std::optional<SeenTissues> seen{};  ///< what thin bone shows; none: it shows nothing
 };

@@ -87,6 +87,7 @@ std::optional<TissueShades> tissue_shades(const BoneContent& content, std::span<
     TissueShades shades;
     shades.codes.by_tissue_and_stiffness.assign(std::size_t{256} * 256, std::uint8_t{0});
     shades.by_code.fill(plain_bone_colour());
+    shades.relative_stiffness.fill(1.0);
     std::size_t first_code = 1;
     for (const auto& [label, range] : ranges) {
         const glm::vec3 median_colour = colour_of_stiffness(content.stiffness_per_code * range.median);
@@ -97,6 +98,7 @@ std::optional<TissueShades> tissue_shades(const BoneContent& content, std::span<
             shades.by_code[code] =
                 glm::min(own[label] * glm::clamp(ratio, darkest_ratio, brightest_ratio), glm::vec3(1.0f));
             shades.label[code] = label;
+            shades.relative_stiffness[code] = content.stiffness_per_code * range.stiffness_of(shade);
         }
         for (std::size_t stiffness = 1; stiffness < 256; ++stiffness)
             shades.codes.by_tissue_and_stiffness[std::size_t{256} * label + stiffness] =
@@ -104,6 +106,15 @@ std::optional<TissueShades> tissue_shades(const BoneContent& content, std::span<
         first_code += range.shades;
     }
     return shades;
+}
+
+std::array<double, 256> median_stiffness_by_label(const BoneContent& content) {
+    std::array<double, 256> medians{};
+    medians.fill(content.stiffness.empty() ? content.homogeneous_stiffness : 1.0);
+    if (!content.stiffness.empty() && !content.tissue.empty())
+        for (const auto& [label, counts] : counts_by_label(content))
+            medians[label] = content.stiffness_per_code * percentile(counts, 0.5);
+    return medians;
 }
 
 }  // namespace osteomill

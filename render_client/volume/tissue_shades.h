@@ -17,9 +17,10 @@
 namespace osteomill {
 
 struct TissueShades {
-    VoxelCodes codes{};                     ///< of tissue and stiffness
-    std::array<glm::vec3, 256> by_code{};   ///< linear RGB
-    std::array<std::uint8_t, 256> label{};  ///< of each code
+    VoxelCodes codes{};                            ///< of tissue and stiffness
+    std::array<glm::vec3, 256> by_code{};          ///< linear RGB
+    std::array<std::uint8_t, 256> label{};         ///< of each code
+    std::array<double, 256> relative_stiffness{};  ///< likewise; 1 of a code that no bone has
 };
 
 /// Shades for the tissues of a bone. None if the bone lacks labels or stiffness, or if no tissue's stiffness
@@ -27,5 +28,9 @@ struct TissueShades {
 /// without a label is shaded like a tissue that has no colour of its own. The frequencies of stiffness are
 /// counted in a thousand bricks at most, evenly spread.
 std::optional<TissueShades> tissue_shades(const BoneContent& content, std::span<const TissueColour> tissues);
+
+/// The median relative stiffness of each label's bone, counted as for shades; 1 for a label that no bone has.
+/// Of a bone without stiffness codes it is the same everywhere.
+std::array<double, 256> median_stiffness_by_label(const BoneContent& content);
 
 }  // namespace osteomill

@@ -18,7 +18,6 @@ namespace osteomill::study {
 
 namespace {
 
-constexpr float wetness = 0.4f;
 constexpr int rays_a_side = 4;
 constexpr double leap_mm = 1.0;
 
@@ -94,7 +93,11 @@ SceneAppearance look_with(std::string_view cue, bool is_on) {
     else if (cue == "smooth silhouettes")
         look.smooth_silhouettes = is_on;
     else if (cue == "wet bone")
-        look.specular = is_on ? wetness : 0.0f;
+        look.specular = is_on ? usual_wetness : 0.0f;
+    else if (cue == "grain")
+        look.grain = is_on;
+    else if (cue == "sawn faces")
+        look.neutral_sawn_faces = is_on;
     else
         throw std::invalid_argument("no cue is called '" + std::string(cue) + "'");
     return look;

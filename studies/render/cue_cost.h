@@ -14,8 +14,8 @@
 namespace osteomill::study {
 
 /// Parts of the picture beside colour and lamps.
-inline constexpr std::array<std::string_view, 4> cue_names{"ambient occlusion", "thin bone",
-                                                           "smooth silhouettes", "wet bone"};
+inline constexpr std::array<std::string_view, 6> cue_names{
+    "ambient occlusion", "thin bone", "smooth silhouettes", "wet bone", "grain", "sawn faces"};
 
 /// The usual look with that cue or without it; std::invalid_argument for another name.
 SceneAppearance look_with(std::string_view cue, bool is_on);

@@ -73,7 +73,8 @@ class PictureTest(unittest.TestCase):
             self.assertGreater(min(cost["without_ms"], cost["with_ms"]), 0.0)
             self.assertAlmostEqual(cost["part_of_frame"], cost["with_ms"] / cost["without_ms"] - 1.0)
             # A tooth is thick all over, seen from here.
-            self.assertEqual(cost["changed_pixels"] > 0.0, cue != "thin bone", cue)
+            if cue != "sawn faces":  # which show from one side only
+                self.assertEqual(cost["changed_pixels"] > 0.0, cue != "thin bone", cue)
         gain = trial.silhouettes()
         self.assertGreater(gain["pixels"], 100)
         self.assertGreater(gain["with_db"], gain["without_db"] + tradeoff_cues.WORTH_DB)

@@ -14,7 +14,9 @@ inline void take_over(SessionPicture& session, const RenderOptions& options) {
     view.ambient_occlusion = options.ambient_occlusion;
     view.thin_bone = options.thin_bone;
     view.smooth_silhouettes = options.smooth_silhouettes;
-    view.specular = static_cast<float>(options.specular);
+    view.specular = static_cast<float>(options.specular.value_or(usual_wetness));
+    view.grain = options.grain;
+    view.neutral_sawn_faces = options.neutral_sawn_faces;
     view.light_field = options.light_field;
     view.inset = options.inset;
     view.cuts = options.cuts;

@@ -200,6 +200,8 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                                .thin_bone = view_.thin_bone,
                                .smooth_silhouettes = view_.smooth_silhouettes,
                                .specular = view_.specular,
+                               .grain = view_.grain,
+                               .neutral_sawn_faces = view_.neutral_sawn_faces,
                                .light_field = view_.light_field};
     picture_.set_appearance(look);
     std::optional<DrawnTool> tool;

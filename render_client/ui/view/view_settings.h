@@ -9,6 +9,7 @@
 #include "render_client/ui/panels/transfer_editor.h"
 #include "render_client/ui/view/cut_settings.h"
 #include "render_client/ui/view/inset_view.h"
+#include "render_client/volume/scene_appearance.h"
 
 namespace osteomill {
 
@@ -39,8 +40,10 @@ struct ViewSettings {
     bool slices_shown = false;
     bool ambient_occlusion = true;
     bool smooth_silhouettes = false;
-    bool thin_bone = true;     ///< which shows things behind it
-    float specular = 0.0f;     ///< highlights on bone, see SceneAppearance
+    bool thin_bone = true;           ///< which shows things behind it
+    float specular = usual_wetness;  ///< highlights on bone, see SceneAppearance
+    bool grain = true;
+    bool neutral_sawn_faces = true;
     bool sound = false;        ///< the burr is to be heard,
     bool warns = true;         ///< and a tone where it is near a protected structure
     bool light_field = false;  ///< a microscope's round field

@@ -1,6 +1,14 @@
-// A microscope's round field of light over a picture: black beyond it, as seen through the eyepieces.
+// A microscope's round field of light over a picture: black beyond it, as seen through the eyepieces. Its
+// lamp shines along the view, as a spot:
+//
+//     light = (1 - 0.45 r^2) min(focus / z, 1)^2
+//
+// with r the place in the field, 1 at its edge, and z the distance of the bone along the view. The focus is
+// what the view turns about.
 #pragma once
 
+#include "render_client/volume/camera.h"
+#include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/gl/program.h"
 
 namespace osteomill {
@@ -8,8 +16,9 @@ namespace osteomill {
 class LightField {
   public:
     LightField();
-    /// Draws into the bound framebuffer.
-    void draw(const glm::ivec2& size_px, double pixel_aspect) const;
+    /// Draws into the bound framebuffer, a picture by that camera as large as `bone`, whose depth is the
+    /// bone's. What stands before the bone has its light; where there is none, that of the focus.
+    void draw(const gl::Framebuffer& bone, const Camera& camera) const;
 
   private:
     gl::Program program_;

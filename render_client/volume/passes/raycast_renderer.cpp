@@ -69,6 +69,7 @@ void RaycastRenderer::draw_rays(const BoneTextures& bone, const Camera& camera, 
     set_ray_uniforms(program, bone, camera, size_px, settings_);
     program.set("picture_size", glm::vec2(size_px));
     set_background_uniforms(program, look());
+    set_grain_uniforms(program, bone, camera, size_px);
 
     // Bone that is seen through has the background's depth.
     glDepthFunc(GL_LEQUAL);

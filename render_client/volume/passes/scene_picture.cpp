@@ -43,9 +43,9 @@ const gl::Framebuffer& ScenePicture::draw(const BoneTextures* bone, const DrawnT
         tool_renderer_.draw_seen_through(*tool, camera, picture_.size_px());
         tool_renderer_.draw_force(*tool, camera, covered_);
     }
-    if (layer_.look().light_field) {
+    if (bone && layer_.look().light_field) {
         if (!light_field_) light_field_.emplace();
-        light_field_->draw(picture_.size_px(), camera.pixel_aspect);
+        light_field_->draw(layer_.framebuffer(), camera);
         covered_.mark_all();
     }
     return picture_;

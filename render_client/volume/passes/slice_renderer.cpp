@@ -45,6 +45,7 @@ void SliceRenderer::draw_slices(const BoneTextures& bone, const Camera& camera, 
     program.set("forward", glm::vec3(camera.forward()));
     program.set("spacing", settings_.spacing_voxels);
     program.set("drawn_pass", static_cast<int>(pass));
+    set_grain_uniforms(program, bone, camera, size_px);
     slices_.draw();
 }
 

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "render_client/volume/bone_grain.h"
 
 namespace osteomill {
 
@@ -23,6 +26,23 @@ void set_cut_uniforms(const gl::Program& program, const SceneAppearance& look, c
         program.set(fmt::format("cut_planes[{}]", i).c_str(),
                     glm::vec4(cut.normal, glm::dot(cut.normal, on_plane)));
     }
+}
+
+void set_sawn_uniforms(const gl::Program& program, const BoneTextures& bone) {
+    const glm::dvec3 first(bone.box().first);
+    program.set("sawn_low", glm::vec3(bone.sawn_faces().low - first));
+    program.set("sawn_high", glm::vec3(bone.sawn_faces().high - first));
+}
+
+void set_grain_uniforms(const gl::Program& program, const BoneTextures& bone, const Camera& camera,
+                        const glm::ivec2& size_px) {
+    const Grid& grid = bone.grid();
+    const double pixel_mm = mm_per_px_at(camera, camera.target_mm, size_px);
+    // Two pixels a cell show it; one makes it noise that flickers as the view turns.
+    const auto seen = [&](double cell_mm) { return glm::clamp(cell_mm / pixel_mm - 1.0, 0.0, 1.0); };
+    program.set("grain_corner_mm",
+                glm::vec3(centre_of_voxel_mm(grid, bone.box().first) - 0.5 * grid.spacing_mm));
+    program.set("grain_seen", glm::vec2(seen(fine_grain_mm), seen(coarse_grain_mm)));
 }
 
 }  // namespace osteomill

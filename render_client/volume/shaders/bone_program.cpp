@@ -52,6 +52,8 @@ gl::Program BoneProgram::make(const Variant& variant) const {
                                   constant("bone_is_occluded", variant.is_occluded) +
                                   constant("bone_shows_through", variant.shows_through) +
                                   constant("bone_shines", variant.shines) +
+                                  constant("bone_has_grain", variant.has_grain) +
+                                  constant("bone_has_sawn_faces", variant.has_sawn_faces) +
                                   constant("cuts_show_ct", variant.cuts_show_ct) +
                                   fmt::format("const int cut_count = {};\n", variant.cut_count);
     gl::Program program = make_program(shader_text({&own_.vertex, 1}), shader_text(files, constants));
@@ -77,17 +79,20 @@ const gl::Program& BoneProgram::program_for(const Variant& variant) {
 
 const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneAppearance& look) {
     const SeenThrough* seen = look.thin_bone ? bone.seen_through() : nullptr;
-    const gl::Program& program = program_for({.layout = bone.plan().layout,
-                                              .has_colour_code = bone.colour_code().has_value(),
-                                              .codes_are_mostly_alike = bone.codes_are_mostly_alike(),
-                                              .has_smoothed = bone.smoothed() != nullptr,
-                                              .has_surface_colours = bone.surface_colours() != nullptr,
-                                              .is_translucent = bone.is_translucent(),
-                                              .is_occluded = look.ambient_occlusion,
-                                              .shows_through = seen != nullptr,
-                                              .shines = look.specular > 0.0f,
-                                              .cut_count = cut_count(look),
-                                              .cuts_show_ct = shows_ct(look)});
+    const gl::Program& program =
+        program_for({.layout = bone.plan().layout,
+                     .has_colour_code = bone.colour_code().has_value(),
+                     .codes_are_mostly_alike = bone.codes_are_mostly_alike(),
+                     .has_smoothed = bone.smoothed() != nullptr,
+                     .has_surface_colours = bone.surface_colours() != nullptr,
+                     .is_translucent = bone.is_translucent(),
+                     .is_occluded = look.ambient_occlusion,
+                     .shows_through = seen != nullptr,
+                     .shines = look.specular > 0.0f,
+                     .has_grain = look.grain,
+                     .has_sawn_faces = look.neutral_sawn_faces && bone.sawn_faces().any(),
+                     .cut_count = cut_count(look),
+                     .cuts_show_ct = shows_ct(look)});
     program.use();
     program.set("bone_size", glm::vec3(bone.box().size));
     program.set("bone_texture_size", glm::vec3(bone.fraction().size()));
@@ -95,6 +100,7 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneAppeara
     program.set("bone_colour_depth", static_cast<float>(bone.colour_depth_voxels()));
     program.set("specular", look.specular);
     set_cut_uniforms(program, look, bone);
+    set_sawn_uniforms(program, bone);
     bone.fraction().bind(fraction_unit);
     bone.blocks().bind(blocks_unit);
     bone.colours().bind(colours_unit);

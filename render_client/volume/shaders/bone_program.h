@@ -40,6 +40,8 @@ class BoneProgram {
         bool is_occluded = true;
         bool shows_through = false;
         bool shines = false;
+        bool has_grain = false;
+        bool has_sawn_faces = false;
         int cut_count = 0;
         bool cuts_show_ct = false;
 

@@ -1,4 +1,4 @@
-// Shading of the bone at a point; follows thin_bone.glsl and lighting.glsl.
+// Shading of the bone at a point; follows thin_bone.glsl, grain.glsl, sawn_faces.glsl and lighting.glsl.
 //
 //     vec3  surface_pixel(vec3 point, vec3 direction)   display RGB of the bone's surface at a point, seen
 //                                                       along a unit direction
@@ -16,6 +16,7 @@
 uniform float specular;
 
 const float bone_surface = 0.5;
+const float wet_roughness = 5.0;
 const float solid_opacity = 0.5;
 
 vec3 surface_pixel(vec3 point, vec3 direction) {
@@ -26,9 +27,18 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
     vec3 normal = normal_at(point, -direction);
     float openness = bone_is_occluded ? ambient_occlusion(point, normal) : 1.0;
     vec3 colour = look_under(point, normal).rgb;
+    float grain = bone_has_grain ? grain_at(point - normal) : 0.0;
+    if (bone_has_grain) colour = grained(colour, grain);
     if (bone_shows_through) colour = colour_through(colour, point, direction);
+    float wet = specular;
+    if (bone_has_sawn_faces) {
+        float sawn = sawn_share(point);
+        colour = mix(colour, sawn_colour(colour), sawn);
+        wet *= 1.0 - sawn;
+    }
     vec3 light = lit(colour, normal, openness);
-    if (bone_shines) light += specular * openness * highlight(normal, -direction);
+    // Pores and pits break the film of water.
+    if (bone_shines) light += wet * openness * max(1.0 + wet_roughness * grain, 0.0) * highlight(normal, -direction);
     return display(light);
 }
 

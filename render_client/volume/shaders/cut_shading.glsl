@@ -17,7 +17,9 @@ vec3 shown_pixel(vec3 point, vec3 direction) {
         if (cut_planes[cut].w - dot(normal, point) < cut_face_depth &&
             fraction_at(point + 0.5 * normal) >= bone_surface) {
             if (cuts_show_ct) return vec3(texture(cut_ct, cut_ct_scale * (point - cut_ct_origin)).r);
-            return display(lit(smooth_look_at(point - 0.6 * normal).rgb, normal, 1.0));
+            vec3 within = point - 0.6 * normal, colour = smooth_look_at(within).rgb;
+            if (bone_has_grain) colour = grained(colour, grain_at(within));
+            return display(lit(colour, normal, 1.0));
         }
     }
     return surface_pixel(point, direction);

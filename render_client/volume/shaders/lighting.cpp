@@ -14,9 +14,9 @@ glm::dvec3 lit(const glm::dvec3& colour, const glm::dvec3& normal, double openne
     const double key = std::max(glm::dot(normal, key_direction), 0.0);
     const double fill = std::max(glm::dot(normal, fill_direction), 0.0);
     const glm::dvec3 ambient =
-        glm::mix(glm::dvec3(0.13, 0.12, 0.12), glm::dvec3(0.27, 0.29, 0.32), 0.5 + 0.5 * normal.z);
+        glm::mix(glm::dvec3(0.14, 0.125, 0.115), glm::dvec3(0.285, 0.28, 0.29), 0.5 + 0.5 * normal.z);
     return colour * (ambient * openness + glm::dvec3(0.66, 0.63, 0.58) * key * glm::mix(0.45, 1.0, openness) +
-                     glm::dvec3(0.15, 0.17, 0.20) * fill * openness);
+                     glm::dvec3(0.17, 0.165, 0.175) * fill * openness);
 }
 
 glm::dvec3 display(const glm::dvec3& linear) {

@@ -10,9 +10,9 @@ const vec3 fill_direction = vec3(0.8944, -0.2236, 0.3873);
 vec3 lit(vec3 colour, vec3 normal, float openness) {
     float key = max(dot(normal, key_direction), 0.0);
     float fill = max(dot(normal, fill_direction), 0.0);
-    vec3 ambient = mix(vec3(0.13, 0.12, 0.12), vec3(0.27, 0.29, 0.32), 0.5 + 0.5 * normal.z);
+    vec3 ambient = mix(vec3(0.14, 0.125, 0.115), vec3(0.285, 0.28, 0.29), 0.5 + 0.5 * normal.z);
     vec3 light = ambient * openness + vec3(0.66, 0.63, 0.58) * key * mix(0.45, 1.0, openness) +
-                 vec3(0.15, 0.17, 0.20) * fill * openness;
+                 vec3(0.17, 0.165, 0.175) * fill * openness;
     return colour * light;
 }
 

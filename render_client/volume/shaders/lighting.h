@@ -1,5 +1,6 @@
 // Lights fixed to the scene: a key light from the front, above and to the left of the viewer's usual place, a
-// weaker fill light opposite, and an ambient light that is brighter from above; diffuse only. And the
+// weaker fill light opposite, and an ambient light that is brighter from above; diffuse only. Fill and
+// ambient light are nearly neutral: bluer and greener ones made ivory in the shade look olive. And the
 // background. For surfaces lit on the CPU; lighting.glsl is the same for the shaders, and tests keep the two
 // equal.
 #pragma once

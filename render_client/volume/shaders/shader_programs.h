@@ -18,7 +18,8 @@ inline constexpr ProgramFiles gathered_light_files{
 inline constexpr ProgramFiles contact_shadow_files{"camera_rays.vert.glsl",
                                                    {"lighting.glsl", "contact_shadow.frag.glsl"}};
 inline constexpr ProgramFiles upscale_files{"upscale.vert.glsl", {"upscale.frag.glsl"}};
-inline constexpr ProgramFiles light_field_files{"upscale.vert.glsl", {"light_field.frag.glsl"}};
+inline constexpr ProgramFiles light_field_files{"upscale.vert.glsl",
+                                                {"lighting.glsl", "light_field.frag.glsl"}};
 inline constexpr ProgramFiles interleave_rows_files{"upscale.vert.glsl", {"interleave_rows.frag.glsl"}};
 inline constexpr ProgramFiles structure_files{"structure.vert.glsl",
                                               {"cuts.glsl", "lighting.glsl", "structure.frag.glsl"}};
@@ -37,7 +38,7 @@ inline constexpr ProgramFiles silhouette_files{
     {"lighting.glsl", "bone_shading.glsl", "bone_rays.glsl", "silhouettes.frag.glsl"}};
 inline constexpr ProgramFiles slice_files{
     "slice.vert.glsl", {"lighting.glsl", "bone_shading.glsl", "cut_shading.glsl", "slice.frag.glsl"}};
-inline constexpr std::array<std::string_view, 3> bone_sampling_files{"bone_sampling.glsl", "thin_bone.glsl",
-                                                                     "cuts.glsl"};
+inline constexpr std::array<std::string_view, 5> bone_sampling_files{
+    "bone_sampling.glsl", "thin_bone.glsl", "grain.glsl", "sawn_faces.glsl", "cuts.glsl"};
 
 }  // namespace osteomill

@@ -45,7 +45,9 @@ BoneTextures::BoneTextures(const Bone& bone, std::optional<CoarseBone> copy, con
       grid_(copied(bone).grid()),
       places_(copied(bone).content(), plan.layout, longest_edge_texels),
       empty_space_(places_.box()) {
-    colours_.store({256, 1}, GL_RGBA32F, GL_RGBA, GL_FLOAT, table_.by_code.data(), GL_NEAREST, GL_NEAREST);
+    std::vector<glm::vec4> looks(table_.by_code.begin(), table_.by_code.end());
+    for (const glm::vec2& grain : table_.grain_by_code) looks.emplace_back(grain, 0.0f, 0.0f);
+    colours_.store({256, 2}, GL_RGBA32F, GL_RGBA, GL_FLOAT, looks.data(), GL_NEAREST, GL_NEAREST);
 }
 
 Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
@@ -67,6 +69,10 @@ Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
     }
     const Bone& drawn = shown(bone);
     for (Steps part = empty_space_.fill(drawn); part.step();) co_yield part_of(part, 0.1, 0.4);
+    for (int axis = 0; axis < 3; ++axis) {
+        find_sawn_faces(drawn, axis, sawn_faces_);
+        co_yield 0.4;
+    }
     tile_table_ = upload_tile_table(drawn.content(), places_);
 
     for (Steps wait = arrival(blocks); wait.step();) co_yield 0.4;

@@ -18,6 +18,7 @@
 #include "render_client/volume/textures/changed_boxes.h"
 #include "render_client/volume/textures/coarse_bone.h"
 #include "render_client/volume/textures/empty_space.h"
+#include "render_client/volume/textures/sawn_faces.h"
 #include "render_client/volume/textures/seen_through.h"
 #include "render_client/volume/textures/smoothed_fraction.h"
 #include "render_client/volume/textures/surface_texture.h"
@@ -66,7 +67,8 @@ class BoneTextures {
     const std::optional<gl::Texture3D>& colour_code() const { return colour_code_; }
     /// Whether neighbours mostly have the same code, as within a tissue.
     bool codes_are_mostly_alike() const { return table_.codes.are_mostly_alike(); }
-    /// Linear RGB and opacity of code i in texel (i, 0).
+    /// Linear RGB and opacity of code i in texel (i, 0); in (i, 1) the strengths of its fine and coarse
+    /// grain.
     const gl::Texture2D& colours() const { return colours_; }
     /// Display RGB times alpha, and alpha, of the surface voxels; none unless these are shaded.
     const gl::Texture3D* surface_colours() const { return surface_ ? &surface_->texture() : nullptr; }
@@ -83,6 +85,9 @@ class BoneTextures {
     const SeenThrough* seen_through() const { return seen_ ? &*seen_ : nullptr; }
     /// By label, in texel (label, 0) linear RGB and strength, in (label, 1) the depth in voxels.
     const gl::Texture2D& seen_looks() const { return seen_looks_; }
+
+    /// Where the piece is sawn off, in voxels of grid().
+    const SawnFaces& sawn_faces() const { return sawn_faces_; }
 
     /// A point of patient space in texture coordinates counted in voxels: (0, 0, 0) is the box's corner.
     glm::dvec3 to_box_voxels(const glm::dvec3& position_mm) const;
@@ -120,6 +125,7 @@ class BoneTextures {
     std::optional<SurfaceTexture> surface_;
     std::optional<SeenThrough> seen_;
     gl::Texture2D seen_looks_;
+    SawnFaces sawn_faces_;
     std::vector<VoxelBox> changed_;  ///< by the last update
     std::vector<std::uint8_t> scratch_;
 };

@@ -73,7 +73,11 @@ TEST(Options, LookThroughAMicroscope) {
 TEST(Options, LightTheBone) {
     EXPECT_TRUE(parsed({}).options.ambient_occlusion);
     EXPECT_FALSE(parsed({"--no-ambient-occlusion"}).options.ambient_occlusion);
-    EXPECT_EQ(parsed({}).options.specular, 0.0);
+    EXPECT_EQ(parsed({}).options.specular, std::nullopt);
+    EXPECT_TRUE(parsed({}).options.grain);
+    EXPECT_FALSE(parsed({"--no-grain"}).options.grain);
+    EXPECT_TRUE(parsed({}).options.neutral_sawn_faces);
+    EXPECT_FALSE(parsed({"--no-neutral-sawn-faces"}).options.neutral_sawn_faces);
     EXPECT_EQ(parsed({"--specular", "0.4"}).options.specular, 0.4);
     expect_refused({"--specular", "2"}, "--specular: 2 is not within 0 to 1");
     expect_refused({"--specular", "wet"}, "--specular");

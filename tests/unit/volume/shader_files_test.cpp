@@ -20,9 +20,10 @@ class ShaderFilesTest : public OffscreenTest {};
 /// The constants of a variant of BoneProgram.
 std::string variant_constants(int bits) {
     std::string text;
-    for (const char* name : {"bone_has_colour_code", "bone_codes_are_mostly_alike", "bone_has_smoothed",
-                             "bone_has_surface_colours", "bone_is_translucent", "bone_is_occluded",
-                             "bone_shines", "bone_shows_through", "cuts_show_ct"}) {
+    for (const char* name :
+         {"bone_has_colour_code", "bone_codes_are_mostly_alike", "bone_has_smoothed",
+          "bone_has_surface_colours", "bone_is_translucent", "bone_is_occluded", "bone_shines",
+          "bone_shows_through", "cuts_show_ct", "bone_has_grain", "bone_has_sawn_faces"}) {
         text += std::string("const bool ") + name + (bits % 2 == 1 ? " = true;\n" : " = false;\n");
         bits /= 2;
     }
@@ -52,7 +53,7 @@ TEST_F(ShaderFilesTest, AllCompileInAllTheirPrograms) {
     for (const ProgramFiles& files : {raycast_files, slice_files, bone_surface_files, silhouette_files})
         for (const char* places : {"dense_places.glsl", "atlas_places.glsl"}) {
             const auto names = behind_bone_sampling(places, files);
-            for (const int bits : {0, 1, 2 + 1, 4, 8, 16, 32, 64 + 32, 128 + 64, 255})
+            for (const int bits : {0, 1, 2 + 1, 4, 8, 16, 32, 64 + 32, 128 + 64, 255, 512 + 64, 1024, 2047})
                 EXPECT_NO_THROW(make_program(shader_text({&files.vertex, 1}),
                                              shader_text(names, variant_constants(bits))))
                     << files.vertex << " behind " << places << ", variant " << bits;
