@@ -5,8 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <variant>
+
+#include "common/scene/fixture_set.h"
 
 namespace osteomill {
 
@@ -65,8 +68,15 @@ inline Fixture usual_fixture(FixtureKind kind) {
     return usual;
 }
 
-/// Bounds on what a file or a recording may hold.
-inline constexpr std::size_t most_fixtures = 16;
+/// Bound on what a file or a recording may hold, as most_fixtures.
 inline constexpr std::size_t longest_fixture_name = 100;  ///< bytes
+
+/// Of at most most_fixtures.
+inline FixtureSet fixtures_on(std::span<const Fixture> fixtures) {
+    FixtureSet on = 0;
+    for (std::size_t i = 0; i < fixtures.size(); ++i)
+        if (fixtures[i].is_on) on |= fixture_bit(i);
+    return on;
+}
 
 }  // namespace osteomill

@@ -21,6 +21,7 @@ enum class SessionAction : std::uint8_t {
     finish,  ///< ends the session, everything saved
     place,   ///< the tool somewhere else: the patient is moved and turned under the device
     speed,   ///< of the spindle, in place of the burrs' own
+    fixture, ///< one of the scene's is switched on or off, while the session is paused
 };
 
 /// In people's words: "undo".
@@ -30,9 +31,11 @@ struct SessionControl {
     static constexpr std::size_t longest_text = 200;  ///< bytes
 
     SessionAction action = SessionAction::none;
-    std::string text{};        ///< of a mark: its note; of save: ".stl", ".ply" or ".obj" for the surface
+    /// Of a mark: its note; of save: ".stl", ".ply" or ".obj" for the surface; of a fixture: its name.
+    std::string text{};
     ToolPose pose{};           ///< of place: where the burr shall be, patient LPS; the axis is a unit vector
     double spindle_rpm = 0.0;  ///< of speed; 0: each burr's own
+    bool is_on = false;        ///< of a fixture
 
     bool operator==(const SessionControl&) const = default;
 };

@@ -105,6 +105,24 @@ void set_steps(TickSample& tick, double value) {
     tick.input->steps = static_cast<std::uint64_t>(value);
 }
 
+double holds_still(const TickSample& tick) {
+    return tick.input && tick.input->holds_still ? 1.0 : 0.0;
+}
+
+void set_holds_still(TickSample& tick, double value) {
+    if (!tick.input) tick.input.emplace();
+    tick.input->holds_still = value > 0.0;
+}
+
+double switched(const TickSample& tick) {
+    return tick.input ? static_cast<double>(tick.input->switched) : 0.0;
+}
+
+void set_switched(TickSample& tick, double value) {
+    if (!tick.input) tick.input.emplace();
+    tick.input->switched = static_cast<FixtureSet>(value);
+}
+
 template <auto member>
 constexpr TickQuantity one(const char* name, const char* unit, int decimals, bool in_log = true) {
     return {name, unit, decimals, decimals, in_log, TickPart::always, number<member>, set_number<member>};
@@ -152,6 +170,11 @@ constexpr TickQuantity input(const char* name) {
     return {name, "1", 0, 0, false, TickPart::input, of, set};
 }
 
+template <auto of, auto set>
+constexpr TickQuantity control(const char* name) {
+    return {name, "1", 0, 0, false, TickPart::control, of, set};
+}
+
 using T = TickSample;
 
 // Recordings have them in this order; a reader that knows fewer ignores the last ones.
@@ -185,7 +208,9 @@ constexpr std::array quantities{one<&T::time_s>("t_s", "s", 4),
                                 input<pedal, set_pedal>("pedal"),
                                 input<asked_burr, set_asked_burr>("asked_burr"),
                                 input<lets_go, set_lets_go>("lets_go"),
-                                input<steps, set_steps>("milling_steps")};
+                                input<steps, set_steps>("milling_steps"),
+                                control<holds_still, set_holds_still>("holds_still"),
+                                control<switched, set_switched>("switched_fixtures")};
 
 }  // namespace
 

@@ -11,6 +11,8 @@
 #include <span>
 #include <string>
 
+#include "common/scene/fixture_set.h"
+
 namespace osteomill {
 
 /// Input of a tick besides the hand's pose.
@@ -27,6 +29,8 @@ struct TickInput {
     std::optional<std::size_t> burr{};  ///< of the session's, that is asked for
     bool lets_go = false;               ///< the session ends: force and spindle go
     std::uint64_t steps = 0;            ///< of the milling loop, that it was the first to see (seen_steps.h)
+    bool holds_still = false;           ///< somebody wants it, as in a pause
+    FixtureSet switched = 0;            ///< fixtures that are not on or off as the scene says
 
     bool operator==(const TickInput&) const = default;
 };
@@ -66,6 +70,7 @@ enum class TickPart : std::uint8_t {
     always,
     torque,  ///< where a burr has a shank
     input,   ///< where TickInput is known; readers of before do not know of it
+    control,  ///< the same: how the session was controlled; recordings leave zeros out
     rest,    ///< the same: missing decimals of the hand's pose, which setting it adds
 };
 
@@ -88,6 +93,7 @@ struct TickQuantity {
             case TickPart::torque:
                 return tick.shank_torque_n_mm.has_value();
             case TickPart::input:
+            case TickPart::control:
             case TickPart::rest:
                 return tick.input.has_value();
         }

@@ -11,6 +11,7 @@
 #include "common/scene/bounded_line.h"
 #include "common/scene/burr.h"
 #include "common/scene/cut_state.h"
+#include "common/scene/fixture_set.h"
 #include "common/scene/solve_counts.h"
 
 namespace osteomill {
@@ -54,6 +55,8 @@ struct ToolState {
     std::optional<double> spindle_rpm{};
     /// State of the edges' cut; the streaming server adds it. Nothing if nothing is cut, or it is not sent.
     std::optional<CutState> cut{};
+    FixtureSet fixtures_on = 0;      ///< of the scene's
+    FixtureSet fixtures_acting = 0;  ///< of those, which push, hold or slow the burr now
 };
 static_assert(std::is_trivially_copyable_v<ToolState>);
 

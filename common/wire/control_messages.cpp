@@ -13,11 +13,11 @@ namespace osteomill {
 namespace {
 
 static_assert(static_cast<int>(SessionAction::mark) == v2::SESSION_ACTION_MARK &&
-                  static_cast<int>(SessionAction::speed) == v2::SESSION_ACTION_SPEED,
+                  static_cast<int>(SessionAction::fixture) == v2::SESSION_ACTION_FIXTURE,
               "the actions have the numbers of the message");
 
 SessionAction action_from(v2::SessionAction action) {
-    const bool is_known = action >= v2::SESSION_ACTION_MARK && action <= v2::SESSION_ACTION_SPEED;
+    const bool is_known = action >= v2::SESSION_ACTION_MARK && action <= v2::SESSION_ACTION_FIXTURE;
     return is_known ? static_cast<SessionAction>(action) : SessionAction::none;
 }
 
@@ -32,6 +32,7 @@ v2::SessionControl to_message(const SessionControl& control) {
         write(control.pose.spindle_axis, *message.mutable_spindle_axis());
     }
     if (control.action == SessionAction::speed) message.set_spindle_rpm(control.spindle_rpm);
+    if (control.action == SessionAction::fixture) message.set_on(control.is_on);
     return message;
 }
 
@@ -75,6 +76,7 @@ std::variant<SessionControl, WireError> session_control_from(const v2::SessionCo
             return WireError{"the spindle cannot turn at " + std::to_string(control.spindle_rpm) +
                              " rpm: 100 to 500000, or 0 for each burr's own"};
     }
+    if (action == SessionAction::fixture) control.is_on = message.on();
     return control;
 }
 

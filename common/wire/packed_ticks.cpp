@@ -40,7 +40,9 @@ bool is_code_of(const TickQuantity& quantity, std::int64_t code, std::size_t bur
                              .input = TickInput{.pedal = TickInput::Pedal::no_hand,
                                                 .burr = burr_count - 1,
                                                 .lets_go = true,
-                                                .steps = steps_not_told}};
+                                                .steps = steps_not_told,
+                                                .holds_still = true,
+                                                .switched = every_fixture}};
     return code >= 0 && static_cast<double>(code) <= quantity.of(largest);
 }
 
@@ -60,6 +62,11 @@ std::optional<WireError> take(const v2::TickQuantities::Quantity& message, const
     return std::nullopt;
 }
 
+bool is_said(const TickQuantity& quantity, std::span<const TickSample> ticks) {
+    if (quantity.part != TickPart::control) return quantity.is_of(ticks.front());
+    return std::ranges::any_of(ticks, [&](const TickSample& tick) { return quantity.of(tick) != 0.0; });
+}
+
 }  // namespace
 
 TickPacker::TickPacker() : compressor_(tick_compression_level) {}
@@ -71,7 +78,7 @@ v2::Ticks TickPacker::pack(std::uint64_t missed, std::span<const TickSample> tic
     v2::TickQuantities quantities;
     for (const TickQuantity& quantity : tick_quantities()) {
         auto& steps = *quantities.add_quantity()->mutable_step();
-        if (!quantity.is_of(ticks.front())) continue;
+        if (!is_said(quantity, ticks)) continue;
         std::int64_t before = 0;
         for (const TickSample& tick : ticks) {
             const std::int64_t code = to_code(quantity.of(tick), quantity.decimals);
@@ -79,6 +86,12 @@ v2::Ticks TickPacker::pack(std::uint64_t missed, std::span<const TickSample> tic
             before = code;
         }
     }
+    // So a session that nobody controls takes not a byte for it.
+    const auto is_empty_control = [&](int last) {
+        return tick_quantities()[static_cast<std::size_t>(last)].part == TickPart::control &&
+               quantities.quantity(last).step().empty();
+    };
+    while (is_empty_control(quantities.quantity_size() - 1)) quantities.mutable_quantity()->RemoveLast();
     const std::string content = quantities.SerializeAsString();
     const auto packed =
         compressor_.compress({reinterpret_cast<const std::uint8_t*>(content.data()), content.size()});

@@ -9,6 +9,7 @@
 #include "common/bone/finite.h"
 #include "common/bone/patient_space.h"
 #include "common/text/plain_text.h"
+#include "common/wire/fixture_message.h"
 #include "common/wire/plan_message.h"
 #include "common/wire/rating_message.h"
 #include "common/wire/vec3.h"
@@ -142,6 +143,8 @@ v2::ToolState to_message(const ToolState& tool) {
     if (tool.peak_force_n) message.set_peak_force_n(*tool.peak_force_n);
     if (tool.spindle_rpm) message.set_spindle_rpm(*tool.spindle_rpm);
     if (tool.cut) *message.mutable_cut() = to_message(*tool.cut);
+    message.set_fixtures_on(tool.fixtures_on);
+    message.set_fixtures_acting(tool.fixtures_acting);
     return message;
 }
 
@@ -167,6 +170,7 @@ v2::Hello to_message(const SessionInfo& session) {
     hello.set_scene_toml(session.scene_toml);
     for (const auto& [metric, mark] : session.pass) (*hello.mutable_pass())[metric] = mark;
     for (const RatingItem& item : session.rating) *hello.add_rating() = to_message(item);
+    for (const Fixture& fixture : session.fixtures) *hello.add_fixtures() = to_message(fixture);
     return hello;
 }
 
@@ -272,6 +276,8 @@ std::variant<SessionInfo, WireError> session_info_from(const v2::Hello& hello) {
     }
     auto rating = rating_from(hello.rating());
     if (auto* error = std::get_if<WireError>(&rating)) return *error;
+    auto fixtures = fixtures_from(hello.fixtures());
+    if (auto* error = std::get_if<WireError>(&fixtures)) return *error;
     return SessionInfo{.protocol_major = hello.protocol_major(),
                        .protocol_minor = hello.protocol_minor(),
                        .scene_name = printable(hello.scene_name()),
@@ -288,6 +294,7 @@ std::variant<SessionInfo, WireError> session_info_from(const v2::Hello& hello) {
                        .plan = std::move(plan),
                        .pass = pass_from(hello),
                        .rating = std::get<0>(std::move(rating)),
+                       .fixtures = std::get<0>(std::move(fixtures)),
                        .trainee = printable(hello.trainee()),
                        .case_name = printable(hello.case_()),
                        .settings = settings_from(hello),
@@ -307,7 +314,9 @@ std::variant<ToolState, WireError> tool_from(const v2::ToolState& message, std::
                    .fault = one_line(message.fault()),
                    .notice = one_line(message.notice()),
                    .taken_unix_ns = message.taken_unix_ns(),
-                   .driver = driver_from(message.driver())};
+                   .driver = driver_from(message.driver()),
+                   .fixtures_on = message.fixtures_on() & every_fixture,
+                   .fixtures_acting = message.fixtures_acting() & every_fixture};
     if (message.has_depth_mm()) tool.depth_mm = message.depth_mm();
     if (message.has_solve())
         tool.solve = {.max_residual_n = message.solve().max_residual_n(),

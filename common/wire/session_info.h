@@ -31,6 +31,7 @@ struct SessionInfo {
     std::optional<Plan> plan{};
     PassMarks pass{};
     Rating rating{};
+    std::vector<Fixture> fixtures{};  ///< without their springs and dampers
     std::string trainee{};
     std::string case_name{};
     std::map<std::string, std::string> settings{};  ///< as haptic_server --json names them

@@ -20,6 +20,7 @@
 #include "devices/simulated/recorded_device.h"
 #include "imaging/case/structures.h"
 #include "simulation/loop/milling_session.h"
+#include "simulation/safety/fault.h"
 
 namespace osteomill {
 
@@ -83,6 +84,7 @@ MillingSessionOptions options_of(const SessionInfo& session) {
                                   .coupling = coupling,
                                   .force_model = setting(session, "force_model"),
                                   .vibration = setting(session, "vibration") == "true",
+                                  .can_be_controlled = true,
                                   .repeats_real_clock = setting(session, "clock") == "real"};
     options.removed_before_mm3[0] = number_of(session, "removed_before_mm3");
     return options;
@@ -95,6 +97,10 @@ bool acts_on_session(const ControlEvent& event) {
         case SessionAction::mark:
         case SessionAction::save:
         case SessionAction::finish:
+        // These reach the loop by its ticks, which are recorded.
+        case SessionAction::pause:
+        case SessionAction::resume:
+        case SessionAction::fixture:
             return false;
         default:
             return !event.is_refused;
@@ -153,6 +159,7 @@ class Repeat {
         const SessionInfo& info = playhead_.session();
         const Scene scene = scene_of(info);
         MillingSessionOptions options = options_of(info);
+        fixtures_on_ = fixtures_on(scene.fixtures);
         if (!scene.fixtures.empty()) {
             options.structures = playhead_.structures();
             add_structures_in_bone(scene, *start_, options.structures);
@@ -174,6 +181,7 @@ class Repeat {
         if (!recorded.input) throw NotRepeatable(only_to_four_decimals);
         const std::uint64_t tick = ticks_++;
         device_->say(recorded);
+        control(recorded);
         if (recorded.input->lets_go) session_->let_go();
         if (!is_real_) {
             session_->advance(1);
@@ -198,12 +206,27 @@ class Repeat {
         return is_equal;
     }
 
+    /// As those who controlled the session did, before the tick.
+    void control(const TickSample& recorded) {
+        constexpr auto paused = static_cast<std::uint8_t>(Fault::paused);
+        const bool is_pause_new = std::exchange(fault_, recorded.fault) != paused && recorded.fault == paused;
+        if (is_pause_new && !recorded.input->holds_still)
+            throw NotRepeatable(
+                fmt::format("its ticks do not say what held it still at {:.3f} s (recorded by an earlier "
+                            "version)",
+                            recorded.time_s));
+        SessionGate& gate = session_->exchange().gate;
+        gate.stillness.set(recorded.input->holds_still);
+        gate.fixtures_on.store(fixtures_on_ ^ recorded.input->switched);
+    }
+
     bool is_as(const TickSample& recorded, const TickSample& made, std::uint64_t tick) {
         ++result_.ticks;
         for (const TickQuantity& quantity : tick_quantities()) {
             if (!quantity.is_of(recorded)) continue;
             // The order of the loops is the real clock's, not theirs.
-            if (quantity.part == TickPart::input && !is_real_) continue;
+            const bool is_input = quantity.part == TickPart::input || quantity.part == TickPart::control;
+            if (is_input && !is_real_) continue;
             if (to_code(quantity.of(recorded), quantity.decimals) ==
                 to_code(quantity.of(made), quantity.decimals))
                 continue;
@@ -238,6 +261,8 @@ class Repeat {
     std::unique_ptr<RecordedDevice> device_;
     std::unique_ptr<MillingSession> session_;
     bool is_real_ = false;
+    FixtureSet fixtures_on_ = 0;  // as the scene says
+    std::uint8_t fault_ = 0;      // in the tick before
     std::uint64_t ticks_ = 0;
     std::optional<TickSample> before_;
 };

@@ -68,7 +68,7 @@ ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirro
                            const DeviceParts& device)
     : keeper_(save_into(options.save_bone, scene.source)),
       controls_(session.exchange().gate, *session.exchange().restored, session.exchange().placements,
-                requests(options, scene.scene, device)),
+                requests(options, scene.scene, device, session.held_fixtures())),
       live_(session.exchange().tool, session.exchange().changes, &controls_, std::move(options.script)),
       server_(with_teller(options.streaming, keeper_), info_of(options, scene, session.bone().grid(), device),
               std::move(mirror), live_, device.operator_channel.get(),
@@ -87,8 +87,10 @@ void ShownSession::end() {
 }
 
 SessionControls::Requests ShownSession::requests(const ShownOptions& options, const Scene& scene,
-                                                 const DeviceParts& device) {
+                                                 const DeviceParts& device, FixtureSet held) {
     SessionControls::Requests requests = keeper_.requests();
+    for (std::size_t i = 0; i < scene.fixtures.size(); ++i)
+        requests.fixtures.push_back(has_fixture(held, i) ? scene.fixtures[i].name : std::string());
     requests.finish_words = options.words_at_finish;
     if (device.simulated == nullptr) {
         requests.place = [&burrs = scene.burrs](const Bone& bone, const ToolPose& place, std::size_t burr) {

@@ -52,7 +52,7 @@ class ShownSession {
 
   private:
     SessionControls::Requests requests(const ShownOptions& options, const Scene& scene,
-                                       const DeviceParts& device);
+                                       const DeviceParts& device, FixtureSet held);
 
     SessionKeeper keeper_;
     std::optional<ToolPose> placed_;  // the streaming thread's until end()

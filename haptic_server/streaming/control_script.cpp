@@ -22,7 +22,8 @@ constexpr std::string_view header = "t_s,action,text";
 /// A placement needs a position, and has no place here.
 constexpr std::array actions{SessionAction::mark, SessionAction::pause,  SessionAction::resume,
                              SessionAction::undo, SessionAction::redo,   SessionAction::reset,
-                             SessionAction::save, SessionAction::finish, SessionAction::speed};
+                             SessionAction::save, SessionAction::finish, SessionAction::speed,
+                             SessionAction::fixture};
 
 SessionAction action_named(std::string_view name) {
     std::vector<std::string_view> names;
@@ -39,6 +40,19 @@ double number_in(std::string_view text, const char* name, const char* what) {
     if (!number || *number < 0.0)
         throw std::invalid_argument(fmt::format("{} '{}' is not {}, 0 or more", name, one_line(text), what));
     return *number;
+}
+
+/// Of "NAME=on" or "NAME=off".
+void read_switch(SessionControl& control) {
+    const std::size_t equals = control.text.rfind('=');
+    const std::string_view to = equals == std::string::npos
+                                    ? std::string_view()
+                                    : std::string_view(control.text).substr(equals + 1);
+    if (equals == 0 || (to != "on" && to != "off"))
+        throw std::invalid_argument(
+            fmt::format("the text '{}' is not a fixture's name, then =on or =off", control.text));
+    control.is_on = to == "on";
+    control.text.resize(equals);
 }
 
 TimedControl timed_control(std::string_view line) {
@@ -62,6 +76,7 @@ TimedControl timed_control(std::string_view line) {
         if (!is_spindle_speed(timed.control.spindle_rpm))
             throw std::invalid_argument("the speed is 100 to 500000 rpm, or 0 for each burr's own");
     }
+    if (timed.control.action == SessionAction::fixture) read_switch(timed.control);
     return timed;
 }
 

@@ -7,7 +7,8 @@
 //     6.0,speed,30000
 //
 // The first line must be this header. Times ascend or repeat. `action` is mark, pause, resume, undo, redo,
-// reset, save, finish or speed; `text`, all that follows, is a mark's note, or rev/min (0: each burr's own).
+// reset, save, finish, speed or fixture; `text`, all that follows, is a mark's note, rev/min (0: each burr's
+// own), or a fixture's name with =on or =off.
 // Blank lines and lines that begin with # are skipped. Anything else is refused with file and line.
 #pragma once
 

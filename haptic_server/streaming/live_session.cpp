@@ -20,7 +20,8 @@ SessionInfo session_info(const Scene& scene, bool accepts_operator, double force
             .reach_mm = ArmScale(scene.device.scale).length_mm(longest_reach_mm),
             .plan = scene.plan,
             .pass = scene.pass,
-            .rating = scene.rating};
+            .rating = scene.rating,
+            .fixtures = scene.fixtures};
 }
 
 void LiveSession::watch(StructureWatch structures, std::vector<Tissue> tissues) {

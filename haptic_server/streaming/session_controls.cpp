@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -11,6 +12,14 @@ namespace osteomill {
 namespace {
 
 constexpr const char* bone_is_under_way = "the bone is still being given back";
+
+std::string no_such_fixture(const std::string& name, const std::vector<std::string>& known) {
+    std::string choices;
+    for (const std::string& one : known)
+        if (!one.empty()) choices += fmt::format("{}\"{}\"", choices.empty() ? "" : ", ", one);
+    if (choices.empty()) return "the session has no fixture that can be switched";
+    return fmt::format("the session has no fixture \"{}\"; it has {}", name, choices);
+}
 
 bool is_stroke_action(SessionAction action) {
     return action == SessionAction::undo || action == SessionAction::redo || action == SessionAction::reset;
@@ -86,6 +95,9 @@ std::string SessionControls::act(const Waiting& waiting, const Bone& bone, const
             break;
         case SessionAction::speed:
             choose_speed(control);
+            return {};
+        case SessionAction::fixture:
+            switch_fixture(control);
             return {};
         case SessionAction::save:
             say(control, requests_.save(bone, control.text));
@@ -177,6 +189,22 @@ void SessionControls::choose_speed(const SessionControl& control) {
     say({.action = control.action,
          .text = control.spindle_rpm == 0.0 ? "each burr's own"
                                             : fmt::format("{:.0f} rpm", control.spindle_rpm)});
+}
+
+void SessionControls::switch_fixture(const SessionControl& control) {
+    const auto found = std::ranges::find(requests_.fixtures, control.text);
+    if (control.text.empty() || found == requests_.fixtures.end()) {
+        say(control, no_such_fixture(control.text, requests_.fixtures));
+    } else if (!is_paused_) {
+        say(control, "pause the session first");
+    } else {
+        const auto number = static_cast<std::size_t>(found - requests_.fixtures.begin());
+        const FixtureSet on = gate_.fixtures_on.load(std::memory_order_relaxed);
+        const FixtureSet bit = fixture_bit(number);
+        gate_.fixtures_on.store(control.is_on ? on | bit : on & ~bit, std::memory_order_relaxed);
+        say({.action = control.action,
+             .text = fmt::format("{}: {}", control.text, control.is_on ? "on" : "off")});
+    }
 }
 
 void SessionControls::queue_restored() {

@@ -1,5 +1,5 @@
 // Controls of a session by its operator: pause, undo and redo by slices of strokes, marks, the speed of the
-// spindle, saving, the end. They run on the streaming thread, whose own copy of the bone shows everything
+// spindle, fixtures on and off, saving, the end. They run on the streaming thread, whose own copy of the bone shows everything
 // that was milled.
 //
 // Undo takes the path of milling in reverse: the fractions in the journal are queued for the milling loop,
@@ -50,14 +50,16 @@ class SessionControls {
         std::function<std::optional<ToolPose>(const Bone&, const ToolPose&, std::size_t burr)> lift_out{};
         /// Called when the burr is there.
         std::function<void(const ToolPose&)> placed{};
+        /// Names of the scene's fixtures in their order; empty for one that cannot be switched.
+        std::vector<std::string> fixtures{};
     };
     /// Most requests that wait; more are refused.
     static constexpr std::size_t most_waiting = 64;
     /// At a streaming server's 30 Hz the client has its answer in less than a second.
     static constexpr int longest_wait_frames = 25;
 
-    /// The one writer of gate.stillness and gate.spindle_rev_per_s, of `restored` and of `placements`; all
-    /// outlive it.
+    /// The one writer of gate.stillness, gate.spindle_rev_per_s and gate.fixtures_on, of `restored` and of
+    /// `placements`; all outlive it.
     SessionControls(SessionGate& gate, ChangeQueue& restored, TripleBuffer<Placement>& placements,
                     Requests requests)
         : gate_(gate), restored_(restored), placements_(placements), requests_(std::move(requests)) {}
@@ -89,6 +91,7 @@ class SessionControls {
     void ask_for(const Placement& placement);
     void say_placed(const Waiting& waiting);
     void choose_speed(const SessionControl& control);
+    void switch_fixture(const SessionControl& control);
     void queue_restored();
     bool is_restoring() const { return !waits_for_room_.empty() || confirmed_ < queued_; }
     bool is_bone_whole() const { return !is_restoring() && restoration_.empty(); }

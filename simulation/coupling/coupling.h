@@ -7,9 +7,9 @@
 
 #include "common/scene/scene.h"
 #include "common/scene/solve_counts.h"
+#include "simulation/coupling/fixture_pull.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/exchange/milling_step.h"
-#include "simulation/fixtures/fixtures.h"
 
 namespace osteomill {
 
@@ -21,7 +21,8 @@ struct HandState {
     glm::dvec3 velocity_mm_per_s{0.0};
     bool spindle_on = false;
     std::size_t burr = 0;
-    double speed_share = 1.0;  ///< of the spindle's speed to the burr's own
+    double speed_share = 1.0;                ///< of the spindle's speed to the burr's own
+    FixtureSet fixtures_on = every_fixture;  ///< of those that the coupling has
 };
 
 struct CouplingOutput {
@@ -41,8 +42,8 @@ class Coupling {
     /// Outcomes of the solves so far; zero for a coupling that does not solve.
     virtual SolveCounts solve_counts() const noexcept { return {}; }
 
-    /// Of the scene's fixtures on the burr in the last tick, patient axes.
-    virtual glm::dvec3 fixture_force_n() const noexcept { return glm::dvec3(0.0); }
+    /// Of the scene's fixtures in the last tick; none after a reset.
+    virtual FeltFixtures felt_fixtures() const noexcept { return {}; }
 
     /// Clears all state, as after a fault or a jump of the device: the next tick starts from the hand's pose.
     virtual void reset() noexcept = 0;

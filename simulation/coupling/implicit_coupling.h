@@ -32,7 +32,7 @@ class ImplicitCoupling final : public Coupling {
     }
     std::unique_ptr<Coupling> copy() const override { return std::make_unique<ImplicitCoupling>(*this); }
     SolveCounts solve_counts() const noexcept override { return proxy_.counts(); }
-    glm::dvec3 fixture_force_n() const noexcept override { return fixtures_.force_n(); }
+    FeltFixtures felt_fixtures() const noexcept override { return fixtures_.felt(); }
 
     /// Filter on the burr's side of the damping, ten times the hand's: the proxy moves unevenly, as its map
     /// is refreshed and contacts come and go, and the hand should not feel that.

@@ -32,7 +32,7 @@ CouplingOutput VirtualCoupling::tick(const HandState& hand, const MillingResult&
     pull.stiffness_n_per_mm += inertia_n_s_per_mm / hand.tick_s;
 
     const glm::dvec3 from_mm = tool_.position_mm();
-    fixtures_.add_to(pull, {from_mm, hand.pose.spindle_axis}, hand.burr, hand.tick_s);
+    fixtures_.add_to(pull, {from_mm, hand.pose.spindle_axis}, hand.burr, hand.tick_s, hand.fixtures_on);
     if (model_holds_wall_) {
         pull.offset_n += latest.force_n;
         tool_.place(from_mm + pull.free_step_mm());

@@ -32,7 +32,7 @@ class VirtualCoupling final : public Coupling {
     }
     std::unique_ptr<Coupling> copy() const override { return std::make_unique<VirtualCoupling>(*this); }
     SolveCounts solve_counts() const noexcept override { return tool_.counts(); }
-    glm::dvec3 fixture_force_n() const noexcept override { return fixtures_.force_n(); }
+    FeltFixtures felt_fixtures() const noexcept override { return fixtures_.felt(); }
 
   private:
     double mass_n_s2_per_mm_;

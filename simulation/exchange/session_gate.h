@@ -1,4 +1,5 @@
-// Instructions of a session's keeper to the haptic loop: the spindle's speed, and whether to hold still.
+// Instructions of a session's keeper to the haptic loop: the spindle's speed, the fixtures that are on, and
+// whether to hold still.
 // While the session holds still there is neither force nor spindle, and only undo changes the bone.
 #pragma once
 
@@ -6,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "common/scene/fixture_set.h"
 #include "common/scene/scene.h"
 
 namespace osteomill {
@@ -44,6 +46,8 @@ struct SessionGate {
     std::atomic<std::uint64_t> placed{0};
     /// Speed of the spindle that was chosen; 0: each burr's own.
     std::atomic<double> spindle_rev_per_s{0.0};
+    /// Fixtures of the scene that are to be on. Taken over while the hand feels no force.
+    std::atomic<FixtureSet> fixtures_on{0};
 };
 
 /// Moves the tool to another place while the hand stays: the device's position on the patient changes. Done

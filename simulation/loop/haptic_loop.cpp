@@ -23,7 +23,8 @@ HapticLoop::HapticLoop(const HapticLoopParts& parts, const HapticLoopOptions& op
       hand_pose_(options.start_pose),
       burr_pose_(options.start_pose),
       burr_(options.start_burr, options.burr_count),
-      speed_(options.spindle_rev_per_s) {}
+      speed_(options.spindle_rev_per_s),
+      fixtures_on_(options.fixtures_on) {}
 
 HapticLoop::HapticLoop(const HapticLoop& other, const HapticLoopParts& parts) : HapticLoop(other) {
     // References are not assigned, but made.
@@ -47,8 +48,16 @@ bool HapticLoop::holds_still(const MillingResult& latest) noexcept {
     // Bone may come back round the burr: in that very tick nothing may be felt of it.
     const bool is_restored =
         std::exchange(restored_changes_, latest.restored_changes) != latest.restored_changes;
-    const bool is_asked = parts_.gate != nullptr && parts_.gate->stillness.was_wanted();
-    return is_restored || is_asked;
+    was_stillness_asked_ = parts_.gate != nullptr && parts_.gate->stillness.was_wanted();
+    return is_restored || was_stillness_asked_;
+}
+
+/// Only while nobody feels a force: they come in with the next, as after a start.
+void HapticLoop::take_fixtures() noexcept {
+    const ForceGuard::State force = safety_.state();
+    const bool is_off = force == ForceGuard::State::off || force == ForceGuard::State::fading_out;
+    if (is_off && parts_.gate != nullptr)
+        fixtures_on_ = parts_.gate->fixtures_on.load(std::memory_order_relaxed);
 }
 
 bool HapticLoop::place(const DeviceState& device) noexcept {
@@ -103,8 +112,12 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_.burr()};
     if (safety_.has_hand()) hand = hand_state(now_s, elapsed_s, device);
     hand.speed_share = speed_share(elapsed_s);
-    if (parts_.fixtures != nullptr)
-        hand.speed_share *= parts_.fixtures->spindle_share(burr_pose_, burr_.burr());
+    if (options_.has_fixtures) {
+        take_fixtures();
+        hand.fixtures_on = fixtures_on_;
+        // As the last tick found it: the coupling looks once a tick where its burr is.
+        hand.speed_share *= parts_.coupling.felt_fixtures().spindle_share;
+    }
 
     glm::dvec3 wanted_n(0.0);
     glm::dvec3 shank_torque_n_mm(0.0);
@@ -154,6 +167,10 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
              .spindle_rpm = hand.speed_share != 1.0
                                 ? std::optional(60.0 * hand.speed_share * speed_.own_rev_per_s(burr_.burr()))
                                 : std::nullopt};
+    if (options_.has_fixtures) {
+        tool_.fixtures_on = fixtures_on_;
+        tool_.fixtures_acting = parts_.coupling.felt_fixtures().acting;
+    }
     publish({.tick = ticks_++,
              .pose = burr_pose_,
              .spindle_on = spindle_on,
@@ -192,7 +209,10 @@ std::uint64_t HapticLoop::note_steps(const MillingResult& latest) noexcept {
 
 TickInput HapticLoop::input_of(const DeviceState& device, bool lets_go) const noexcept {
     using Pedal = TickInput::Pedal;
-    TickInput input{.lets_go = lets_go, .steps = steps_};
+    TickInput input{.lets_go = lets_go,
+                    .steps = steps_,
+                    .holds_still = was_stillness_asked_,
+                    .switched = fixtures_on_ ^ options_.fixtures_on};
     if (device.burr && *device.burr < options_.burr_count) input.burr = device.burr;
     if (!safety_.has_hand()) {
         input.pedal = Pedal::no_hand;

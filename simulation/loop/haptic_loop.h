@@ -46,7 +46,6 @@ struct HapticLoopParts {
     HandpieceVibration* vibration = nullptr;        ///< added to the coupling's force; null: none
     SessionGate* gate = nullptr;                    ///< read and written; null: the session never holds still
     TripleBuffer<Placement>* placements = nullptr;  ///< read, with `gate`
-    const Fixtures* fixtures = nullptr;  ///< that may slow a spindle whose speeds the options say; null: none
 };
 
 struct HapticLoopOptions {
@@ -57,6 +56,8 @@ struct HapticLoopOptions {
     std::vector<double> spindle_rev_per_s{};  ///< each burr's; empty: no other speed can be chosen
     bool has_shank = false;                   ///< any burr of the set: its torque is reported
     double removed_before_mm3 = 0.0;  ///< by the sessions before: the reported volume continues from there
+    bool has_fixtures = false;        ///< the coupling has
+    FixtureSet fixtures_on = 0;       ///< of the scene's, at the start
     /// The hand's pose before the first tick.
     ToolPose start_pose{};
 };
@@ -99,6 +100,7 @@ class HapticLoop {
     bool place(const DeviceState& device) noexcept;
     /// Whether the session holds still in this tick, or has since the last one.
     bool holds_still(const MillingResult& latest) noexcept;
+    void take_fixtures() noexcept;
     void publish(const BurrCommand& command) noexcept;
     void show() noexcept;
     double speed_share(double elapsed_s) noexcept;
@@ -124,6 +126,8 @@ class HapticLoop {
     SpindleSpeed speed_;
     bool spindle_turned_ = false;         // in the last tick
     std::uint64_t restored_changes_ = 0;  // the last result's
+    bool was_stillness_asked_ = false;    // since the last tick
+    FixtureSet fixtures_on_;
     double protected_until_s_ = 0.0;
 
     bool has_met_bone_ = false;

@@ -69,6 +69,12 @@ std::vector<double> spindle_speeds(const std::vector<Burr>& burrs) {
     return rev_per_s;
 }
 
+/// All of them where they may be switched, else those that are on.
+FixtureSet fixtures_to_hold(const Scene& scene, const MillingSessionOptions& options) {
+    const bool may_be_switched = options.can_be_controlled && find_coupling(options.coupling).takes_fixtures;
+    return may_be_switched ? (FixtureSet{1} << scene.fixtures.size()) - 1 : fixtures_on(scene.fixtures);
+}
+
 std::optional<HandpieceVibration> make_vibration(const Scene& scene, const HapticDevice& device,
                                                  const MillingSessionOptions& options) {
     if (!options.vibration) return std::nullopt;
@@ -118,16 +124,17 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
       log_(log),
       milling_log_(milling_log),
       model_(make_force_model(options.force_model, std::move(bone), felt_burrs(scene), scene.tissues)),
-      fixtures_(make_fixtures(
-          scene, options.structures,
-          in_patient_space(device.limits(), ArmScale(scene.device.scale)).max_stiffness_n_per_mm)),
+      held_fixtures_(fixtures_to_hold(scene, options)),
       coupling_(make_coupling(
           options.coupling,
           {.device = in_patient_space(device.limits(), ArmScale(scene.device.scale)),
            .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
            .model_holds_wall = !find_force_model(options.force_model).has_cutting_law,
            .wall_friction = find_force_model(options.force_model).has_friction ? scene.wall_friction : 0.0,
-           .fixtures = fixtures_})),
+           .fixtures = make_fixtures(
+               scene, options.structures,
+               in_patient_space(device.limits(), ArmScale(scene.device.scale)).max_stiffness_n_per_mm,
+               held_fixtures_)})),
       exchange_(model_->bone(), tool_at_start(scene),
                 {.consume_changes = options.changes_are_consumed, .control = options.can_be_controlled}),
       vibration_(make_vibration(scene, device, options)),
@@ -140,6 +147,8 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                     .has_shank = has_shank(scene.burrs),
                     .removed_before_mm3 = std::accumulate(options.removed_before_mm3.begin(),
                                                           options.removed_before_mm3.end(), 0.0),
+                    .has_fixtures = held_fixtures_ != 0,
+                    .fixtures_on = fixtures_on(scene.fixtures),
                     .start_pose = scene.start_pose}),
       burrs_(felt_burrs(scene)),
       milling_loop_(milling_parts(scene.motor), tick_s),
@@ -149,6 +158,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
                      options.clock == ClockKind::real || options.repeats_real_clock ? 0.5 * tick_s : 0.0,
                      milling_work()) {
     options_.structures.clear();
+    exchange_.gate.fixtures_on.store(fixtures_on(scene.fixtures));
 }
 
 MillingSession::MillingSession(const MillingSession& other, HapticDevice& device, SampleLog<TickSample>* log)
@@ -157,7 +167,7 @@ MillingSession::MillingSession(const MillingSession& other, HapticDevice& device
       log_(log),
       milling_log_(nullptr),
       model_(other.model_->copy()),
-      fixtures_(other.fixtures_),
+      held_fixtures_(other.held_fixtures_),
       coupling_(other.coupling_->copy()),
       exchange_(other.exchange_, model_->bone()),
       vibration_(other.vibration_),
@@ -179,8 +189,7 @@ HapticLoopParts MillingSession::haptic_parts() noexcept {
             .log = log_,
             .vibration = vibration_ ? &*vibration_ : nullptr,
             .gate = exchange_.restored ? &exchange_.gate : nullptr,
-            .placements = exchange_.restored ? &exchange_.placements : nullptr,
-            .fixtures = fixtures_.get()};
+            .placements = exchange_.restored ? &exchange_.placements : nullptr};
 }
 
 MillingLoopParts MillingSession::milling_parts(const std::optional<Motor>& motor) noexcept {

@@ -137,7 +137,9 @@ class MillingSession {
     MillingSessionReport report() const;
     /// Of the scene's fixtures on the burr in the last tick, patient axes; on the virtual clock between two
     /// calls of advance().
-    glm::dvec3 fixture_force_n() const { return coupling_->fixture_force_n(); }
+    glm::dvec3 fixture_force_n() const { return coupling_->felt_fixtures().force_n; }
+    /// Those of the scene's fixtures that can be on.
+    FixtureSet held_fixtures() const { return held_fixtures_; }
     SolveCounts solve_counts() const { return coupling_->solve_counts(); }
     const std::array<std::uint64_t, HapticLoop::fault_kinds>& fault_counts() const {
         return haptic_loop_.fault_counts();
@@ -175,7 +177,7 @@ class MillingSession {
     SampleLog<TickSample>* log_;
     SampleLog<MillingSample>* milling_log_;
     std::unique_ptr<ForceModel> model_;
-    std::shared_ptr<const Fixtures> fixtures_;  // null: none
+    FixtureSet held_fixtures_;
     std::unique_ptr<Coupling> coupling_;
     SessionExchange exchange_;
     std::optional<HandpieceVibration> vibration_;

@@ -168,7 +168,7 @@ TEST_F(SessionControlsProgram, SaysInOneLineWhatIsWrongWithAScript) {
     EXPECT_EQ(finished.status, 1);
     EXPECT_EQ(finished.err, "haptic_server: " + file("script.csv") +
                                 ":2: action 'undu' is not one of mark, pause, resume, undo, redo, reset, "
-                                "save, finish, speed\n");
+                                "save, finish, speed, fixture\n");
 }
 
 }  // namespace

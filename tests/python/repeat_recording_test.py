@@ -1,5 +1,6 @@
 """Recordings of any session repeat to the bit: they hold the values that were used."""
 
+import json
 import pathlib
 import subprocess
 import sys
@@ -84,11 +85,55 @@ class RepeatRecordingTest(unittest.TestCase):
                    "--record", self.folder / "c.pcap")
         self.assert_repeats(self.folder / "c.pcap", 4001)
 
+    def controlled(self, lines):
+        """Arguments for a session with a slow zone, and a guide that is off, under these controls."""
+        (self.folder / "case.toml").write_text(
+            (REPOSITORY / "scenes/tooth.toml").read_text() + '\n[[fixture]]\nname = "Slowly"\nkind = "slow"\ntissue = "pulp"\ndistance_mm = 9\n'
+            '[[fixture]]\nname = "Aside"\nkind = "guide"\non = false\nradius_mm = 0\n'
+            "plane = { at_mm = [0.4, 0, 0], normal = [1, 0, 0] }\n")
+        (self.folder / "controls.csv").write_text("t_s,action,text\n" + lines)
+        return "--scene", self.folder / "case.toml", "--controls", self.folder / "controls.csv"
+
+    def events(self, file):
+        folder = self.folder / f"{file.stem}-report"
+        subprocess.run([program("packet_replay"), file, "--report", folder], check=True, capture_output=True)
+        events = json.loads((folder / "metrics.json").read_text())["events"]
+        return [(event["action"], event["text"], event["is_refused"]) for event in events]
+
+    SWITCHED = "1.5,pause,\n1.6,fixture,Slowly=off\n1.6,fixture,Aside=on\n1.6,resume,\n2.5,pause,\n2.7,resume,\n"
+
+    def test_a_session_that_was_paused_and_whose_fixtures_were_switched(self):
+        file = self.folder / "switched.pcap"
+        self.serve(*self.controlled(self.SWITCHED), "--clock", "virtual", "--duration-s", "4", "--record", file)
+        self.assertEqual([event for event in self.events(file) if event[0] == "fixture"],
+                         [("fixture", "Slowly: off", False), ("fixture", "Aside: on", False)])
+        self.assert_repeats(file, 4001)
+        plain = self.folder / "plain.pcap"
+        self.serve(*self.controlled("1.5,pause,\n1.6,resume,\n2.5,pause,\n2.7,resume,\n"), "--clock", "virtual",
+                   "--duration-s", "4", "--record", plain)
+        self.assert_repeats(plain, 4001)
+        felt, unfelt = (om.Recording(one).ticks["force_n"] for one in (file, plain))
+        np.testing.assert_array_equal(felt[:1600], unfelt[:1600])
+        self.assertGreater(np.abs(felt[1700:] - unfelt[1700:]).max(), 0.01)
+
+    def test_a_fixture_is_switched_only_while_the_session_is_paused(self):
+        file = self.folder / "refused.pcap"
+        self.serve(*self.controlled("0.5,fixture,Slowly=off\n0.6,pause,\n0.7,fixture,Slow=off\n0.8,resume,\n"),
+                   "--clock", "virtual", "--duration-s", "1", "--record", file)
+        refused = [event[1] for event in self.events(file) if event[2]]
+        self.assertEqual(refused, ["pause the session first",
+                                   'the session has no fixture "Slow"; it has "Slowly", "Aside"'])
+        self.assert_repeats(file, 1001)
+
+    def test_a_paused_session_of_the_real_clock(self):
+        self.serve_until_it_repeats(*self.controlled(self.SWITCHED))
+
     def serve_until_it_repeats(self, *arguments):
         """On a busy machine a loop may stand still for longer than a tick can tell of: again, then."""
         for attempt in range(10):
             file = self.folder / f"r{attempt}.pcap"
-            self.serve("--scene", "tooth", "--listen", "none", "--duration-s", "4", "--record", file, *arguments)
+            scene = () if "--scene" in arguments else ("--scene", "tooth")
+            self.serve(*scene, "--listen", "none", "--duration-s", "4", "--record", file, *arguments)
             if "which milling steps" not in om.repeat(file).line:
                 return self.assert_repeats(file, 100)
         return self.skipTest("the machine is too busy for a session of the real clock")
@@ -108,10 +153,10 @@ class RepeatRecordingTest(unittest.TestCase):
         old = om.repeat(REPOSITORY / "tests/golden/0.3/recording.pcap")
         self.assertFalse(old.is_equal)
         self.assertIn("repeats to 0.1 um only", old.line)
-        (self.folder / "controls.csv").write_text("t_s,action,text\n0.3,pause,\n0.5,resume,\n")
-        self.serve("--clock", "virtual", "--controls", self.folder / "controls.csv", "--duration-s", "1",
-                   "--record", self.folder / "paused.pcap")
-        self.assertIn("'pause' at 0.3", om.repeat(self.folder / "paused.pcap").line)
+        (self.folder / "controls.csv").write_text("t_s,action,text\n2.9,pause,\n3.1,undo,\n3.2,resume,\n")
+        self.serve("--clock", "virtual", "--controls", self.folder / "controls.csv", "--duration-s", "4",
+                   "--record", self.folder / "undone.pcap")
+        self.assertIn("'undo' at 3.1", om.repeat(self.folder / "undone.pcap").line)
         with self.assertRaisesRegex(om.Fault, "nowhere.pcap"):
             om.repeat("nowhere.pcap")
 

@@ -49,10 +49,24 @@ const char* words_for(SessionAction done) {
                            std::pair{SessionAction::save, tr("the server saves the bone")},
                            std::pair{SessionAction::finish, tr("the session ends;")},
                            std::pair{SessionAction::place, tr("the tool is")},
-                           std::pair{SessionAction::speed, tr("the spindle's speed:")}};
+                           std::pair{SessionAction::speed, tr("the spindle's speed:")},
+                           std::pair{SessionAction::fixture, tr("help by force:")}};
     for (const auto& [action, word] : words)
         if (action == done) return word;
     return tr("the server did what this program does not know");
+}
+
+/// Of "NAME: on" or "NAME: off", whose name is a person's.
+std::string switched_words(const std::string& text) {
+    const std::size_t end = text.rfind(' ');
+    return end == std::string::npos ? text : text.substr(0, end + 1) + tr(text.substr(end + 1));
+}
+
+/// In the window's language.
+std::string words_of(const ControlEvent& event) {
+    if (event.action == SessionAction::mark) return event.text;
+    if (event.action == SessionAction::fixture && !event.is_refused) return switched_words(event.text);
+    return tr_with_numbers(event.text);
 }
 
 }  // namespace
@@ -240,8 +254,7 @@ void Commands::tell(const std::vector<ControlEvent>& events, double now_s) {
         if (event.action == SessionAction::place && std::exchange(waits_for_place_, false) &&
             !clutch_.is_held())
             session_.show_tool_at(std::nullopt);
-        const std::string text =
-            event.action == SessionAction::mark ? event.text : tr_with_numbers(event.text);
+        const std::string text = words_of(event);
         say(event.is_refused ? trf("no {}: {}", tr(name_of(event.action)), text)
                              : fmt::format("{} {}", words_for(event.action), text),
             now_s);

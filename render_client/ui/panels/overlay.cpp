@@ -6,6 +6,8 @@
 
 #include "render_client/ui/panels/cube_panel.h"
 #include "render_client/ui/panels/cuts_panel.h"
+#include "render_client/ui/panels/fixture_marks.h"
+#include "render_client/ui/panels/fixture_panel.h"
 #include "render_client/ui/panels/help_panel.h"
 #include "render_client/ui/panels/inset_panel.h"
 #include "render_client/ui/panels/live_plot.h"
@@ -148,6 +150,15 @@ void add_readings(PanelList& panels, const OverlayContent& content, const PanelP
     if (content.tool) add_text(Anchor::upper_right, tool_text(content));
     if (const PanelText structures = structure_text(content); !structures.empty())
         add_text(Anchor::upper_right, structures);
+    if (const PanelText fixtures = fixture_text(content); !fixtures.empty()) {
+        if (has_fixture_boxes(content))
+            panels.add(Anchor::upper_right, {fixture_panel_size(fixtures)},
+                       [&content, fixtures](const PanelPlace& place) {
+                           draw_fixture_panel(content, fixtures, place);
+                       });
+        else
+            add_text(Anchor::upper_right, fixtures);
+    }
     if (content.has_bone) {
         panels.add(Anchor::upper_right, {cube_size(painter)},
                    [&](const PanelPlace& place) { draw_cube(painter, *content.camera, place); });
@@ -179,6 +190,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     const PanelPainter painter(theme_of(content.view->theme), content.view->scale);
     const glm::vec2 picture(size_px);
     draw_slices_cross(content, painter, size_px);
+    if (content.tool && content.session && content.has_bone) draw_guides(painter, content, size_px);
     const float margin = margin_px * painter.scale();
     const float side_width =
         glm::clamp(0.45f * picture.x, 200.0f * painter.scale(), 360.0f * painter.scale());

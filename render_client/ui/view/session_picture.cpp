@@ -43,7 +43,7 @@ SessionNews SessionPicture::take_in() {
     if (is_of_another_session()) {
         if (link_.bone_replaced || link_.status == LinkStatus::receiving_snapshot) {
             bone_.expect_another();
-            picture_.forget_structures();
+            forget_structures();
         }
         forget_session();
     }
@@ -111,10 +111,11 @@ void SessionPicture::take_in_bone(bool first_of_tool) {
     }
     work_on_bone();
     if (link_.bone_replaced) {
-        picture_.forget_structures();
+        forget_structures();
         if (const SessionInfo* session = source_.session()) slices_.set_tissues(session->tissues);
     }
     for (const Structure& structure : link_.structures) take_in_structure(structure);
+    take_in_fixtures();
     if (first_of_tool && has_bone()) find_first_view();
 }
 
@@ -126,7 +127,22 @@ void SessionPicture::take_in_structure(const Structure& structure) {
     const StructureMask soft = soft_part(structure.mask, *source_.bone());
     bone_.add_structure(tissue.label, soft);
     picture_.add_structure(surface_of(soft, linear_from_srgb(tissue.colour_rgb)), tissue.opacity);
+    fixture_borders_.take_in(*session, structure);
     has_undrawn_bone_ = true;
+}
+
+void SessionPicture::take_in_fixtures() {
+    const SessionInfo* session = source_.session();
+    if (session == nullptr || session->fixtures.empty() || !tool_.state()) return;
+    // All structures have come before the first state.
+    fixture_borders_.take_in_labels(*session, *source_.bone());
+    const bool waits = frame_quality_ == FrameQuality::full;
+    if (fixture_borders_.show(picture_, tool_.state()->fixtures_on, waits)) has_undrawn_bone_ = true;
+}
+
+void SessionPicture::forget_structures() {
+    picture_.forget_structures();
+    fixture_borders_.forget();
 }
 
 SessionNews SessionPicture::news() const {

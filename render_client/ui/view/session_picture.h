@@ -12,6 +12,7 @@
 #include "render_client/ui/panels/panels.h"
 #include "render_client/ui/report.h"
 #include "render_client/ui/view/bone_on_screen.h"
+#include "render_client/ui/view/fixture_borders.h"
 #include "render_client/ui/view/session_news.h"
 #include "render_client/ui/view/session_sight.h"
 #include "render_client/ui/view/shown_tool.h"
@@ -104,6 +105,8 @@ class SessionPicture {
     void forget_session();
     void find_first_view();
     void take_in_structure(const Structure& structure);
+    void take_in_fixtures();
+    void forget_structures();
     void work_on_bone();
     void show_other_textures(DrawingCost cost);
     SessionNews news() const;
@@ -118,6 +121,7 @@ class SessionPicture {
     FrameQuality frame_quality_;
     std::chrono::milliseconds preparing_slice_{15};
     StereoPicture picture_;
+    FixtureBorders fixture_borders_;
     RendererChoice renderer_choice_;
     std::optional<InsetView> inset_;  ///< while it is shown
     glm::ivec2 size_px_;

@@ -28,8 +28,12 @@ class ScenePicture {
     void set_appearance(const SceneAppearance& look) { layer_.set_appearance(look); }
     /// The bone was replaced: its layer is drawn anew.
     void forget_bone(DrawingCost cost = DrawingCost::unknown) { layer_.forget(cost); }
-    /// Adds a soft structure beside the bone.
-    void add_structure(const StructureSurface& surface, double opacity) { structures_.add(surface, opacity); }
+    /// Adds a soft structure beside the bone; returns its number.
+    std::size_t add_structure(const StructureSurface& surface, double opacity) {
+        return structures_.add(surface, opacity);
+    }
+    /// By its number, from the next draw on.
+    void show_structure(std::size_t structure, bool is_shown) { structures_.show(structure, is_shown); }
     /// Removes all structures; the next picture is drawn anew.
     void forget_structures() {
         structures_.forget();

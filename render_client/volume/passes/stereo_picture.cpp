@@ -69,9 +69,14 @@ void StereoPicture::forget_bone(DrawingCost cost) {
     if (right_) right_->forget_bone(cost);
 }
 
-void StereoPicture::add_structure(const StructureSurface& surface, double opacity) {
-    left_.add_structure(surface, opacity);
+std::size_t StereoPicture::add_structure(const StructureSurface& surface, double opacity) {
     if (right_) right_->add_structure(surface, opacity);
+    return left_.add_structure(surface, opacity);
+}
+
+void StereoPicture::show_structure(std::size_t structure, bool is_shown) {
+    left_.show_structure(structure, is_shown);
+    if (right_) right_->show_structure(structure, is_shown);
 }
 
 void StereoPicture::forget_structures() {

@@ -22,7 +22,8 @@ class StereoPicture {
     void resize(const glm::ivec2& size_px);
     void set_appearance(const SceneAppearance& look);
     void forget_bone(DrawingCost cost = DrawingCost::unknown);
-    void add_structure(const StructureSurface& surface, double opacity);
+    std::size_t add_structure(const StructureSurface& surface, double opacity);
+    void show_structure(std::size_t structure, bool is_shown);
     void forget_structures();
     void mark_dirty(const BoneTextures& bone, std::span<const VoxelBox> changed);
     void frame_took(double frame_s);

@@ -2,6 +2,7 @@
 // depth of bone and tool, and cut as the bone is.
 #pragma once
 
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
@@ -17,8 +18,10 @@ namespace osteomill {
 
 class StructureRenderer {
   public:
-    /// Adds a structure, from the next draw on. One without triangles is not kept.
-    void add(const StructureSurface& surface, double opacity);
+    /// Adds a structure, from the next draw on; returns its number. Nothing is drawn of one without triangles.
+    std::size_t add(const StructureSurface& surface, double opacity);
+    /// By its number.
+    void show(std::size_t structure, bool is_shown) { drawn_[structure].is_shown = is_shown; }
     void forget() { drawn_.clear(); }
 
     /// Draws over the bound framebuffer, whose depth is that of Camera::projection and whose size that of the
@@ -27,9 +30,10 @@ class StructureRenderer {
 
   private:
     struct Drawn {
-        gl::Mesh mesh;
-        glm::dvec3 origin_mm;
-        float opacity;
+        std::optional<gl::Mesh> mesh;  // none: it has no triangles
+        glm::dvec3 origin_mm{0.0};
+        float opacity = 0.0f;
+        bool is_shown = true;
     };
 
     std::optional<gl::Program> program_;  // none before the first structure

@@ -45,9 +45,12 @@ struct Rig {
                               .model_holds_wall = !osteomill::find_force_model(force_model).has_cutting_law,
                               .fixtures = fixtures})),
           vibration({used}, {.max_force_n = 3.3, .max_slew_n_per_s = ForceGuard::slew_n_per_s}),
-          haptic({device, *coupling, *results, commands, tool, status, &log, &vibration, nullptr, nullptr,
-                  fixtures.get()},
-                 {.spindle_rev_per_s = {used.spindle_rev_per_s}, .has_shank = true, .start_pose = start}) {}
+          haptic({device, *coupling, *results, commands, tool, status, &log, &vibration, &gate},
+                 {.spindle_rev_per_s = {used.spindle_rev_per_s},
+                  .has_shank = true,
+                  .has_fixtures = fixtures != nullptr,
+                  .fixtures_on = 0b111,
+                  .start_pose = start}) {}
 
     testing::TemporaryFolder folder;
     ForceLog log{folder / "forces.csv"};
@@ -57,6 +60,7 @@ struct Rig {
     TripleBuffer<BurrCommand> commands;
     TripleBuffer<ToolState> tool;
     TripleBuffer<ToolState> status;
+    SessionGate gate;
     ChangeQueue changes{1 << 12, model->bone().shared_content()};  // small: it overflows, too
     std::unique_ptr<Coupling> coupling;
     HandpieceVibration vibration;
@@ -71,17 +75,24 @@ int expect_no_allocation(
     const std::shared_ptr<const Fixtures>& fixtures = nullptr) {
     const auto rig = std::make_unique<Rig>(force_model, coupling_name, device, used, fixtures);
     int touching = 0;
+    FixtureSet ever_on = 0;
+    FixtureSet always_on = every_fixture;
     const std::size_t before = testing::allocation_count();
     for (int tick = 0; tick < 2000; ++tick) {
         const double time_s = 0.001 * tick;
         before_tick();
+        rig->gate.fixtures_on = tick < 1750 ? 0b111 : 0b101;
         rig->haptic.tick(time_s, tick >= 1000 && tick % 500 == 499 ? 30 : 0);  // faults are no excuse
         rig->milling.step(time_s, 0.001);
         rig->tool.refresh();
         touching += rig->tool.front().shank_torque_n_mm != glm::dvec3(0.0);
+        ever_on |= rig->tool.front().fixtures_on;
+        always_on &= rig->tool.front().fixtures_on;
     }
     EXPECT_EQ(testing::allocation_count() - before, 0u) << force_model << ", " << coupling_name;
     EXPECT_GT(rig->model->removed_mm3()[0], 0.1) << "there was something to do";
+    // The force is off by then: a burr that is in bone after a fault stays out of it.
+    EXPECT_EQ(ever_on & ~always_on, fixtures ? 0b010U : 0U) << "one was switched";
     EXPECT_GT(rig->changes.overflow_count(), 0u) << force_model << ", " << coupling_name;
     return touching;
 }
@@ -132,7 +143,7 @@ TEST(RealTimeCode, AllocatesNothingWithFixtures) {
     const std::vector<Structure> nerve{
         {.tissue = 0, .mask = testing::ball_mask(grid, {0.0, 0.0, -1.2}, 0.5)}};
     const auto fixtures = make_fixtures(scene, nerve, 1.5);
-    ASSERT_NE(fixtures->pull_on({{0.0, 0.0, 0.25}, {0.0, 0.0, 1.0}}, 0).force_n, glm::dvec3(0.0));
+    ASSERT_NE(fixtures->at({{0.0, 0.0, 0.25}, {0.0, 0.0, 1.0}}, 0).pull.force_n, glm::dvec3(0.0));
     for (const char* coupling : {"implicit", "virtual-coupling"}) {
         SimulatedDevice device(Trajectory({{0.0, start, true, std::nullopt},
                                            {0.15, {{-2.7, 0.0, 0.4}, {0.0, 0.0, 1.0}}, true, std::nullopt},

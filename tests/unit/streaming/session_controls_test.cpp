@@ -36,7 +36,8 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
                          return ToolPose{wanted.position_mm + wanted.spindle_axis, wanted.spindle_axis};
                      },
                      .lift_out = [this](const Bone&, const ToolPose&, std::size_t) { return lifted_; },
-                     .placed = [this](const ToolPose& pose) { placed_ = pose; }}) {}
+                     .placed = [this](const ToolPose& pose) { placed_ = pose; },
+                     .fixtures = {"Shaft", "", "Off the nerve"}}) {}
 
     void push(const BrickChange& change, BrickFractions fractions) noexcept override {
         changes_.push(change, fractions);
@@ -327,6 +328,42 @@ TEST_F(SessionControlsTest, TellsTheHapticLoopTheSpindlesSpeed) {
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events[0].text, "30000 rpm");
     EXPECT_EQ(events[1].text, "each burr's own");
+}
+
+TEST_F(SessionControlsTest, SwitchesAFixtureWhileTheSessionIsPaused) {
+    gate_.fixtures_on = 0b101;
+    const auto ask = [&](const char* name, bool is_on) {
+        controls_.control({.action = SessionAction::fixture, .text = name, .is_on = is_on});
+        frame();
+        return controls_.take_events().at(0);
+    };
+    controls_.control({SessionAction::pause});
+    frame();
+    controls_.take_events();
+    const ControlEvent off = ask("Shaft", false);
+    EXPECT_FALSE(off.is_refused);
+    EXPECT_EQ(off.action, SessionAction::fixture);
+    EXPECT_EQ(off.text, "Shaft: off");
+    EXPECT_EQ(gate_.fixtures_on, 0b100U);
+    EXPECT_EQ(ask("Off the nerve", true).text, "Off the nerve: on") << "as it was";
+    EXPECT_EQ(gate_.fixtures_on, 0b100U);
+    EXPECT_EQ(ask("Shaft", true).text, "Shaft: on");
+    EXPECT_EQ(gate_.fixtures_on, 0b101U);
+}
+
+TEST_F(SessionControlsTest, SwitchesNoFixtureThatMovesAHandOrIsNotThere) {
+    const auto refusal_of = [&](const char* name) {
+        controls_.control({.action = SessionAction::fixture, .text = name, .is_on = true});
+        frame();
+        const ControlEvent event = controls_.take_events().at(0);
+        EXPECT_TRUE(event.is_refused) << name;
+        EXPECT_EQ(gate_.fixtures_on, 0U) << name;
+        return event.text;
+    };
+    EXPECT_EQ(refusal_of("Shaft"), "pause the session first");
+    const std::string choices = "; it has \"Shaft\", \"Off the nerve\"";
+    EXPECT_EQ(refusal_of("shaft"), "the session has no fixture \"shaft\"" + choices);
+    EXPECT_EQ(refusal_of(""), "the session has no fixture \"\"" + choices) << "one that cannot be switched";
 }
 
 TEST_F(SessionControlsTest, HasTheToolPlacedWhereItIsClearWhileTheSessionHoldsStill) {

@@ -39,6 +39,8 @@ TEST(QuietTool, DoesNothingThatAViewerWouldSee) {
         [](ToolState& tool) { tool.spindle_on = true; },
         [](ToolState& tool) { tool.removed_mm3 = 1e-9; },
         [](ToolState& tool) { tool.touches_protected = true; },
+        [](ToolState& tool) { tool.fixtures_on = 1; },
+        [](ToolState& tool) { tool.fixtures_acting = 1; },
         [](ToolState& tool) { tool.fault = "the device is gone"; }};
     for (const auto& change : changes) {
         ToolState now = told;

@@ -125,7 +125,7 @@ std::set<std::string> english_words() {
     }
     words.insert(remedy_of("another"));
     for (const BurrChange waits : {BurrChange::spindle, BurrChange::bone}) words.insert(describe(waits));
-    for (auto action = SessionAction::mark; action <= SessionAction::speed;
+    for (auto action = SessionAction::mark; action <= SessionAction::fixture;
          action = static_cast<SessionAction>(static_cast<int>(action) + 1))
         words.insert(name_of(action));
     for (const std::string_view shape : head_shape_names)

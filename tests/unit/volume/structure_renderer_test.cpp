@@ -53,6 +53,10 @@ TEST_F(StructureRendererTest, ShowsASoftStructureBesideTheBoneAndCutsItAsTheBone
     for (std::size_t channel = 0; channel < 3; ++channel)
         EXPECT_NEAR(cut_away[channel], bone[channel], 1) << "cut away";
     picture.set_appearance({});
+    picture.show_structure(0, false);
+    EXPECT_EQ(middle(picture.draw(&textures, nullptr, camera).read_back()), bone) << "hidden";
+    picture.show_structure(0, true);
+    EXPECT_EQ(middle(picture.draw(&textures, nullptr, camera).read_back()), solid);
     picture.forget_structures();
     EXPECT_EQ(middle(picture.draw(&textures, nullptr, camera).read_back()), bone);
 }

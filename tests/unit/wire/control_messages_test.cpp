@@ -25,6 +25,13 @@ TEST(ControlMessages, CarryASpeedThatASpindleCanHave) {
     }
 }
 
+TEST(ControlMessages, CarryTheSwitchOfAFixture) {
+    for (const bool is_on : {false, true}) {
+        const SessionControl control{.action = SessionAction::fixture, .text = "Shaft", .is_on = is_on};
+        EXPECT_EQ(std::get<SessionControl>(session_control_from(to_message(control))), control);
+    }
+}
+
 TEST(ControlMessages, CarryEventsAndStatus) {
     const ControlEvent event{
         .time_s = 1.5, .action = SessionAction::redo, .text = "nothing was undone", .is_refused = true};

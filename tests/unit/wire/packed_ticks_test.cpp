@@ -63,7 +63,9 @@ TickSample input_tick_of(std::mt19937& random, std::uint64_t number) {
     tick.spindle_axis = hand.spindle_axis;
     tick.input = TickInput{.pedal = static_cast<TickInput::Pedal>(random() % 5),
                            .lets_go = random() % 2 == 0,
-                           .steps = random() % steps_not_told};
+                           .steps = random() % steps_not_told,
+                           .holds_still = random() % 2 == 0,
+                           .switched = static_cast<FixtureSet>(random() & every_fixture)};
     if (random() % 2 == 0) tick.input->burr = random() % 3;
     return tick;
 }
@@ -99,6 +101,32 @@ TEST(PackedTicks, HaveTheHandAndItsInputExactly) {
         EXPECT_EQ(block->ticks[i].input, ticks[i].input) << i;
         EXPECT_EQ(line_of(block->ticks[i]), line_of(ticks[i])) << i;
     }
+}
+
+TEST(PackedTicks, SpendNoByteOnControlsThatNobodyUsed) {
+    std::mt19937 random(3);
+    std::vector<TickSample> ticks;
+    for (std::uint64_t i = 0; i < most_ticks_of_message; ++i) {
+        ticks.push_back(input_tick_of(random, i));
+        ticks.back().input->holds_still = false;
+        ticks.back().input->switched = 0;
+    }
+    const auto quantities_of = [](const v2::Ticks& message) {
+        std::vector<char> content(1 << 16);
+        const std::string& packed = message.zstd_quantities();
+        content.resize(ZSTD_decompress(content.data(), content.size(), packed.data(), packed.size()));
+        v2::TickQuantities quantities;
+        EXPECT_TRUE(quantities.ParseFromArray(content.data(), static_cast<int>(content.size())));
+        return quantities.quantity_size();
+    };
+    TickPacker packer;
+    const int usual = quantities_of(packer.pack(0, ticks));
+    EXPECT_EQ(usual, static_cast<int>(tick_quantities().size()) - 2);
+    ticks[5].input->holds_still = true;
+    EXPECT_EQ(quantities_of(packer.pack(0, ticks)), usual + 1);
+    ticks[5].input->holds_still = false;
+    ticks[6].input->switched = 0b10;
+    EXPECT_EQ(quantities_of(packer.pack(0, ticks)), usual + 2);
 }
 
 TEST(PackedTicks, OfBeforeHaveNoInput) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace osteomill {
@@ -179,6 +180,69 @@ TEST(SceneMessages, BringBackARating) {
     v2::Hello steered = good;
     steered.mutable_rating(0)->set_name("a\x1b[2J");
     EXPECT_EQ(std::get<SessionInfo>(session_info_from(steered)).rating[0].name, "a\\x1b[2J");
+}
+
+TEST(SceneMessages, BringBackFixturesAndSpendNoByteWhereThereAreNone) {
+    const auto usual = [](const char* name, FixtureKind kind) {
+        Fixture fixture = usual_fixture(kind);
+        fixture.name = name;
+        // These are of guides, and not said of others.
+        if (kind != FixtureKind::guide) fixture.reach_mm = 0.0;
+        return fixture;
+    };
+    Fixture tube = usual("Shaft", FixtureKind::guide);
+    tube.path = LineGuide{{0.0, 0.0, 11.0}, {0.0, 1.0, 5.0}};
+    tube.radius_mm = 1.5;
+    Fixture plane = usual("Floor", FixtureKind::guide);
+    plane.path = PlaneGuide{{1.0, 2.0, 3.0}, {0.0, 0.6, 0.8}};
+    Fixture off = usual("Off the pulp", FixtureKind::forbidden);
+    off.tissue = "pulp";
+    off.distance_mm = 0.5;
+    Fixture slow = usual("Slowly", FixtureKind::slow);
+    slow.tissue = "pulp";
+    const SessionInfo plain{.burrs = {{.name = "b"}}};
+    SessionInfo session = plain;
+    session.fixtures = {tube, plane, off, slow};
+    const v2::Hello good = to_message(session);
+    const auto back = session_info_from(good);
+    ASSERT_EQ(error_of(back), "");
+    EXPECT_EQ(std::get<SessionInfo>(back).fixtures, session.fixtures);
+    v2::Hello without = good;
+    without.clear_fixtures();
+    EXPECT_EQ(without.ByteSizeLong(), to_message(plain).ByteSizeLong());
+
+    const auto error_after = [&](const std::function<void(v2::FixtureDescription&)>& change, int number) {
+        v2::Hello hello = good;
+        change(*hello.mutable_fixtures(number));
+        return error_of(session_info_from(hello));
+    };
+    using Message = v2::FixtureDescription;
+    EXPECT_EQ(error_after([](Message& m) { *m.mutable_line()->mutable_to_mm() = m.line().from_mm(); }, 0),
+              "the fixture \"Shaft\" has an impossible place or length");
+    EXPECT_NE(error_after([](Message& m) { m.mutable_line()->mutable_to_mm()->set_x(not_a_number); }, 0), "");
+    EXPECT_NE(error_after([](Message& m) { m.set_radius_mm(-1.0); }, 0), "");
+    EXPECT_NE(error_after([](Message& m) { m.mutable_plane()->clear_normal(); }, 1), "");
+    EXPECT_NE(error_after([](Message& m) { m.mutable_region()->set_distance_mm(not_a_number); }, 2), "");
+    EXPECT_EQ(error_after([](Message& m) { m.clear_name(); }, 3),
+              "a fixture has a name of 0 bytes; it must have 1 to 100");
+    v2::Hello newer = good;
+    newer.mutable_fixtures(2)->clear_shape();
+    EXPECT_EQ(std::get<SessionInfo>(session_info_from(newer)).fixtures.at(2).tissue, "")
+        << "of a later version: known by name alone";
+    v2::Hello many = good;
+    for (int i = 0; i < 13; ++i) *many.add_fixtures() = good.fixtures(0);
+    EXPECT_EQ(error_of(session_info_from(many)), "the scene has 17 fixtures; at most 16 are taken");
+}
+
+TEST(SceneMessages, BringBackWhichFixturesAreOnAndAct) {
+    const ToolState tool{.fixtures_on = 0b101, .fixtures_acting = 0b100};
+    const auto back = std::get<ToolState>(tool_from(to_message(tool), 1));
+    EXPECT_EQ(back.fixtures_on, tool.fixtures_on);
+    EXPECT_EQ(back.fixtures_acting, tool.fixtures_acting);
+    v2::ToolState without = to_message(tool);
+    without.clear_fixtures_on();
+    without.clear_fixtures_acting();
+    EXPECT_EQ(without.ByteSizeLong(), to_message(ToolState{}).ByteSizeLong());
 }
 
 TEST(SceneMessages, BringBackPlanTraineeAndSettings) {
