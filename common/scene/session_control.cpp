@@ -5,7 +5,7 @@
 namespace osteomill {
 
 const char* name_of(SessionAction action) {
-    constexpr std::array names{"nothing", "mark", "pause",  "resume", "undo", "redo",
+    constexpr std::array names{"nothing", "mark", "pause",  "resume", "undo",  "redo",
                                "reset",   "save", "finish", "place",  "speed", "fixture"};
     static_assert(names.size() == static_cast<std::size_t>(SessionAction::fixture) + 1);
     const auto number = static_cast<std::size_t>(action);

@@ -10,18 +10,18 @@
 namespace osteomill {
 
 enum class SessionAction : std::uint8_t {
-    none,    ///< a newer program's, which this one does not know
-    mark,    ///< this moment, with a note
-    pause,   ///< force and spindle off
-    resume,  ///< the force comes back once the burr is clear of bone
-    undo,    ///< the last slice of a stroke (undo_slice.h); one under way ends with it
-    redo,    ///< the slice undone last
-    reset,   ///< undoes all slices; each can be redone
-    save,    ///< the bone as it is, or its surface
-    finish,  ///< ends the session, everything saved
-    place,   ///< the tool somewhere else: the patient is moved and turned under the device
-    speed,   ///< of the spindle, in place of the burrs' own
-    fixture, ///< one of the scene's is switched on or off, while the session is paused
+    none,     ///< a newer program's, which this one does not know
+    mark,     ///< this moment, with a note
+    pause,    ///< force and spindle off
+    resume,   ///< the force comes back once the burr is clear of bone
+    undo,     ///< the last slice of a stroke (undo_slice.h); one under way ends with it
+    redo,     ///< the slice undone last
+    reset,    ///< undoes all slices; each can be redone
+    save,     ///< the bone as it is, or its surface
+    finish,   ///< ends the session, everything saved
+    place,    ///< the tool somewhere else: the patient is moved and turned under the device
+    speed,    ///< of the spindle, in place of the burrs' own
+    fixture,  ///< one of the scene's is switched on or off, while the session is paused
 };
 
 /// In people's words: "undo".

@@ -68,10 +68,10 @@ struct TickSample {
 /// Condition under which a tick has a quantity.
 enum class TickPart : std::uint8_t {
     always,
-    torque,  ///< where a burr has a shank
-    input,   ///< where TickInput is known; readers of before do not know of it
+    torque,   ///< where a burr has a shank
+    input,    ///< where TickInput is known; readers of before do not know of it
     control,  ///< the same: how the session was controlled; recordings leave zeros out
-    rest,    ///< the same: missing decimals of the hand's pose, which setting it adds
+    rest,     ///< the same: missing decimals of the hand's pose, which setting it adds
 };
 
 /// One number of a tick. A log's columns are those that are `in_log`, in this order.

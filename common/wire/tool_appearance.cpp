@@ -15,8 +15,8 @@ bool looks_the_same(const ToolState& sent, const ToolState& now) {
     return sent.burr == now.burr && sent.spindle_on == now.spindle_on &&
            sent.removed_mm3 == now.removed_mm3 && sent.touches_protected == now.touches_protected &&
            sent.cut.has_value() == now.cut.has_value() && sent.fault == now.fault &&
-           sent.notice == now.notice && sent.driver == now.driver &&
-           sent.fixtures_on == now.fixtures_on && sent.fixtures_acting == now.fixtures_acting &&
+           sent.notice == now.notice && sent.driver == now.driver && sent.fixtures_on == now.fixtures_on &&
+           sent.fixtures_acting == now.fixtures_acting &&
            glm::distance(sent.burr_position_mm, now.burr_position_mm) <= quiet_motion_mm &&
            glm::distance(sent.hand_position_mm, now.hand_position_mm) <= quiet_motion_mm &&
            glm::distance(sent.spindle_axis, now.spindle_axis) <= quiet_turn_rad &&

@@ -20,9 +20,9 @@ namespace {
 constexpr std::string_view header = "t_s,action,text";
 
 /// A placement needs a position, and has no place here.
-constexpr std::array actions{SessionAction::mark, SessionAction::pause,  SessionAction::resume,
-                             SessionAction::undo, SessionAction::redo,   SessionAction::reset,
-                             SessionAction::save, SessionAction::finish, SessionAction::speed,
+constexpr std::array actions{SessionAction::mark,   SessionAction::pause,  SessionAction::resume,
+                             SessionAction::undo,   SessionAction::redo,   SessionAction::reset,
+                             SessionAction::save,   SessionAction::finish, SessionAction::speed,
                              SessionAction::fixture};
 
 SessionAction action_named(std::string_view name) {
@@ -45,9 +45,8 @@ double number_in(std::string_view text, const char* name, const char* what) {
 /// Of "NAME=on" or "NAME=off".
 void read_switch(SessionControl& control) {
     const std::size_t equals = control.text.rfind('=');
-    const std::string_view to = equals == std::string::npos
-                                    ? std::string_view()
-                                    : std::string_view(control.text).substr(equals + 1);
+    const std::string_view to =
+        equals == std::string::npos ? std::string_view() : std::string_view(control.text).substr(equals + 1);
     if (equals == 0 || (to != "on" && to != "off"))
         throw std::invalid_argument(
             fmt::format("the text '{}' is not a fixture's name, then =on or =off", control.text));

@@ -1,6 +1,6 @@
 // Controls of a session by its operator: pause, undo and redo by slices of strokes, marks, the speed of the
-// spindle, fixtures on and off, saving, the end. They run on the streaming thread, whose own copy of the bone shows everything
-// that was milled.
+// spindle, fixtures on and off, saving, the end. They run on the streaming thread, whose own copy of the bone
+// shows everything that was milled.
 //
 // Undo takes the path of milling in reverse: the fractions in the journal are queued for the milling loop,
 // which writes them into its bone while the spindle is off; they return as changes that restore, for the copy

@@ -8,7 +8,7 @@
 //
 // Nor does a slow zone let go at once: its drag falls by no more than a factor of e in lets_go_s. Otherwise
 // the spring, stretched by it, throws a tool with a mass after the hand: 0.17 N a tick at 40 mm/s and 50 N
-// s/m, whatever the form of the fade, 0.4 N at ten times that drag; so it is 0.04 and 0.08 N.
+// s/m, more with more drag, whatever the form of the fade.
 #pragma once
 
 #include <algorithm>

@@ -20,8 +20,8 @@ CouplingOutput ImplicitCoupling::tick(const HandState& hand, const MillingResult
     const glm::dvec3 position_mm = hand_.update(hand.pose.position_mm, hand.tick_s, on_wall);
     LinearPull pull = spring_.follow_hand(position_mm, hand.tick_s);
     const glm::dvec3 from_mm = proxy_.position_mm();
-    const bool has_help = fixtures_.add_to(pull, {from_mm, hand.pose.spindle_axis}, hand.burr, hand.tick_s,
-                                           hand.fixtures_on);
+    const bool has_help =
+        fixtures_.add_to(pull, {from_mm, hand.pose.spindle_axis}, hand.burr, hand.tick_s, hand.fixtures_on);
     const glm::dvec3 in_air_mm = has_help ? from_mm + pull.free_step_mm() : position_mm;
     proxy_.advance(in_air_mm, position_mm, pull, hand.tick_s, hand.spindle_on, latest);
     fixtures_.settle(proxy_.position_mm() - from_mm);

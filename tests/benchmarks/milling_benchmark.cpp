@@ -202,13 +202,12 @@ BENCHMARK(LoopAtTenKilohertz)
     ->Iterations(100)
     ->Unit(benchmark::kMillisecond);
 
-/// What fixtures add to a haptic tick: the default coupling's tick with a burr half a millimetre from a nerve,
-/// in air, without a fixture, with a guide, with a forbidden region and with a slow zone, in turn; all of them
-/// act. Counters: medians of a tick, in microseconds, each over that without.
+/// What fixtures add to a haptic tick: the default coupling's tick with a burr half a millimetre from a
+/// nerve, in air, without a fixture, with a guide, with a forbidden region and with a slow zone, in turn; all
+/// of them act. Counters: medians of a tick, in microseconds, each over that without.
 void TickWithFixture(benchmark::State& state) {
     const Grid grid{.size_voxels = {96, 96, 96}, .spacing_mm = 0.1, .origin_mm = {-4.75, -4.75, -4.75}};
-    const std::vector<Structure> nerve{
-        {.tissue = 0, .mask = testing::ball_mask(grid, glm::dvec3(0.0), 1.0)}};
+    const std::vector<Structure> nerve{{.tissue = 0, .mask = testing::ball_mask(grid, glm::dvec3(0.0), 1.0)}};
     Scene scene;
     scene.tissues = {{.label = 7, .name = "nerve", .is_protected = true}};
     scene.burrs = {{.name = "2 mm", .diameter_mm = 2.0}};

@@ -73,8 +73,7 @@ class LinePainter {
                 const float width_px = acts_ ? 2.5f : 1.5f;
                 for (const auto& [colour, wider_px] : {std::pair{dark(), 2.0f}, std::pair{ink(), 0.0f}})
                     painter_.canvas().AddPolyline(run.data(), static_cast<int>(run.size()), colour,
-                                                  ImDrawFlags_None,
-                                                  (width_px + wider_px) * painter_.scale());
+                                                  ImDrawFlags_None, (width_px + wider_px) * painter_.scale());
             }
             run.clear();
         };

@@ -1,6 +1,6 @@
 // Guides of virtual fixtures as lines over the picture: they are information, not things, and bone does not
-// hide them. A line with its ends, a tube with a ring at each end, a plane with a ring under the burr; and what
-// leads from the burr to a guide that acts.
+// hide them. A line with its ends, a tube with a ring at each end, a plane with a ring under the burr; and
+// what leads from the burr to a guide that acts.
 #pragma once
 
 #include "render_client/ui/panels/panel_painter.h"

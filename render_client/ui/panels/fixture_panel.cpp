@@ -70,10 +70,10 @@ glm::vec2 fixture_panel_size(const PanelText& text) {
     float width = 0.0f;
     for (const TextLine& line : text)
         width = std::max(width, ImGui::CalcTextSize(line.front().text.c_str()).x);
-    return {std::ceil(width + ImGui::GetFrameHeight() + style.ItemInnerSpacing.x +
-                      2.0f * style.WindowPadding.x),
-            static_cast<float>(text.size()) * ImGui::GetFrameHeightWithSpacing() - style.ItemSpacing.y +
-                2.0f * style.WindowPadding.y};
+    return {
+        std::ceil(width + ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + 2.0f * style.WindowPadding.x),
+        static_cast<float>(text.size()) * ImGui::GetFrameHeightWithSpacing() - style.ItemSpacing.y +
+            2.0f * style.WindowPadding.y};
 }
 
 void draw_fixture_panel(const OverlayContent& content, const PanelText& text, const PanelPlace& place) {

@@ -44,12 +44,11 @@ bool FixtureBorders::is_begun(std::size_t fixture) const {
 
 void FixtureBorders::begin(const SessionInfo& session, std::size_t fixture, const StructureMask& structure) {
     const Fixture& one = session.fixtures[fixture];
-    borders_.push_back(
-        {.fixture = fixture,
-         .surface = std::async(std::launch::async,
-                               [structure, distance_mm = one.distance_mm, colour = colour_of(one.kind)] {
-                                   return border_of(structure, distance_mm, colour);
-                               })});
+    borders_.push_back({.fixture = fixture,
+                        .surface = std::async(std::launch::async, [structure, distance_mm = one.distance_mm,
+                                                                   colour = colour_of(one.kind)] {
+                            return border_of(structure, distance_mm, colour);
+                        })});
 }
 
 void FixtureBorders::take_in(const SessionInfo& session, const Structure& structure) {
@@ -73,9 +72,9 @@ void FixtureBorders::take_in_labels(const SessionInfo& session, const Bone& bone
 bool FixtureBorders::show(StereoPicture& picture, FixtureSet on, bool waits) {
     bool is_another = false;
     for (Border& border : borders_) {
-        const bool is_ready = border.surface.valid() &&
-                              (waits || border.surface.wait_for(std::chrono::seconds(0)) ==
-                                            std::future_status::ready);
+        const bool is_ready =
+            border.surface.valid() &&
+            (waits || border.surface.wait_for(std::chrono::seconds(0)) == std::future_status::ready);
         if (is_ready) {
             border.shown_as = picture.add_structure(border.surface.get(), opacity);
             is_another = true;

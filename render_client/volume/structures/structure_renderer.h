@@ -18,7 +18,8 @@ namespace osteomill {
 
 class StructureRenderer {
   public:
-    /// Adds a structure, from the next draw on; returns its number. Nothing is drawn of one without triangles.
+    /// Adds a structure, from the next draw on; returns its number. Nothing is drawn of one without
+    /// triangles.
     std::size_t add(const StructureSurface& surface, double opacity);
     /// By its number.
     void show(std::size_t structure, bool is_shown) { drawn_[structure].is_shown = is_shown; }
