@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/words/translation.h"
 #include "render_client/link/recording_player.h"
 #include "render_client/volume/magnification.h"
 #include "render_client/volume/surface_pick.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -240,8 +240,7 @@ void Commands::tell(const std::vector<ControlEvent>& events, double now_s) {
         if (event.action == SessionAction::place && std::exchange(waits_for_place_, false) &&
             !clutch_.is_held())
             session_.show_tool_at(std::nullopt);
-        const std::string text =
-            event.action == SessionAction::mark ? event.text : tr_with_numbers(event.text);
+        const std::string text = event.action == SessionAction::mark ? event.text : tr_filled(event.text);
         say(event.is_refused ? trf("no {}: {}", tr(name_of(event.action)), text)
                              : fmt::format("{} {}", words_for(event.action), text),
             now_s);
