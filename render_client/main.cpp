@@ -12,6 +12,7 @@
 #include "common/program/program_output.h"
 #include "common/program/stop_signals.h"
 #include "common/text/plain_text.h"
+#include "common/words/translation.h"
 #include "render_client/dataset/dataset_run.h"
 #include "render_client/link/bone_link.h"
 #include "render_client/link/recording_player.h"
@@ -21,7 +22,6 @@
 #include "render_client/ui/options.h"
 #include "render_client/ui/view/transfer_file.h"
 #include "render_client/ui/windowed_run.h"
-#include "render_client/words/translation.h"
 
 namespace {
 

@@ -11,6 +11,7 @@
 #include "analysis/report/rating_html.h"
 #include "analysis/report/smoothness.h"
 #include "analysis/report/verdict.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 
@@ -20,22 +21,25 @@ constexpr std::size_t tile_count = 6;
 
 std::string heading(const SessionTrace& trace) {
     const SessionInfo& session = trace.session;
-    std::string html = fmt::format(
-        "<h1>{}</h1>", session.trainee.empty() ? "A session" : "Session of " + html_text(session.trainee));
-    std::string about = html_text(session.case_name.empty() ? session.scene_name : session.case_name);
+    std::string html = fmt::format("<h1>{}</h1>", session.trainee.empty()
+                                                      ? tr("A session")
+                                                      : trf("Session of {}", html_text(session.trainee)));
+    std::string about = html_text(tr(session.case_name.empty() ? session.scene_name : session.case_name));
     if (const std::string began = local_time_text(trace.began_unix_ns); !began.empty())
         about += " · " + html_text(began);
     html += fmt::format("<p class='about'>{}</p>", about);
     if (session.plan)
-        html += fmt::format("<p class='about'>To be removed: {}, with a margin of {:g} mm</p>",
-                            html_text(describe(*session.plan)), session.plan->margin_mm);
+        html += fmt::format("<p class='about'>{}</p>",
+                            trf("To be removed: {}, with a margin of {:g} mm",
+                                html_text(describe(*session.plan)), session.plan->margin_mm));
     if (!trace.error.empty())
-        html += fmt::format(
-            "<p class='wrong'>The recording could not be read to its end; this is of what comes before: "
-            "{}</p>",
-            html_text(trace.error));
+        html +=
+            fmt::format("<p class='wrong'>{}</p>",
+                        trf("The recording could not be read to its end; this is of what comes before: {}",
+                            html_text(trace.error)));
     else if (!trace.ends)
-        html += "<p class='wrong'>The recording ends before the session does; this is of what it holds.</p>";
+        html += fmt::format("<p class='wrong'>{}</p>",
+                            tr("The recording ends before the session does; this is of what it holds."));
     return html;
 }
 
@@ -47,38 +51,41 @@ std::string harm(const std::vector<StructureMetrics>& structures) {
         const auto volume = [](double mm3) { return number_text(mm3) + " mm³"; };
         std::string how;
         if (milled_mm3 > 0.0) {
-            how = volume(milled_mm3) + " of it milled";
-            if (one.undone_dose_mm3 > 0.0)
-                how += fmt::format(", {} given back by undo", volume(one.undone_dose_mm3));
+            how = trf("{} of it milled", volume(milled_mm3));
+            if (one.undone_dose_mm3 > 0.0) how += trf(", {} given back by undo", volume(one.undone_dose_mm3));
         } else if (one.entered_mm3 > 0.0) {
-            how = volume(one.entered_mm3) + " of it inside the burr";
+            how = trf("{} of it inside the burr", volume(one.entered_mm3));
         } else {
             continue;
         }
-        html +=
-            fmt::format("<div class='verdict failed'><b>Opened: {}</b>{}</div>", html_text(one.name), how);
+        html += fmt::format("<div class='verdict failed'><b>{}</b>{}</div>",
+                            trf("Opened: {}", html_text(tissue_words(one.name))), how);
     }
     return html;
 }
 
 std::string mark_text(const JudgedMark& mark) {
-    return fmt::format("{} {}", mark.kind->is_least ? "at least" : "at most",
-                       shown_value(mark.kind->metric, mark.mark).text());
+    const std::string bound = shown_value(mark.kind->metric, mark.mark).text();
+    return mark.kind->is_least ? trf("at least {}", bound) : trf("at most {}", bound);
+}
+
+std::string verdict_box(const char* kind, const std::string& title, const std::string& text) {
+    return fmt::format("<div class='verdict{}'>{}{}</div>", kind,
+                       title.empty() ? "" : fmt::format("<b>{}</b>", title), text);
 }
 
 std::string verdict(const SessionTrace& trace, const std::vector<JudgedMark>& marks) {
-    if (trace.session.pass.empty()) return "<div class='verdict'>No pass marks are set for this case.</div>";
-    if (marks.empty()) return "<div class='verdict'><b>Not judged</b>The recording is not complete.</div>";
+    if (trace.session.pass.empty()) return verdict_box("", "", tr("No pass marks are set for this case."));
+    if (marks.empty()) return verdict_box("", tr("Not judged"), tr("The recording is not complete."));
     std::string missed;
     for (const JudgedMark& mark : marks)
         if (!mark.is_reached())
             missed += fmt::format(
-                "{}{}: {}, {}", missed.empty() ? "" : "; ", headline(mark.kind->metric)->text,
+                "{}{}: {}, {}", missed.empty() ? "" : "; ", tr(headline(mark.kind->metric)->text),
                 mark.value ? shown_value(mark.kind->metric, *mark.value).text() : "–", mark_text(mark));
     if (missed.empty())
-        return fmt::format("<div class='verdict passed'><b>Passed</b>All {} marks are reached.</div>",
-                           marks.size());
-    return fmt::format("<div class='verdict failed'><b>Not passed</b>{}</div>", missed);
+        return verdict_box(" passed", tr("Passed"), trf("All {} marks are reached.", marks.size()));
+    return verdict_box(" failed", tr("Not passed"), missed);
 }
 
 /// Value, reference band and pass mark on one line, from zero (or the least of them) to the greatest.
@@ -107,6 +114,14 @@ bool is_harm(std::string_view key, double value) {
     return key == "structure_touches" && value > 0.0;
 }
 
+std::string band_text(const char* key, const ValueBand& band, const ReferenceSessions& references) {
+    const std::size_t count = references.values.at(key).size();
+    const std::string low = shown_value(key, band.low).number;
+    const std::string high = shown_value(key, band.high).text();
+    return references.are_experts ? trf("experts' middle half ({}): {} to {}", count, low, high)
+                                  : trf("others' middle half ({}): {} to {}", count, low, high);
+}
+
 std::string tile(const Headline& what, double value, const std::string& words,
                  const std::vector<JudgedMark>& marks, const ReferenceSessions& references) {
     const auto mark = std::ranges::find_if(
@@ -119,26 +134,22 @@ std::string tile(const Headline& what, double value, const std::string& words,
                                    !is_judged           ? is_harm(what.key, value) ? "missed" : ""
                                    : mark->is_reached() ? "reached"
                                                         : "missed",
-                                   html_text(what.text), shown_value(what.key, value).text(), words);
+                                   html_text(tr(what.text)), shown_value(what.key, value).text(), words);
     if (is_judged || band) html += gauge(value, band, is_judged ? &*mark : nullptr);
     if (is_judged)
-        html +=
-            fmt::format("<span>{} pass mark: {}</span>", mark->is_reached() ? "✓" : "✗", mark_text(*mark));
+        html += fmt::format("<span>{} {}</span>", mark->is_reached() ? "✓" : "✗",
+                            trf("pass mark: {}", mark_text(*mark)));
     else if (what.better != Better::neither)
-        html += fmt::format("<span>{}</span>", text_of(what.better));
-    if (band)
-        html +=
-            fmt::format("<span>{}' middle half ({}): {} to {}</span>",
-                        references.are_experts ? "experts" : "others", references.values.at(what.key).size(),
-                        shown_value(what.key, band->low).number, shown_value(what.key, band->high).text());
+        html += fmt::format("<span>{}</span>", tr(text_of(what.better)));
+    if (band) html += fmt::format("<span>{}</span>", band_text(what.key, *band, references));
     return html + "</div>";
 }
 
 std::string words_of_smoothness(const std::vector<MetricRow>& rows) {
     const auto reaches_per_s = sum_of(rows, "stroke_reaches_per_s");
     if (!reaches_per_s) return {};
-    return fmt::format(" LDLJ: {}<span>as {} reaches a second</span>", smoothness_word(*reaches_per_s),
-                       number_text(*reaches_per_s));
+    return fmt::format(" LDLJ: {}<span>{}</span>", tr(smoothness_word(*reaches_per_s)),
+                       trf("as {} reaches a second", number_text(*reaches_per_s)));
 }
 
 /// The first six headlines of which the session has a value.
@@ -157,14 +168,16 @@ std::string tiles(const std::vector<MetricRow>& rows, const std::vector<JudgedMa
 
 std::string legend(const SessionTrace& trace) {
     std::string html = "<p class='about'>";
-    for (const Tissue& tissue : trace.session.tissues)
-        html += fmt::format("<span class='entry'>{}{}{}</span> ", swatch(tissue), html_text(tissue.name),
-                            tissue.is_protected ? " (protected)" : "");
+    for (const Tissue& tissue : trace.session.tissues) {
+        const std::string name = html_text(tissue_words(tissue.name));
+        html += fmt::format("<span class='entry'>{}{}</span> ", swatch(tissue),
+                            tissue.is_protected ? trf("{} (protected)", name) : name);
+    }
     if (trace.session.plan)
-        html +=
+        html += fmt::format(
             "<span class='entry'><span class='swatch' style='background:#fff;border:2px solid "
-            "#005ac8'></span>"
-            "to be removed</span>";
+            "#005ac8'></span>{}</span>",
+            tr("to be removed"));
     return html + "</p>";
 }
 
@@ -187,8 +200,10 @@ std::string first_page(const SessionTrace& trace, const SessionMetrics& metrics,
     return "<div class='first'>" + heading(trace) + harm(metrics.structures) + verdict(trace, marks) +
            rating_summary(trace, metrics.rating) + tiles(rows, marks, references) +
            figures(pictures.first, "two") + legend(trace) +
-           "<div class='comment'>Comment</div><div class='signatures'><div>Date</div><div>Teacher</div>"
-           "<div>Trainee</div></div></div>";
+           fmt::format(
+               "<div class='comment'>{}</div><div class='signatures'><div>{}</div><div>{}</div>"
+               "<div>{}</div></div></div>",
+               tr("Comment"), tr("Date"), tr("Teacher"), tr("Trainee"));
 }
 
 }  // namespace osteomill

@@ -7,6 +7,7 @@
 
 #include "analysis/report/html_text.h"
 #include "analysis/report/page_style.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 
@@ -23,7 +24,7 @@ std::string table(std::span<const MetricRow> rows) {
     for (const MetricRow& row : rows) {
         const ShownValue value = shown(row);
         html += fmt::format("<tr><td>{}</td><td class='n'>{}</td><td class='u'>{}</td></tr>",
-                            html_text(row.text), value.number, html_text(value.unit));
+                            html_text(tr_filled(row.text)), value.number, html_text(value.unit));
     }
     return html + "</table>";
 }
@@ -40,14 +41,14 @@ std::string table_of_several(std::span<const MetricRow> rows, const SessionInfo&
     std::string html = "<table><tr><th></th>";
     for (const MetricRow* column : columns) {
         const std::string unit = shown(*column).unit;
-        html += fmt::format("<th class='n'>{}{}</th>", html_text(column->text),
+        html += fmt::format("<th class='n'>{}{}</th>", html_text(tr_filled(column->text)),
                             unit.empty() ? "" : " (" + html_text(unit) + ")");
     }
     html += "</tr>";
     for (const std::string& name : names) {
         const auto tissue = std::ranges::find(session.tissues, name, &Tissue::name);
         html += fmt::format("<tr><td>{}{}</td>", tissue == session.tissues.end() ? "" : swatch(*tissue),
-                            html_text(name));
+                            html_text(tissue_words(name)));
         for (const MetricRow* column : columns) {
             const auto found = std::ranges::find_if(
                 rows, [&](const MetricRow& row) { return row.key == column->key && row.of == name; });
@@ -71,7 +72,7 @@ std::string metric_tables(const std::vector<MetricRow>& rows, const SessionInfo&
             begin = end;
             continue;
         }
-        const std::string heading = fmt::format("<h3>{}</h3>", html_text(begin->group));
+        const std::string heading = fmt::format("<h3>{}</h3>", html_text(tr_filled(begin->group)));
         if (begin->of.empty())
             narrow += "<section>" + heading + table(group) + "</section>";
         else

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "common/words/translation.h"
+
 namespace osteomill {
 
 namespace {
@@ -81,15 +83,15 @@ glm::dvec3 square_to(const glm::dvec3& direction) {
 
 /// As radiologists see them: the patient's right at the picture's left.
 NamedView section_from_front(const glm::dvec3& centre_mm, double half_width_mm) {
-    return {"section, from the front", {centre_mm, {0, 1.0, 0}, {0, 0, 1.0}, half_width_mm, true}};
+    return {tr("section, from the front"), {centre_mm, {0, 1.0, 0}, {0, 0, 1.0}, half_width_mm, true}};
 }
 
 NamedView section_from_left(const glm::dvec3& centre_mm, double half_width_mm) {
-    return {"section, from the left", {centre_mm, {-1.0, 0, 0}, {0, 0, 1.0}, half_width_mm, true}};
+    return {tr("section, from the left"), {centre_mm, {-1.0, 0, 0}, {0, 0, 1.0}, half_width_mm, true}};
 }
 
 NamedView section_from_below(const glm::dvec3& centre_mm, double half_width_mm) {
-    return {"section, from below", {centre_mm, {0, 0, 1.0}, {0, -1.0, 0}, half_width_mm, true}};
+    return {tr("section, from below"), {centre_mm, {0, 0, 1.0}, {0, -1.0, 0}, half_width_mm, true}};
 }
 
 /// The anatomical section whose plane the direction leaves least.
@@ -121,7 +123,7 @@ std::vector<NamedView> views_of_work(const SessionTrace& trace, const PlannedReg
     if (box.is_empty()) return {};
     const glm::dvec3 centre = box.centre();
     const glm::dvec3 axis = handpiece_axis(trace);
-    return {{"from the handpiece", {centre, -axis, square_to(-axis), box.half_width_mm(), false}},
+    return {{tr("from the handpiece"), {centre, -axis, square_to(-axis), box.half_width_mm(), false}},
             section_from_front(centre, box.half_width_mm()),
             section_from_left(centre, box.half_width_mm())};
 }
@@ -149,7 +151,8 @@ std::optional<NamedView> view_of_target(const SessionTrace& trace, const Planned
     if (box.is_empty()) box = box_of_work(trace, region);
     if (box.is_empty()) return std::nullopt;
     NamedView target = section_along(handpiece_axis(trace), box.centre(), box.half_width_mm());
-    target.title = fmt::format("Through the {}, {}", region != nullptr ? "target" : "work", target.title);
+    target.title = region != nullptr ? trf("Through the target, {}", target.title)
+                                     : trf("Through the work, {}", target.title);
     return target;
 }
 
@@ -158,10 +161,12 @@ NamedView view_of(const NearestApproach& approach, double burr_diameter_mm) {
     const double half_width_mm =
         std::max(least_half_width_mm, 1.5 * (glm::length(apart) + 0.5 * burr_diameter_mm));
     NamedView view = section_along(apart, approach.sample->burr_mm, half_width_mm);
-    view.title = fmt::format(
-        "{} {}, at {:.1f} s, {}",
-        approach.distance_mm > 0.0 ? fmt::format("{:.2f} mm from the", approach.distance_mm) : "Touch of the",
-        approach.structure, approach.sample->time_s, view.title);
+    const std::string structure = tissue_words(approach.structure);
+    const double time_s = approach.sample->time_s;
+    view.title = approach.distance_mm > 0.0
+                     ? trf("{:.2f} mm from the {}, at {:.1f} s, {}", approach.distance_mm, structure, time_s,
+                           view.title)
+                     : trf("Touch of the {}, at {:.1f} s, {}", structure, time_s, view.title);
     return view;
 }
 

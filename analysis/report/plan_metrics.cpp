@@ -9,6 +9,7 @@
 #include "analysis/report/cavity.h"
 #include "analysis/report/planned_region.h"
 #include "common/statistics/percentile.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 
@@ -79,12 +80,12 @@ std::optional<PlanMetrics> plan_metrics(const SessionTrace& trace) {
 }
 
 std::string describe(const Plan& plan) {
-    if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) return tissue->tissue;
+    if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) return tissue_words(tissue->tissue);
     if (const auto* sphere = std::get_if<SphereRegion>(&plan.region))
-        return fmt::format("a sphere of {:g} mm radius", sphere->radius_mm);
+        return trf("a sphere of {:g} mm radius", sphere->radius_mm);
     const auto& cylinder = std::get<CylinderRegion>(plan.region);
-    return fmt::format("a cylinder of {:g} mm radius, {:g} mm long", cylinder.radius_mm,
-                       glm::length(cylinder.to_mm - cylinder.from_mm));
+    return trf("a cylinder of {:g} mm radius, {:g} mm long", cylinder.radius_mm,
+               glm::length(cylinder.to_mm - cylinder.from_mm));
 }
 
 }  // namespace osteomill

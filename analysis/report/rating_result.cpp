@@ -77,6 +77,7 @@ RatedItem rated(const RatingItem& item, const Answers& answers) {
         for (const AskedQuantity& asked : condition.quantities())
             result.values.push_back({.text = asked.of.empty() ? asked.key : asked.key + " of " + asked.of,
                                      .key = asked.key,
+                                     .of = asked.of,
                                      .value = answers.measured(asked)});
         result.is_reached = condition.holds([&](const AskedQuantity& asked) { return answers.range(asked); });
     } catch (const ConditionError& error) {

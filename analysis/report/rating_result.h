@@ -31,6 +31,7 @@ std::vector<std::optional<RegionVolumes>> rated_regions(const SessionTrace& trac
 struct AskedValue {
     std::string text;
     std::string key;
+    std::string of{};               ///< which tissue; empty: the session, or all
     std::optional<double> value{};  ///< nothing: not measured
 };
 

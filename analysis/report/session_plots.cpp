@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/report/removal_metrics.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 
@@ -38,7 +39,7 @@ std::vector<PlotLine> removed_lines(const SessionTrace& trace) {
     }
     std::vector<PlotLine> all;
     for (auto& [label, line] : lines) {
-        line.name = tissue_name(trace.session, label);
+        line.name = tissue_words(tissue_name(trace.session, label));
         all.push_back(std::move(line));
     }
     return all;
@@ -52,7 +53,7 @@ std::vector<PlotLine> distance_lines(const SessionTrace& trace) {
         if (!account.nearest_mm) continue;
         const Tissue& tissue = trace.session.tissues[account.last.tissue];
         PlotLine& line = lines.emplace_back();
-        line.name = tissue.name;
+        line.name = tissue_words(tissue.name);
         for (const TraceSample& sample : trace.samples) {
             const auto now =
                 std::ranges::find(sample.distances, account.last.tissue, &StructureDistance::tissue);
@@ -81,19 +82,21 @@ std::vector<SvgPlot> session_plots(const SessionTrace& trace) {
         speed.y.push_back(glm::length(samples[i].burr_mm - samples[i - 1].burr_mm) / trace.dt_s(i));
     }
     std::vector<SvgPlot> plots{
-        {.title = "Force on the hand", .y_text = "N", .lines = {std::move(force)}},
-        {.title = "Depth of the burr's tip below first contact", .y_text = "mm", .lines = {std::move(depth)}},
-        {.title = "Removed bone", .y_text = "mm³", .lines = removed_lines(trace)},
-        {.title = "Speed of the burr", .y_text = "mm/s", .lines = {std::move(speed)}}};
+        {.title = tr("Force on the hand"), .y_text = "N", .lines = {std::move(force)}},
+        {.title = tr("Depth of the burr's tip below first contact"),
+         .y_text = "mm",
+         .lines = {std::move(depth)}},
+        {.title = tr("Removed bone"), .y_text = "mm³", .lines = removed_lines(trace)},
+        {.title = tr("Speed of the burr"), .y_text = "mm/s", .lines = {std::move(speed)}}};
     if (std::vector<PlotLine> distances = distance_lines(trace); !distances.empty()) {
-        std::string title = "Distance to protected structures";
-        if (distances.size() == 1) title = "Distance to " + distances[0].name;
-        plots.push_back({.title = title + " (level at the top: further off)",
+        const std::string title = distances.size() == 1 ? trf("Distance to {}", distances[0].name)
+                                                        : tr("Distance to protected structures");
+        plots.push_back({.title = trf("{} (level at the top: further off)", title),
                          .y_text = "mm",
                          .lines = std::move(distances)});
     }
     for (SvgPlot& plot : plots) {
-        plot.x_text = "time (s)";
+        plot.x_text = tr("time (s)");
         plot.moments = moments_of(trace);
     }
     return plots;

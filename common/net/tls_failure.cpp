@@ -1,5 +1,6 @@
 #include "common/net/tls_failure.h"
 
+#include <fmt/format.h>
 #include <openssl/err.h>
 #include <openssl/x509.h>
 
@@ -36,8 +37,8 @@ std::string describe_openssl(const boost::system::error_code& error) {
             break;
     }
     if (is_refusal(error))
-        return std::string("it refuses this program: ") +
-               SSL_alert_desc_string_long(reason - SSL_AD_REASON_OFFSET);
+        return fmt::format("it refuses this program: {}",
+                           SSL_alert_desc_string_long(reason - SSL_AD_REASON_OFFSET));
     const char* text = ERR_reason_error_string(static_cast<unsigned long>(error.value()));
     return text != nullptr ? text : error.message();
 }
@@ -84,7 +85,7 @@ std::string describe_handshake_failure(const SSL* tls, const boost::system::erro
         return "its certificate is not accepted: there is no list of revoked certificates (--tls-crl) of its "
                "CA";
     if (is_refused)
-        return std::string("its certificate is not accepted: ") + X509_verify_cert_error_string(verified);
+        return fmt::format("its certificate is not accepted: {}", X509_verify_cert_error_string(verified));
     return describe_stream_error(error);
 }
 

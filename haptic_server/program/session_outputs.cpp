@@ -10,6 +10,7 @@
 #include "analysis/report/write_report.h"
 #include "common/log/line_stream.h"
 #include "common/program/progress.h"
+#include "common/words/translation.h"
 #include "haptic_server/program/report_folder.h"
 #include "imaging/case/case_placement.h"
 
@@ -93,6 +94,7 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
         if (!files.report) return;
         // Clients have had the end by now, and all else lies on the disk.
         output.out->say("the session has ended; its report is being made");
+        speak(files.report_language);
         const std::string error = write_report(recording_in(*files.report), *files.report, [](double) {});
         if (!error.empty()) throw std::runtime_error(error);
         output.out->say(fmt::format("report: {}", (*files.report / "report.html").string()));

@@ -17,6 +17,7 @@ struct OutputFiles {
     std::optional<std::filesystem::path> json{};
     std::optional<std::filesystem::path> json_histograms{};  ///< beside json
     std::optional<std::filesystem::path> report{};           ///< folder; the recording lies in it
+    std::string report_language = "en";                      ///< one of languages()
     std::optional<std::filesystem::path> case_folder{};      ///< where the tool's place is remembered
 };
 

@@ -10,6 +10,7 @@
 #include "common/program/option_checks.h"
 #include "common/scene/phantom_names.h"
 #include "common/scene/session_control.h"
+#include "common/words/translation.h"
 #include "haptic_server/session/session_defaults.h"
 #include "simulation/coupling/couplings.h"
 
@@ -151,6 +152,9 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
            "Record the session into this folder and, at its end, write its report: report.html, metrics.csv, "
            "metrics.json; a folder that holds a session already is refused")
         ->type_name("DIR");
+    app.add_option("--language", to.outputs.report_language, "Of the report")
+        ->check(one_of(languages()))
+        ->capture_default_str();
     app.add_option("--trainee", to.trainee, "Whose session it is, for the recording and the report")
         ->type_name("NAME");
     app.add_option("--json", to.outputs.json,

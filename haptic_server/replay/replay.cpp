@@ -22,6 +22,7 @@
 #include "common/files/atomic_file.h"
 #include "common/program/progress.h"
 #include "common/program/stop_signals.h"
+#include "common/words/translation.h"
 #include "haptic_server/replay/recorded_session.h"
 #include "haptic_server/streaming/streaming_server.h"
 #include "imaging/bone_file/removed_bone.h"
@@ -140,6 +141,7 @@ void run_replay(const ReplayOptions& options, const std::atomic<bool>& stop, con
         if (options.surface || options.difference) error = write_bones(options, stop);
         if (options.report) {
             Reading reading(options, stop, "report");
+            speak(options.report_language);
             error = write_report(options.recording, *options.report, std::ref(reading));
             output.out->write(fmt::format("report: {}\n", (*options.report / "report.html").string()));
         }

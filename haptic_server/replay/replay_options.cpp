@@ -11,6 +11,7 @@
 #include "analysis/surface/mesh_file.h"
 #include "common/files/distinct_files.h"
 #include "common/program/option_checks.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 
@@ -127,6 +128,9 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
                "writes a second file beside it, in the folder v3")
             ->check(one_of({hdf5_layout_names.begin(), hdf5_layout_names.end()}))
             ->capture_default_str();
+    auto* of_report = app.add_option("--language", options.report_language, "Of --report")
+                          ->check(one_of(languages()))
+                          ->capture_default_str();
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
     options.layout =
         static_cast<Hdf5Layout>(std::ranges::find(hdf5_layout_names, layout) - hdf5_layout_names.begin());
@@ -136,6 +140,8 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     require_ending("--difference", options.difference, ".nrrd");
     require_ending("--sound", options.sound, ".wav");
     require_hdf5_name(options, of_hdf5->count() > 0);
+    if (of_report->count() > 0 && !options.report)
+        throw std::invalid_argument("--language: goes with --report");
     require_distinct(files_of(options, access));
     if (options.film && (options.only_reads() || where->count() > 0))
         throw std::invalid_argument("--film: goes with --speed and --from-s alone");

@@ -28,6 +28,7 @@ struct ReplayOptions {
     std::optional<std::filesystem::path> hdf5;        ///< for Python and MATLAB
     Hdf5Layout layout = Hdf5Layout::osteomill;        ///< the HDF5 file's layout
     std::optional<std::filesystem::path> report;      ///< folder for the session's report
+    std::string report_language = "en";               ///< one of languages()
     std::optional<std::filesystem::path> film;        ///< for render_client, which draws it
 
     /// Whether the recording is only evaluated, and shown to nobody.

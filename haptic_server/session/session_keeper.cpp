@@ -34,7 +34,7 @@ std::string SessionKeeper::save(const Bone& bone, const std::string& mesh_ending
     // The rest of the name is the server's: no client says where on this disk is written.
     if (!mesh_ending.empty() && !is_mesh_ending(mesh_ending))
         return fmt::format("a surface is saved as {}", mesh_endings);
-    if (!save_) return "the server was started without --save-bone";
+    if (!save_) return "this server has no place for it; whoever starts the server can name one";
     if (is_saving_.exchange(true)) return "the last one is still being saved";
     wait();
     thread_ = std::thread([this, copy = bone, mesh_ending] {

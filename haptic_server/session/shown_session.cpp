@@ -1,5 +1,7 @@
 #include "haptic_server/session/shown_session.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "analysis/surface/mesh_file.h"
@@ -36,7 +38,7 @@ SessionKeeper::Save save_into(const OutputPlace* place, const BoneSource& source
         } catch (const SavedWithoutCt& error) {
             return error.what();
         } catch (const std::exception& error) {
-            return std::string("the bone was not saved: ") + error.what();
+            return fmt::format("the bone was not saved: {}", error.what());
         }
         return {};
     };

@@ -178,9 +178,10 @@ void SessionControls::say_placed(const Waiting& waiting) {
     const SessionControl& control = waiting.control;
     const glm::dvec3& at = placement_.pose.position_mm;
     const double moved_mm = glm::distance(at, control.pose.position_mm);
-    say({control.action,
-         fmt::format("at {:.1f}, {:.1f}, {:.1f} mm LPS{}", at.x, at.y, at.z,
-                     moved_mm > 0.05 ? fmt::format(", {:.1f} mm out of the bone", moved_mm) : "")});
+    say({control.action, moved_mm > 0.05
+                             ? fmt::format("at {:.1f}, {:.1f}, {:.1f} mm LPS, {:.1f} mm out of the bone",
+                                           at.x, at.y, at.z, moved_mm)
+                             : fmt::format("at {:.1f}, {:.1f}, {:.1f} mm LPS", at.x, at.y, at.z)});
     if (requests_.placed && !waiting.lifts_out) requests_.placed(placement_.pose);
 }
 

@@ -14,7 +14,7 @@
 #include "common/wire/control_messages.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 
@@ -163,10 +163,10 @@ void ServerConnection::connect() {
     resolver_.async_resolve(
         host_, std::to_string(port_), [this, generation](error_code error, const auto& endpoints) {
             if (generation != generation_) return;
-            if (error) return lose("cannot find " + host_ + ": " + error.message());
+            if (error) return lose(trf("cannot find {}: {}", host_, tr(error.message())));
             asio::async_connect(socket_, endpoints, [this, generation](error_code failure, const auto&) {
                 if (generation != generation_) return;
-                if (failure) return lose(trf("cannot reach {}: {}", where_, failure.message()));
+                if (failure) return lose(trf("cannot reach {}: {}", where_, tr(failure.message())));
                 error_code ignored;  // a socket without it still works
                 socket_.set_option(tcp::no_delay(true), ignored);
                 shake_hands();
@@ -183,7 +183,7 @@ void ServerConnection::shake_hands() {
     stream_->handshake([this, generation = generation_](const std::string& failure) {
         if (generation != generation_) return;
         if (!failure.empty()) {
-            const std::string line = trf("no TLS with {}: {}", where_, failure);
+            const std::string line = trf("no TLS with {}: {}", where_, tr_filled(failure));
             return stream_->is_refused() ? refuse(line) : lose(line);
         }
         read();
@@ -309,7 +309,7 @@ void ServerConnection::forget_seen() {
 
 void ServerConnection::take_event(const SaidGoodbye& goodbye) {
     disconnect();
-    announce(LinkStatus::finished, where_ + ": " + tr(one_line(goodbye.reason)));
+    announce(LinkStatus::finished, where_ + ": " + tr_filled(one_line(goodbye.reason)));
     retry_later();
 }
 
@@ -356,8 +356,8 @@ void ServerConnection::refuse(std::string line) {
 
 std::string ServerConnection::describe_loss(error_code error) const {
     if (has_heard_ || (error != asio::error::eof && !is_refusal(error)))
-        return trf("lost {}: {}", where_, tr(describe_stream_error(error)));
-    if (tls_) return trf("{} turned this client away: {}", where_, tr(describe_stream_error(error)));
+        return trf("lost {}: {}", where_, tr_filled(describe_stream_error(error)));
+    if (tls_) return trf("{} turned this client away: {}", where_, tr_filled(describe_stream_error(error)));
     return trf("{} hung up at once: it is full, or wants certificates (TLS) from this program", where_);
 }
 

@@ -17,9 +17,9 @@
 #include "common/net/tls_options.h"
 #include "common/program/option_checks.h"
 #include "common/text/words.h"
+#include "common/words/translation.h"
 #include "render_client/link/recording_player.h"
 #include "render_client/volume/magnification.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

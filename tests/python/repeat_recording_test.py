@@ -1,10 +1,15 @@
 """Recordings of any session repeat to the bit: they hold the values that were used."""
 
 import json
+import os
 import pathlib
+import re
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import numpy as np
@@ -148,6 +153,54 @@ class RepeatRecordingTest(unittest.TestCase):
         self.addCleanup(arm.wait)
         self.addCleanup(arm.kill)
         self.serve_until_it_repeats("--device", "bridge", "--bridge", f"unix:{socket}")
+
+    def test_a_trainee_at_the_window(self):
+        for needed in ("Xvfb", "xdotool"):
+            if shutil.which(needed) is None:
+                self.skipTest(f"{needed} is not installed")
+        for attempt in range(5):  # a busy machine: see serve_until_it_repeats
+            file = self.folder / f"w{attempt}.pcap"
+            self.drill_by_keys(file)
+            if "which milling steps" not in om.repeat(file).line:
+                self.assertGreater(om.Recording(file).ticks["removed_mm3"][-1], 0.0)
+                return self.assert_repeats(file, 1000)
+        return self.skipTest("the machine is too busy for a session of the real clock")
+
+    def started(self, *command, **more):
+        process = subprocess.Popen([*map(str, command)], text=True, **more)
+        if process.stdout is not None:
+            self.addCleanup(process.stdout.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def drill_by_keys(self, file):
+        """A session in a real window, drilled with held keys until bone is gone."""
+        display = self.started("Xvfb", "-displayfd", "1", "-screen", "0", "480x360x24", "-nolisten", "tcp",
+                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        shown = dict(os.environ, DISPLAY=":" + display.stdout.readline().strip(), HOME=str(self.folder))
+        shown.pop("WAYLAND_DISPLAY", None)
+        log = self.folder / f"{file.stem}.log"
+        with log.open("w") as errors:
+            server = self.started(program("haptic_server"), "--scene", "tooth", "--device", "client", "--listen", "127.0.0.1:0",
+                                  "--record", file, stdout=subprocess.PIPE, stderr=errors)
+        address = next(line.split()[-1] for line in server.stdout if line.startswith("listening on "))
+        window = self.started(program("render_client"), "--connect", address, "--window-size", "480x360", "--home", self.folder,
+                              env=shown, stderr=subprocess.DEVNULL)
+
+        def keys(*arguments):
+            subprocess.run(["xdotool", *arguments], env=shown, check=True, capture_output=True, timeout=300)
+
+        keys("search", "--sync", "--onlyvisible", "--name", "^Osteomill$", "windowfocus")
+        late = time.monotonic() + 300.0
+        while not re.search(r"removed +(?!0\.0+ )\d", log.read_text()) and time.monotonic() < late:
+            keys("keydown", "space", "keydown", "w")
+            time.sleep(6.0)  # its log has a line every five seconds
+            keys("keyup", "w", "keyup", "space")
+        server.send_signal(signal.SIGINT)
+        server.stdout.read()
+        self.assertEqual(server.wait(), 0, log.read_text())
+        window.terminate()
 
     def test_says_what_cannot_be_repeated(self):
         old = om.repeat(REPOSITORY / "tests/golden/0.3/recording.pcap")

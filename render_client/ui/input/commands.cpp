@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/words/translation.h"
 #include "render_client/link/recording_player.h"
 #include "render_client/volume/magnification.h"
 #include "render_client/volume/surface_pick.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -66,7 +66,7 @@ std::string switched_words(const std::string& text) {
 std::string words_of(const ControlEvent& event) {
     if (event.action == SessionAction::mark) return event.text;
     if (event.action == SessionAction::fixture && !event.is_refused) return switched_words(event.text);
-    return tr_with_numbers(event.text);
+    return tr_filled(event.text);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <array>
 #include <optional>
 
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 

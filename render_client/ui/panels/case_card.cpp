@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <exception>
 
+#include "common/words/translation.h"
 #include "render_client/ui/panels/panel_painter.h"
 #include "render_client/ui/start/case_pictures.h"
 #include "render_client/volume/png_file.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "common/words/translation.h"
 #include "render_client/ui/panels/input_panel.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -8,7 +8,7 @@
 #include "render_client/ui/panels/fixture_marks.h"
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/panels/tool_bar.h"
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 

@@ -12,9 +12,9 @@
 
 #include "common/scene/material.h"
 #include "common/scene/tissue_tables.h"
+#include "common/words/translation.h"
 #include "render_client/ui/panels/page_widgets.h"
 #include "render_client/ui/panels/panel_painter.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

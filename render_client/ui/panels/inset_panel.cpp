@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <glm/geometric.hpp>
 
+#include "common/words/translation.h"
 #include "render_client/ui/panels/plot_lines.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

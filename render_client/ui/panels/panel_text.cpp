@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "common/words/translation.h"
 #include "render_client/ui/panels/fault_remedy.h"
 #include "render_client/ui/panels/structure_text.h"
 #include "render_client/volume/bone_ahead.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 
@@ -58,8 +58,10 @@ PanelText session_text(const OverlayContent& content) {
         if (scale != content.session->settings.end())
             text.push_back(line(Tone::warning, tr("forces of cutting times ") + scale->second));
     }
-    text.push_back(line(has_problem(content.link.status) ? Tone::warning : Tone::plain,
-                        content.link.status_line + received_part(content.link)));
+    // "Connected" would contradict the words in the middle.
+    if (content.sight != SessionSight::silent)
+        text.push_back(line(has_problem(content.link.status) ? Tone::warning : Tone::plain,
+                            content.link.status_line + received_part(content.link)));
     if (content.preparation_percent)
         text.push_back(line(Tone::plain, trf("preparing the bone: {} %", *content.preparation_percent)));
     if (content.view->details_shown) add_details(content, text);
@@ -100,7 +102,7 @@ PanelText warning_text(const OverlayContent& content) {
     else if (content.tool && !content.tool->fault.empty())
         add_fault(std::string(content.tool->fault.text()), text);
     if (content.tool && !content.tool->notice.empty())
-        text.push_back(line(Tone::plain, tr_with_numbers(std::string(content.tool->notice.text()))));
+        text.push_back(line(Tone::plain, tr_filled(std::string(content.tool->notice.text()))));
     if (content.tool && content.tool->driver == ToolDriver::others_only)
         text.push_back(
             line(Tone::plain, tr("you watch: the server does not list this client as an operator")));

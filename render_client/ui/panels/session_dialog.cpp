@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "common/words/translation.h"
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/panels/start_panel.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -9,9 +9,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/words/translation.h"
 #include "render_client/ui/input/window_input.h"
 #include "render_client/ui/panels/input_panel.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

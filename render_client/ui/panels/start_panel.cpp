@@ -7,12 +7,12 @@
 #include <array>
 #include <glm/common.hpp>
 
+#include "common/words/translation.h"
 #include "render_client/ui/panels/case_card.h"
 #include "render_client/ui/panels/import_panel.h"
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/panels/page_widgets.h"
 #include "render_client/ui/panels/tour.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 

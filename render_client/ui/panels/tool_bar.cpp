@@ -11,9 +11,9 @@
 #include <string>
 
 #include "common/scene/burr_profile.h"
+#include "common/words/translation.h"
 #include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/panels/input_panel.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

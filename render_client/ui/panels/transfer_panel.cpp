@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "common/words/translation.h"
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/view/hu_axis.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

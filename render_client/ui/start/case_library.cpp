@@ -14,7 +14,7 @@
 #include "common/scene/scene_file.h"
 #include "common/scene/shipped_scenes.h"
 #include "common/text/file_name.h"
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 

@@ -11,9 +11,10 @@
 #include <system_error>
 
 #include "common/files/input_file.h"
+#include "common/scene/phantom_names.h"
 #include "common/text/foreign_json.h"
 #include "common/text/plain_text.h"
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 
@@ -47,6 +48,18 @@ std::optional<NamedFolder> parts_of(const std::string& name) {
     return NamedFolder{name.substr(0, name.size() - pattern.size()),
                        trf("{} {} {}:{}", std::stoi(stamp.substr(7, 2)), month(month_number),
                            stamp.substr(10, 2), stamp.substr(12, 2))};
+}
+
+/// "Anna, jaw" of "jaw-Anna", if the case is built in; a name of another may have dashes of its own.
+std::string without_dashes(const std::string& whose) {
+    for (const std::string_view name : phantom_names) {
+        const std::string of = std::string(name) + "-";
+        if (whose.size() > of.size() && whose.starts_with(of)) {
+            const std::string trainee = whose.substr(of.size());
+            return (trainee == "nobody" ? tr("nobody") : trainee) + ", " + tr(std::string(name));
+        }
+    }
+    return whose;
 }
 
 /// "14 of 20 points", and how often something was undone for them; empty if the case has no rating.
@@ -99,7 +112,7 @@ std::string title_of_session(const fs::path& folder) {
     const std::string name = folder.filename().string();
     const auto named = parts_of(name);
     const auto [whose, verdict] = said_by_report(folder);
-    std::string title = !whose.empty() ? whose : one_line(named ? named->whose : name);
+    std::string title = !whose.empty() ? whose : one_line(named ? without_dashes(named->whose) : name);
     if (named) title += ", " + named->when;
     if (!verdict.empty()) title += ", " + verdict;
     return title;

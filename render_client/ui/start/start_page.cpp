@@ -11,7 +11,7 @@
 
 #include "common/program/available_memory.h"
 #include "common/text/file_name.h"
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 
@@ -129,6 +129,7 @@ void StartPage::start() {
                                      "--device=client",
                                      "--listen=127.0.0.1:0",
                                      "--report=" + report_folder_.string(),
+                                     "--language=" + spoken_language(),
                                      "--save-bone=" + (report_folder_ / "bone.nrrd").string()};
     if (!trainee.empty()) command.push_back("--trainee=" + trainee);
     // A case that is built in has no folder of its own.
@@ -139,7 +140,7 @@ void StartPage::start() {
     attempt([&] {
         server_ = std::make_unique<ChildProgram>(command, longest_report);
         has_address_ = false;
-        message_ = trf("{} is being made ready ...", wanted.name);
+        message_ = trf("{} is being made ready ...", tr(wanted.name));
     });
 }
 
@@ -164,15 +165,16 @@ void StartPage::open_report_of(const KeptSession& session) {
         work_ = Work::report;
         reported_ = session.folder;
         worker_ = std::make_unique<ChildProgram>(std::vector<std::string>{
-            program("packet_replay"), session.recording.string(), "--report=" + session.folder.string()});
+            program("packet_replay"), session.recording.string(), "--report=" + session.folder.string(),
+            "--language=" + spoken_language()});
         message_ = tr("the report is being made ...");
     });
 }
 
 void StartPage::replay(const std::filesystem::path& recording) {
     attempt([&] {
-        players_.push_back(std::make_unique<ChildProgram>(
-            std::vector<std::string>{program("render_client"), "--replay=" + recording.string()}));
+        players_.push_back(std::make_unique<ChildProgram>(std::vector<std::string>{
+            program("render_client"), "--replay=" + recording.string(), "--language=" + spoken_language()}));
         message_ = recording.string() + tr(" opens in a window of its own");
     });
 }

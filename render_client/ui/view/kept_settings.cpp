@@ -12,7 +12,7 @@
 #include "common/scene/scene_file.h"
 #include "common/scene/toml_reader.h"
 #include "common/scene/toml_text.h"
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 

@@ -12,8 +12,8 @@
 #include "common/scene/stiffness_relation.h"
 #include "common/scene/toml_reader.h"
 #include "common/scene/toml_text.h"
+#include "common/words/translation.h"
 #include "render_client/ui/view/hu_axis.h"
-#include "render_client/words/translation.h"
 
 namespace osteomill {
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <openigtlink/igtlImageMessage.h>
+#include <openigtlink/igtlStatusMessage.h>
 #include <openigtlink/igtlTransformMessage.h>
 
 #include <cstring>
@@ -108,6 +109,13 @@ TEST(IgtlMessages, AxesAreSquareAndRightHandedAboutAnyDirection) {
         EXPECT_NEAR(glm::length(axes[0]), 1.0, 1e-12);
     }
     EXPECT_NEAR(glm::length(axes_about({0.0, 0.0, -1.0})[0]), 1.0, 1e-12);
+}
+
+TEST(IgtlMessages, AStatusNamesNoError) {
+    const auto status = unpacked<igtl::StatusMessage>(status_message("Session", true, "ready"));
+    EXPECT_STREQ(status->GetStatusString(), "ready");
+    EXPECT_STREQ(status->GetErrorName(), "");
+    EXPECT_EQ(status->GetSubCode(), 0);
 }
 
 TEST(IgtlMessages, TextComesBackAsItWas) {

@@ -129,6 +129,8 @@ TEST_F(PanelTexts, TellTheToolAndTheSession) {
     content_.link.status = LinkStatus::lost;
     EXPECT_TRUE(has_tone(session_text(content_), Tone::warning));
     EXPECT_THAT(plain(session_text(content_)), HasSubstr("connected to 127.0.0.1:7010"));
+    content_.sight = SessionSight::silent;
+    EXPECT_THAT(plain(session_text(content_)), ::testing::Not(HasSubstr("connected")));
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
-#include "render_client/words/translation.h"
+#include "common/words/translation.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <boost/asio/error.hpp>
 #include <cctype>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -11,8 +13,12 @@
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "analysis/report/headlines.h"
+#include "analysis/report/session_metrics.h"
+#include "analysis/report/smoothness.h"
 #include "common/scene/burr_head.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/session_control.h"
@@ -22,11 +28,13 @@
 #include "render_client/ui/start/case_library.h"
 #include "simulation/loop/burr_change.h"
 #include "simulation/safety/fault.h"
+#include "tests/support/has_word.h"
 
 namespace osteomill::translation_test {
 namespace {
 
 using ::testing::ElementsAre;
+using testing::has_word;
 using ::testing::IsEmpty;
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
@@ -61,7 +69,9 @@ std::map<std::string, std::string> sources_in(const char* folder) {
          std::filesystem::recursive_directory_iterator(std::filesystem::path(OSTEOMILL_SOURCES) / folder)) {
         if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
         std::ostringstream text;
-        text << std::ifstream(entry.path()).rdbuf();
+        std::ifstream file(entry.path());
+        for (std::string line; std::getline(file, line);)
+            if (!line.starts_with("#include")) text << line << '\n';
         sources[entry.path().filename().string()] = text.str();
     }
     return sources;
@@ -77,16 +87,6 @@ std::vector<std::size_t> calls_of(const std::string& source, const std::string& 
             calls.push_back(at + function.size() + 1);
     }
     return calls;
-}
-
-/// Three small letters in a row: no unit, no place for a value.
-bool has_word(const std::string& text) {
-    int letters = 0;
-    for (const char letter : text) {
-        letters = std::islower(static_cast<unsigned char>(letter)) ? letters + 1 : 0;
-        if (letters == 3) return true;
-    }
-    return false;
 }
 
 /// Words among a call's arguments that are not handed to tr; text behind ## is not shown.
@@ -116,7 +116,36 @@ std::vector<HelpLine> all_help() {
     return all;
 }
 
-/// All texts that the window's sources translate, and the server's messages that it needs in every session.
+/// As texts with filled places are looked up.
+std::string with_places_for_numbers(const std::string& text) {
+    return std::regex_replace(text, std::regex(R"(-?\d+(\.\d+)?)"), "{}");
+}
+
+/// Headings and names of all numbers of a report.
+std::set<std::string> words_of_numbers() {
+    SessionMetrics all{};
+    all.structures = {{}};
+    all.near.structures = {{}};
+    all.exposures = {{}};
+    all.plan.emplace();
+    all.pass = {{"time_s", 1.0}};
+    all.rating.items = {{}};
+    all.removal.by_burr = all.removal.by_tissue = {{}};
+    all.force.by_burr = all.force.by_tissue = {{}};
+    std::set<std::string> words{"bone", "other bone", "tissue {}"};  // where a scene names none
+    for (const MetricRow& row : metric_rows(all)) words.insert({row.group, row.text});
+    for (const Headline& one : headlines) words.insert({one.text, text_of(one.better)});
+    for (const double reaches_per_s : {1.0, 2.0, 4.0, 8.0}) words.insert(smoothness_word(reaches_per_s));
+    std::set<std::string> looked_up;
+    for (const std::string& text : words) {
+        const std::string places = with_places_for_numbers(text);
+        looked_up.insert(translation_into("de").contains(places) ? places : text);
+    }
+    return looked_up;
+}
+
+/// All texts that the window's and the report's sources translate, and the server's messages that it needs in
+/// every session.
 std::set<std::string> english_words() {
     std::set<std::string> words{"left", "back", "up"};  // axes of the plot
     for (const Fault fault : all_faults) {
@@ -125,23 +154,28 @@ std::set<std::string> english_words() {
     }
     words.insert(remedy_of("another"));
     for (const BurrChange waits : {BurrChange::spindle, BurrChange::bone}) words.insert(describe(waits));
-    for (auto action = SessionAction::mark; action <= SessionAction::fixture;
+    for (auto action = SessionAction::none; action <= SessionAction::fixture;
          action = static_cast<SessionAction>(static_cast<int>(action) + 1))
         words.insert(name_of(action));
     for (const std::string_view shape : head_shape_names)
         if (shape != "ball") words.emplace(shape);  // which is "burr"
-    for (const auto& [file, source] : sources_in("render_client"))
-        for (const char* function : {"tr", "trf"})
-            for (std::size_t arguments : calls_of(source, function))
-                words.insert(literal_at(source, arguments));
+    for (const char* folder : {"render_client", "analysis/report"})
+        for (const auto& [file, source] : sources_in(folder))
+            for (const char* function : {"tr", "trf"})
+                for (std::size_t arguments : calls_of(source, function))
+                    words.insert(literal_at(source, arguments));
+    words.merge(words_of_numbers());
     for (const ShelvedCase& built_in : cases_in("/nowhere"))
         words.insert({built_in.name, built_in.description});
-    for (const ShippedScene& shipped : shipped_scenes)
-        for (const Tissue& tissue : parse_scene(shipped.text, std::string(shipped.name)).tissues) {
+    for (const ShippedScene& shipped : shipped_scenes) {
+        const Scene scene = parse_scene(shipped.text, std::string(shipped.name));
+        for (const Tissue& tissue : scene.tissues) {
             std::string as_written = tissue.name;
             std::ranges::replace(as_written, '_', ' ');
             words.insert(as_written);
         }
+        for (const RatingItem& item : scene.rating) words.insert({item.name, item.source});
+    }
     // All of the help, but names of keys.
     for (const HelpLine& line : all_help()) {
         words.insert(line.meaning);
@@ -159,13 +193,18 @@ std::string with_plain_places(const std::string& text) {
 /// Every text in the sources of the server that may come over the link.
 std::set<std::string> server_words() {
     std::set<std::string> words;
-    for (const char* folder :
-         {"simulation/loop", "haptic_server/streaming", "haptic_server/session", "common/net"})
+    for (const char* folder : {"simulation/loop", "haptic_server/program", "haptic_server/streaming",
+                               "haptic_server/session", "common/net"})
         for (const auto& [file, source] : sources_in(folder))
             for (std::size_t at = source.find('"'); at != std::string::npos; at = source.find('"', at)) {
                 const std::string text = literal_at(source, at);
                 words.insert({text, with_plain_places(text)});
             }
+    for (const int error : {ECONNREFUSED, ECONNRESET, EHOSTUNREACH, ENETUNREACH, ETIMEDOUT})
+        words.insert(std::generic_category().message(error));
+    for (const auto error :
+         {boost::asio::error::host_not_found, boost::asio::error::host_not_found_try_again})
+        words.insert(boost::asio::error::get_netdb_category().message(error));
     return words;
 }
 
@@ -216,6 +255,60 @@ TEST(Translation, LeaveNoWordsOfThePanelsAside) {
                 ElementsAre("bare word"));
 }
 
+/// What a literal, which may begin or end within a tag, has beside tags and the program's name.
+std::string without_tags(const std::string& literal) {
+    return std::regex_replace(literal, std::regex("^[^<>]*>|<[^>]*>?|Osteomill"), "");
+}
+
+TEST(Translation, LeaveNoWordsOfTheReportAside) {
+    const std::set<std::string> of_no_page{"reached", "missed", "two", "first"};  // classes of the style
+    const auto sources = sources_in("analysis/report");
+    std::size_t literals = 0;
+    for (const char* file : {"first_page.cpp", "metric_tables.cpp", "picture_views.cpp", "rating_html.cpp",
+                             "report_html.cpp", "session_plots.cpp"}) {
+        const std::string& source = sources.at(file);
+        for (std::size_t at = source.find('"'); at != std::string::npos; at = source.find('"', at)) {
+            const std::string_view before = std::string_view(source).substr(0, at);
+            const bool is_translated = before.ends_with("tr(") || before.ends_with("trf(");
+            const std::string text = literal_at(source, at);
+            const bool is_key = text.find('_') != std::string::npos && text.find(' ') == std::string::npos;
+            const bool is_class = of_no_page.contains(text) || text == " passed" || text == " failed";
+            ++literals;
+            EXPECT_TRUE(is_translated || is_key || is_class || !has_word(without_tags(text)))
+                << file << ": " << text;
+        }
+    }
+    EXPECT_GT(literals, 100U);
+}
+
+TEST(Translation, AreThereForAllThatAServerAnswersToAWindow) {
+    const auto streaming = sources_in("haptic_server/streaming");
+    const auto session = sources_in("haptic_server/session");
+    std::size_t texts = 0;
+    for (const std::string& source : {streaming.at("session_controls.cpp"), session.at("tool_place.cpp")})
+        for (std::size_t at = source.find('"'); at != std::string::npos; at = source.find('"', at)) {
+            const std::string text = with_plain_places(literal_at(source, at));
+            if (!has_word(text)) continue;
+            ++texts;
+            for (const std::string& language : languages())
+                EXPECT_TRUE(language == "en" || translation_into(language).contains(text)) << text;
+        }
+    EXPECT_GT(texts, 10U);
+}
+
+TEST(Translation, KeepTheNamesOfWhatTheServerSays) {
+    speak("de");
+    EXPECT_EQ(tr_filled("the bone was not saved: /a/{}b 3.nrrd: No space left on device"),
+              "der Knochen wurde nicht gespeichert: /a/{}b 3.nrrd: No space left on device");
+    EXPECT_EQ(tr_filled("its report: /home/x/on the server/report.html on the server"),
+              "ihr Bericht: /home/x/on the server/report.html auf dem Server");
+    EXPECT_EQ(tr_filled("nothing like that: here"), "nothing like that: here");
+    EXPECT_EQ(tissue_words("tissue 3"), "Gewebe 3");
+    EXPECT_EQ(tissue_words("Sinus_+_Dura"), "Sinus und Dura");
+    speak("en");
+    EXPECT_EQ(tissue_words("Sinus_+_Dura"), "Sinus + Dura");
+}
+
 TEST(Translation, HaveTheSamePlacesForValues) {
     for (const std::string& language : languages())
         for (const auto& [english, translated] : translation_into(language)) {
@@ -226,12 +319,12 @@ TEST(Translation, HaveTheSamePlacesForValues) {
 
 TEST(Translation, KeepTheNumbersOfWhatTheServerSays) {
     speak("de");
-    EXPECT_EQ(tr_with_numbers("that is 12 mm away from the bone; choose a place within 100 mm of it"),
+    EXPECT_EQ(tr_filled("that is 12 mm away from the bone; choose a place within 100 mm of it"),
               "das ist 12 mm vom Knochen entfernt; wählen Sie eine Stelle höchstens 100 mm davon");
-    EXPECT_EQ(tr_with_numbers("nothing was milled"), "nichts wurde gefräst");
-    EXPECT_EQ(tr_with_numbers("no such text of -1.5 mm"), "no such text of -1.5 mm");
+    EXPECT_EQ(tr_filled("nothing was milled"), "nichts wurde gefräst");
+    EXPECT_EQ(tr_filled("no such text of -1.5 mm"), "no such text of -1.5 mm");
     speak("en");
-    EXPECT_EQ(tr_with_numbers("that is 12 mm away"), "that is 12 mm away");
+    EXPECT_EQ(tr_filled("that is 12 mm away"), "that is 12 mm away");
 }
 
 TEST(Translation, NameNoOptionOfAProgram) {

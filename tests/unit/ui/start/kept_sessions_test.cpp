@@ -40,7 +40,7 @@ TEST(KeptSessions, HaveNamesAsAPersonWritesThem) {
     const testing::TemporaryFolder folder;
     const auto named = folder / "jaw-anna_b-20261128-140509";
     write(named / "session.pcap");
-    EXPECT_EQ(title_of_session(named), "jaw-anna_b, 28 November 14:05") << "without a report";
+    EXPECT_EQ(title_of_session(named), "anna_b, jaw, 28 November 14:05") << "without a report";
     write(
         named / "metrics.json",
         R"({"session": {"trainee": "Anna B.", "case": "jaw", "scene": "jaw"}, "metrics": {"passed": 0.0}})");
@@ -56,9 +56,11 @@ TEST(KeptSessions, HaveNamesAsAPersonWritesThem) {
           R"({"session": {"trainee": "", "case": "", "scene": "tooth"}, "metrics": {}})");
     EXPECT_EQ(title_of_session(named), "nobody, tooth, 28 November 14:05");
     write(named / "metrics.json", R"({"session": "hostile)");
-    EXPECT_EQ(title_of_session(named), "jaw-anna_b, 28 November 14:05");
+    EXPECT_EQ(title_of_session(named), "anna_b, jaw, 28 November 14:05");
     EXPECT_EQ(title_of_session(folder / "jaw-x-20261399-140509"), "jaw-x-20261399-140509");
     EXPECT_EQ(title_of_session(folder / "kept by hand"), "kept by hand");
+    EXPECT_EQ(title_of_session(folder / "tooth-nobody-20261128-140509"), "nobody, tooth, 28 November 14:05");
+    EXPECT_EQ(title_of_session(folder / "left-jaw-bo-20261128-140509"), "left-jaw-bo, 28 November 14:05");
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ TEST_F(StartPageTest, SendsItsWindowToThePortThatTheServerWasGiven) {
     std::string arguments;
     std::getline(file, arguments);
     EXPECT_THAT(arguments, HasSubstr("--listen=127.0.0.1:0"));
+    EXPECT_THAT(arguments, HasSubstr("--language=en")) << "the window's, for the report";
     window.poll();
     EXPECT_FALSE(window.take_server()) << "it is there";
 }

@@ -1,8 +1,9 @@
-// Words of the window in a person's language, found by the English ones as gettext does. English is in the
-// sources; every other language is a file beside this one: LANGUAGE.toml, "English" = "translated".
+// Words of the window and of the report in a person's language, found by the English ones as gettext does.
+// English is in the sources; every other language is a file beside this one: LANGUAGE.toml, "English" =
+// "translated".
 //
-// A server speaks English (faults, notices); its text is translated as a whole, numbers aside, if the file
-// has it.
+// A server speaks English (faults, notices), with its values filled in already: tr_filled finds the
+// translation of the whole text.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,16 +26,18 @@ std::string language_of_environment();
 /// From now on; one of languages(). Like the C library's locale it holds for the whole program: call it
 /// before there are threads.
 void speak(const std::string& language);
+const std::string& spoken_language();
 
 /// In the language that is spoken; if it has no such words, the English ones. Lives for ever.
 const char* tr(const char* english);
 inline std::string tr(const std::string& english) {
     return tr(english.c_str());
 }
-/// The translation of a whole text that the server says; its numbers stand in the file as {}, in the same
-/// order.
-std::string tr_with_numbers(const std::string& english);
-/// A tissue's name as a person writes it: files write "Facial_Nerve".
+/// The translation of a whole text whose values are filled in already: as it stands, with its numbers as {},
+/// or else the text of the file that has {} where this one has names or paths, and the most words besides.
+/// Values keep their order. The English text if there is none.
+std::string tr_filled(const std::string& english);
+/// A tissue's or case's name as a person writes it: files write "Facial_Nerve".
 std::string tissue_words(std::string name);
 /// The translation of a text with places for values, filled in as fmt::format does.
 template <typename... Values>

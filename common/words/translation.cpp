@@ -1,0 +1,133 @@
+#include "common/words/translation.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <regex>
+#include <string_view>
+
+#include "common/words/embedded_words.h"
+
+namespace osteomill {
+
+namespace {
+
+std::map<std::string, Translation> all_words() {
+    std::map<std::string, Translation> all{{"en", {}}};
+    for (const auto& [language, text] : embedded_words())
+        for (const auto& [english, translated] : toml::parse(text))
+            all[std::string(language)][std::string(english.str())] = translated.value_or(std::string());
+    return all;
+}
+
+const std::map<std::string, Translation>& tables() {
+    static const std::map<std::string, Translation> tables = all_words();
+    return tables;
+}
+
+using Spoken = std::map<std::string, Translation>::const_iterator;
+
+Spoken& spoken() {
+    static Spoken language = tables().find("en");
+    return language;
+}
+
+const Translation& words() {
+    return spoken()->second;
+}
+
+constexpr std::string_view place = "{}";
+
+std::string filled(std::string text, const std::vector<std::string>& values) {
+    std::size_t from = 0;
+    for (const std::string& value : values) {
+        from = text.find(place, from);
+        if (from == std::string::npos) break;
+        text.replace(from, place.size(), value);
+        from += value.size();
+    }
+    return text;
+}
+
+/// What stands in the text where the pattern has {}; nothing if it does not fit, or if the pattern has too
+/// few words before its first place to be told from others.
+std::optional<std::vector<std::string>> values_in(std::string_view text, std::string_view pattern) {
+    constexpr std::size_t fewest_letters = 8;
+    std::size_t at = pattern.find(place);
+    if (at == std::string_view::npos || at < fewest_letters || pattern.find("{:") != std::string_view::npos ||
+        !text.starts_with(pattern.substr(0, at)))
+        return std::nullopt;
+    std::vector<std::string> values;
+    for (text.remove_prefix(at);;) {
+        pattern.remove_prefix(at + place.size());
+        at = pattern.find(place);
+        const std::string_view behind = pattern.substr(0, at);
+        const bool is_last = at == std::string_view::npos;
+        if (is_last && !text.ends_with(behind)) return std::nullopt;
+        const std::size_t length = is_last ? text.size() - behind.size() : text.find(behind);
+        if (length == std::string_view::npos) return std::nullopt;
+        values.emplace_back(text.substr(0, length));
+        if (is_last) return values;
+        text.remove_prefix(length + behind.size());
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> languages() {
+    std::vector<std::string> names{"en"};
+    for (const auto& [language, words] : tables())
+        if (language != "en") names.push_back(language);
+    return names;
+}
+
+const Translation& translation_into(const std::string& language) {
+    return tables().at(language);
+}
+
+std::string language_of_environment() {
+    for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"})
+        if (const char* value = std::getenv(name); value != nullptr && *value != '\0') {
+            const std::string language = std::string(value).substr(0, 2);
+            return tables().contains(language) ? language : "en";
+        }
+    return "en";
+}
+
+void speak(const std::string& language) {
+    (void)translation_into(language);  // throws
+    spoken() = tables().find(language);
+}
+
+const std::string& spoken_language() {
+    return spoken()->first;
+}
+
+std::string tr_filled(const std::string& english) {
+    if (words().empty()) return english;
+    if (const auto whole = words().find(english); whole != words().end()) return whole->second;
+    static const std::regex number(R"(-?\d+(\.\d+)?)");
+    const auto found = words().find(std::regex_replace(english, number, "{}"));
+    if (found != words().end())
+        return filled(found->second,
+                      {std::sregex_token_iterator(english.begin(), english.end(), number), {}});
+    const Translation::value_type* best = nullptr;
+    for (const auto& entry : words())
+        if (values_in(english, entry.first) && (best == nullptr || entry.first.size() > best->first.size()))
+            best = &entry;
+    return best != nullptr ? filled(best->second, *values_in(english, best->first)) : english;
+}
+
+std::string tissue_words(std::string name) {
+    std::ranges::replace(name, '_', ' ');
+    return tr_filled(name);
+}
+
+const char* tr(const char* english) {
+    const auto found = words().find(english);
+    return found != words().end() ? found->second.c_str() : english;
+}
+
+}  // namespace osteomill
