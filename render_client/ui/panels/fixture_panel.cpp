@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "common/words/translation.h"
 #include "render_client/ui/panels/fixture_marks.h"
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/panels/tool_bar.h"
-#include "common/words/translation.h"
 
 namespace osteomill {
 
