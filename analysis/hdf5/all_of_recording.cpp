@@ -282,10 +282,9 @@ void AllOfRecording::add_ticks(const std::vector<TickSample>& ticks) {
     }
     std::vector<double> column(ticks.size());
     for (const TickQuantity& quantity : tick_quantities()) {
+        const bool is_input = quantity.part == TickPart::input || quantity.part == TickPart::control;
         const bool is_column = quantity.part == TickPart::always ||
-                               (quantity.part == TickPart::torque && has_torque_) ||
-                               (quantity.part == TickPart::input && has_input_) ||
-                               (quantity.part == TickPart::control && has_input_);
+                               (quantity.part == TickPart::torque && has_torque_) || (is_input && has_input_);
         if (!is_column) continue;
         std::ranges::transform(ticks, column.begin(), quantity.of);
         numbers_.at(fmt::format("ticks/{}", quantity.name)).add(std::span<const double>(column));

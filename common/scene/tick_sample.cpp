@@ -68,15 +68,6 @@ void add_axis_rest(TickSample& tick, double rest) {
     if (rest != 0.0) tick.spindle_axis[axis] = with_decimals<axis_decimals>(tick.spindle_axis[axis] + rest);
 }
 
-double pedal(const TickSample& tick) {
-    return tick.input ? static_cast<double>(tick.input->pedal) : 0.0;
-}
-
-void set_pedal(TickSample& tick, double value) {
-    if (!tick.input) tick.input.emplace();
-    tick.input->pedal = static_cast<TickInput::Pedal>(value);
-}
-
 /// Counted from 1; 0: no burr is requested.
 double asked_burr(const TickSample& tick) {
     return tick.input && tick.input->burr ? static_cast<double>(*tick.input->burr + 1) : 0.0;
@@ -87,40 +78,19 @@ void set_asked_burr(TickSample& tick, double value) {
     if (value > 0.0) tick.input->burr = static_cast<std::size_t>(value) - 1;
 }
 
-double lets_go(const TickSample& tick) {
-    return tick.input && tick.input->lets_go ? 1.0 : 0.0;
+template <auto member>
+double of_input(const TickSample& tick) {
+    return tick.input ? static_cast<double>((*tick.input).*member) : 0.0;
 }
 
-void set_lets_go(TickSample& tick, double value) {
+template <auto member>
+void set_in_input(TickSample& tick, double value) {
     if (!tick.input) tick.input.emplace();
-    tick.input->lets_go = value > 0.0;
-}
-
-double steps(const TickSample& tick) {
-    return tick.input ? static_cast<double>(tick.input->steps) : 0.0;
-}
-
-void set_steps(TickSample& tick, double value) {
-    if (!tick.input) tick.input.emplace();
-    tick.input->steps = static_cast<std::uint64_t>(value);
-}
-
-double holds_still(const TickSample& tick) {
-    return tick.input && tick.input->holds_still ? 1.0 : 0.0;
-}
-
-void set_holds_still(TickSample& tick, double value) {
-    if (!tick.input) tick.input.emplace();
-    tick.input->holds_still = value > 0.0;
-}
-
-double switched(const TickSample& tick) {
-    return tick.input ? static_cast<double>(tick.input->switched) : 0.0;
-}
-
-void set_switched(TickSample& tick, double value) {
-    if (!tick.input) tick.input.emplace();
-    tick.input->switched = static_cast<FixtureSet>(value);
+    auto& part = (*tick.input).*member;
+    if constexpr (std::is_same_v<decltype(part), bool&>)
+        part = value > 0.0;
+    else
+        part = static_cast<std::remove_reference_t<decltype(part)>>(value);
 }
 
 template <auto member>
@@ -170,9 +140,9 @@ constexpr TickQuantity input(const char* name) {
     return {name, "1", 0, 0, false, TickPart::input, of, set};
 }
 
-template <auto of, auto set>
-constexpr TickQuantity control(const char* name) {
-    return {name, "1", 0, 0, false, TickPart::control, of, set};
+template <auto member>
+constexpr TickQuantity input_number(const char* name, TickPart part = TickPart::input) {
+    return {name, "1", 0, 0, false, part, of_input<member>, set_in_input<member>};
 }
 
 using T = TickSample;
@@ -205,12 +175,12 @@ constexpr std::array quantities{one<&T::time_s>("t_s", "s", 4),
                                 axis_rest_along<0>("axis_x_rest"),
                                 axis_rest_along<1>("axis_y_rest"),
                                 axis_rest_along<2>("axis_z_rest"),
-                                input<pedal, set_pedal>("pedal"),
+                                input_number<&TickInput::pedal>("pedal"),
                                 input<asked_burr, set_asked_burr>("asked_burr"),
-                                input<lets_go, set_lets_go>("lets_go"),
-                                input<steps, set_steps>("milling_steps"),
-                                control<holds_still, set_holds_still>("holds_still"),
-                                control<switched, set_switched>("switched_fixtures")};
+                                input_number<&TickInput::lets_go>("lets_go"),
+                                input_number<&TickInput::steps>("milling_steps"),
+                                input_number<&TickInput::holds_still>("holds_still", TickPart::control),
+                                input_number<&TickInput::switched>("switched_fixtures", TickPart::control)};
 
 }  // namespace
 

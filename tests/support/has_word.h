@@ -1,4 +1,4 @@
-// Words in a text, told from units, signs and places for values.
+// Words in a text, as against units, signs and places for values.
 #pragma once
 
 #include <cctype>
