@@ -197,6 +197,7 @@ class RepeatRecordingTest(unittest.TestCase):
             keys("keydown", "space", "keydown", "w")
             time.sleep(6.0)  # its log has a line every five seconds
             keys("keyup", "w", "keyup", "space")
+            time.sleep(1.0)  # a pedal that was held before there was a bone turns nothing until it was seen up
         server.send_signal(signal.SIGINT)
         server.stdout.read()
         self.assertEqual(server.wait(), 0, log.read_text())
