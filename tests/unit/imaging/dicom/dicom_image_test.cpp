@@ -456,7 +456,7 @@ TEST_F(DicomImage, OfLabelsMayBeASegmentation) {
     EXPECT_EQ(read.image.spacing_mm, glm::dvec3(0.5, 0.5, 2.0));
     EXPECT_EQ(read.image.origin_mm, glm::dvec3(10.0, 20.0, 2.0));
     ASSERT_EQ(read.segments.size(), 3U);
-    const auto has = [&](const char* name, int voxel) {
+    const auto has = [&](const std::string& name, int voxel) {
         const Segment& segment = segment_named(read, name);
         return read.labels.at(segment.layer, {voxel % 4, voxel / 4 % 3, voxel / 12}) == segment.label;
     };

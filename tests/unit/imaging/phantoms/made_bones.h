@@ -14,7 +14,7 @@ inline Bone make_bone(const std::string& phantom) {
     return bone_from_hu(std::get<HuSlices>(make_phantom(phantom)), phantom_threshold_hu,
                         stiffness_of(phantom_scene(phantom)));
 }
-inline const Bone& made_bone(const std::string& phantom) {
+inline const Bone& made_bone(const char* phantom) {
     static std::map<std::string, Bone> made;
     const auto found = made.find(phantom);
     return found != made.end() ? found->second : made.emplace(phantom, make_bone(phantom)).first->second;
