@@ -10,6 +10,7 @@
 #include "common/scene/trajectory_columns.h"
 #include "common/scene/written_pose.h"
 #include "common/text/csv_cell.h"
+#include "common/text/plain_text.h"
 
 namespace osteomill {
 
@@ -38,6 +39,12 @@ void append_waypoint(fmt::memory_buffer& text, double time_s, const glm::dvec3& 
                    xyz(axis, axis_decimals), pedal ? 1 : 0, burr);
 }
 
+/// The comment that names the arm; empty in a recording that names none.
+std::string arm_line(const SessionInfo& session) {
+    const auto arm = session.settings.find("arm");
+    return arm == session.settings.end() ? "" : fmt::format("{}{}\n", trajectory_arm, one_line(arm->second));
+}
+
 void append_state(fmt::memory_buffer& text, const Playhead& playhead) {
     const ToolState& tool = *playhead.tool();
     fmt::format_to(std::back_inserter(text), "{:.4f},{:.4f},{},{},{},{},{},{},{:.5f},{}\n", playhead.time_s(),
@@ -52,7 +59,8 @@ void append_state(fmt::memory_buffer& text, const Playhead& playhead) {
 void RecordingCsv::add(const Playhead& playhead) {
     fmt::memory_buffer text;
     if (lines_ == CsvLines::trajectory) {
-        begin_columns(fmt::format("{}{}\n", trajectory_columns, trajectory_burr_column));
+        begin_columns(fmt::format("{}{}{}\n", arm_line(playhead.session()), trajectory_columns,
+                                  trajectory_burr_column));
         add_waypoints(text, playhead);
     } else if (lines_ == CsvLines::ticks && playhead.session().holds_ticks) {
         if (playhead.ticks().empty()) return;

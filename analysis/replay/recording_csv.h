@@ -26,8 +26,8 @@ enum class CsvLines {
 /// counted), nearest_structure (quoted name of the protected one; empty: none is near), nearest_structure_mm
 /// (0 and below: the burr overlaps it). Patient LPS.
 /// Trajectory: as simulated hands follow it (trajectory_columns.h), from time 0 at the recording's first
-/// line; the pedal is down where the spindle turned. Other actions on the session (undo, place) are no
-/// motion.
+/// line; the pedal is down where the spindle turned. A comment above names the recorded arm. Other actions on
+/// the session (undo, place) are no motion.
 class RecordingCsv {
   public:
     /// Throws std::runtime_error if the file cannot be written.

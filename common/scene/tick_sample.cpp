@@ -180,7 +180,10 @@ constexpr std::array quantities{one<&T::time_s>("t_s", "s", 4),
                                 input_number<&TickInput::lets_go>("lets_go"),
                                 input_number<&TickInput::steps>("milling_steps"),
                                 input_number<&TickInput::holds_still>("holds_still", TickPart::control),
-                                input_number<&TickInput::switched>("switched_fixtures", TickPart::control)};
+                                input_number<&TickInput::switched>("switched_fixtures", TickPart::control),
+                                input_number<&TickInput::chosen_rpm>("chosen_rpm", TickPart::control),
+                                input_number<&TickInput::is_placed>("is_placed", TickPart::control),
+                                input_number<&TickInput::restored>("restored_bricks", TickPart::control)};
 
 }  // namespace
 

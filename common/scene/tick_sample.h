@@ -31,6 +31,9 @@ struct TickInput {
     std::uint64_t steps = 0;            ///< of the milling loop, that it was the first to see (seen_steps.h)
     bool holds_still = false;           ///< somebody wants it, as in a pause
     FixtureSet switched = 0;            ///< fixtures that are not on or off as the scene says
+    std::uint32_t chosen_rpm = 0;       ///< the spindle's speed; 0: each burr's own
+    bool is_placed = false;             ///< the tool was moved to this pose while the hand stayed
+    std::uint32_t restored = 0;         ///< bricks that undo gave back, up to the next tick
 
     bool operator==(const TickInput&) const = default;
 };

@@ -16,12 +16,13 @@ namespace osteomill {
 inline constexpr int hand_decimals_mm = 6;
 inline constexpr int axis_decimals = 9;
 
-/// The nearest number with so many decimals; a number that has no more stays as it is. Real-time safe.
+/// The nearest number with so many decimals; a number that has no more stays as it is, and zero has no sign: a
+/// change of axes and back would lose it. Real-time safe.
 template <int decimals>
 double with_decimals(double value) noexcept {
     constexpr double scale = decimals == hand_decimals_mm ? 1e6 : 1e9;
     static_assert(decimals == hand_decimals_mm || decimals == axis_decimals);
-    return std::nearbyint(value * scale) / scale;
+    return std::nearbyint(value * scale) / scale + 0.0;
 }
 
 template <int decimals>

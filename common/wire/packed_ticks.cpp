@@ -42,7 +42,10 @@ bool is_code_of(const TickQuantity& quantity, std::int64_t code, std::size_t bur
                                                 .lets_go = true,
                                                 .steps = steps_not_told,
                                                 .holds_still = true,
-                                                .switched = every_fixture}};
+                                                .switched = every_fixture,
+                                                .chosen_rpm = std::numeric_limits<std::uint32_t>::max(),
+                                                .is_placed = true,
+                                                .restored = std::numeric_limits<std::uint32_t>::max()}};
     return code >= 0 && static_cast<double>(code) <= quantity.of(largest);
 }
 

@@ -21,8 +21,8 @@ struct ArmModel {
     int delay_ms = 0;                     ///< after which a written force acts, beside the tick that it takes
 };
 
-/// The arm at a hand whose poses are prescribed. It has no encoder steps, so it bears what its stiffest axis does; with them, in a hand, it
-/// does not (arm_spring.h).
+/// The arm at a hand whose poses are prescribed. It has no encoder steps, so it bears what its stiffest axis
+/// does; with them, in a hand, it does not (arm_spring.h).
 constexpr ArmModel ideal_arm() {
     return {.resolution_mm = 0.0, .max_stiffness_n_per_mm = 2.3};
 }

@@ -7,7 +7,8 @@ namespace osteomill {
 DeviceState RecordedDevice::read(double now_s) noexcept {
     using Pedal = TickInput::Pedal;
     const TickInput input = tick_.input.value_or(TickInput{});
-    const glm::dvec3 position_mm = position_in_device_mm(mapping_, tick_.hand_mm);
+    const glm::dvec3 position_mm =
+        input.is_placed && before_mm_ ? *before_mm_ : position_in_device_mm(mapping_, tick_.hand_mm);
     const double passed_s = now_s - before_s_;
     DeviceState state{
         .position_mm = position_mm,

@@ -15,11 +15,13 @@ class RecordedDevice final : public HapticDevice {
     RecordedDevice(const DeviceLimits& limits, const DeviceMapping& mapping)
         : limits_(limits), mapping_(mapping) {}
 
-    /// Sets the next readings: the hand's pose and the input of a tick, which must have one.
+    /// Sets the next readings: the hand's pose and the input of a tick, which must have one. In a tick that
+    /// places the tool the device is where it was.
     void say(const TickSample& tick) noexcept { tick_ = tick; }
 
     std::string name() const override { return "recorded hand"; }
     DeviceLimits limits() const override { return limits_; }
+    void set_mapping(const DeviceMapping& mapping) noexcept override { mapping_ = mapping; }
     void start() override {}
     /// The velocity is the mean since the reading before.
     DeviceState read(double now_s) noexcept override;

@@ -23,9 +23,9 @@ SimulatedDevice::SimulatedDevice(Trajectory trajectory, const DeviceMapping& map
       arm_(arm),
       held_arm_(arm, hand, position_in_device_mm(mapping, trajectory_.at(0.0).target.position_mm)) {}
 
-SimulatedDevice::SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm)
-    : SimulatedDevice(std::move(trajectory), mapping, arm, hand_model(Grip::firm)) {
-    rails_.emplace(trajectory_.at(0.0).target, mapping);
+SimulatedDevice::SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const DeviceLimits& arm)
+    : SimulatedDevice(std::move(trajectory), mapping, ArmModel{}, hand_model(Grip::firm)) {
+    rails_.emplace(trajectory_.at(0.0).target, mapping, arm);
 }
 
 double SimulatedDevice::pace(const glm::dvec3& target_in_device_mm) const noexcept {

@@ -31,10 +31,10 @@ class SimulatedDevice final : public HapticDevice {
     SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm,
                     const HandModel& hand);
     /// An arm on rails: always exactly on the trajectory, whatever the force, as the recorded arm was.
-    SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const ArmModel& arm);
+    SimulatedDevice(Trajectory trajectory, const DeviceMapping& mapping, const DeviceLimits& arm);
 
     std::string name() const override { return "simulated arm"; }
-    DeviceLimits limits() const override { return limits_of(arm_); }
+    DeviceLimits limits() const override { return rails_ ? rails_->limits() : limits_of(arm_); }
     void start() override {}
     /// The script's pedal is up before the session: at time 0.
     DeviceState read(double now_s) noexcept override;

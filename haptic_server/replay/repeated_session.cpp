@@ -2,22 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
+#include <iterator>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "common/recording/playhead.h"
 #include "common/scene/decimal_code.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/seen_steps.h"
-#include "common/text/foreign_json.h"
 #include "common/text/plain_text.h"
 #include "common/text/words.h"
 #include "devices/simulated/hand_model.h"
 #include "devices/simulated/recorded_device.h"
+#include "haptic_server/session/recorded_arm.h"
 #include "imaging/case/structures.h"
 #include "simulation/loop/milling_session.h"
 #include "simulation/safety/fault.h"
@@ -51,15 +54,9 @@ double number_of(const SessionInfo& session, const std::string& name) {
 
 DeviceLimits arm_of(const SessionInfo& session) {
     try {
-        const auto json = parse_foreign_json(setting(session, "arm"), "arm");
-        return {.max_force_n = json.at("max_force_n"),
-                .max_stiffness_n_per_mm = json.at("max_stiffness_n_per_mm"),
-                .apparent_mass_kg = json.at("apparent_mass_kg"),
-                .position_resolution_mm = json.at("position_resolution_mm"),
-                .damping_n_s_per_mm = json.at("damping_n_s_per_mm"),
-                .gives_force = json.at("gives_force")};
-    } catch (const nlohmann::json::exception&) {
-        throw NotRepeatable("its setting 'arm' does not say what the arm can do");
+        return arm_of_settings(setting(session, "arm"), "its setting 'arm'");
+    } catch (const std::runtime_error& error) {
+        throw NotRepeatable(error.what());
     }
 }
 
@@ -90,22 +87,35 @@ MillingSessionOptions options_of(const SessionInfo& session) {
     return options;
 }
 
-/// Whether the event changes a session in another way than the hand does.
-bool acts_on_session(const ControlEvent& event) {
-    switch (event.action) {
-        case SessionAction::none:
-        case SessionAction::mark:
-        case SessionAction::save:
-        case SessionAction::finish:
-        // These reach the loop by its ticks, which are recorded.
-        case SessionAction::pause:
-        case SessionAction::resume:
-        case SessionAction::fixture:
-            return false;
-        default:
-            return !event.is_refused;
+/// The changes with which undo gave bone back, or redo took it away again, in the order in which they were
+/// queued: frame by frame, and brick by brick.
+class RestoredChanges {
+  public:
+    /// For each frame: its own and, if there is one, the next frame's, which may come behind its ticks.
+    void arrive(const std::vector<ChangedBrick>& changes, const StateArrived* next) {
+        if (!std::exchange(has_next_, false)) add(changes);
+        next_ = next != nullptr ? &next->changes : nullptr;
     }
-}
+    /// Queues the next `count` of them, as far as there are so many.
+    void queue(std::uint32_t count, ChangeQueue& to) {
+        if (waiting_.size() < count && next_ != nullptr && !std::exchange(has_next_, true)) add(*next_);
+        for (; count > 0 && !waiting_.empty(); --count, waiting_.pop_front())
+            if (!to.try_push(waiting_.front().change, waiting_.front().fractions)) return;
+    }
+
+  private:
+    void add(const std::vector<ChangedBrick>& changes) {
+        std::vector<ChangedBrick> restored;
+        std::ranges::copy_if(changes, std::back_inserter(restored),
+                             [](const ChangedBrick& c) { return c.change.kind == ChangeKind::restored; });
+        std::ranges::stable_sort(restored, {}, [](const ChangedBrick& c) { return c.change.brick; });
+        waiting_.insert(waiting_.end(), restored.begin(), restored.end());
+    }
+
+    std::deque<ChangedBrick> waiting_;
+    const std::vector<ChangedBrick>* next_ = nullptr;
+    bool has_next_ = false;  // they are in waiting_
+};
 
 class KeptTicks final : public SampleLog<TickSample> {
   public:
@@ -137,10 +147,7 @@ class Repeat {
     /// False if something differs.
     bool take_state() {
         if (!playhead_.session().holds_ticks) throw NotRepeatable("it holds no ticks");
-        for (const ControlEvent& event : playhead_.state().events)
-            if (acts_on_session(event))
-                throw NotRepeatable(fmt::format("'{}' at {:.3f} s acted on it beside its hand",
-                                                name_of(event.action), event.time_s));
+        restored_.arrive(playhead_.changes(), playhead_.next_state());
         if (playhead_.counts().missed_ticks > 0) throw NotRepeatable("ticks are missing from it");
         for (const TickSample& tick : playhead_.ticks()) {
             if (!session_) begin(tick);
@@ -184,6 +191,7 @@ class Repeat {
         control(recorded);
         if (recorded.input->lets_go) session_->let_go();
         if (!is_real_) {
+            give_back(recorded);
             session_->advance(1);
             const std::optional<TickSample> made = made_.take();
             return made && is_as(recorded, *made, tick);
@@ -194,6 +202,7 @@ class Repeat {
         const auto missed =
             std::llround((recorded.time_s - session_->next_tick_s()) / MillingSession::tick_s);
         if (missed < 0) throw NotRepeatable(fmt::format("tick {} comes too early", tick));
+        if (before_) give_back(*before_);
         try {
             session_->repeat_tick(*steps, static_cast<std::uint64_t>(missed));
         } catch (const std::invalid_argument& error) {
@@ -218,6 +227,16 @@ class Repeat {
         SessionGate& gate = session_->exchange().gate;
         gate.stillness.set(recorded.input->holds_still);
         gate.fixtures_on.store(fixtures_on_ ^ recorded.input->switched);
+        gate.spindle_rpm.store(recorded.input->chosen_rpm);
+        if (!recorded.input->is_placed) return;
+        TripleBuffer<Placement>& placements = session_->exchange().placements;
+        placements.back() = {.number = ++placements_, .pose = {recorded.hand_mm, recorded.spindle_axis}};
+        placements.publish();
+    }
+
+    /// The bone that came back until the tick after this one.
+    void give_back(const TickSample& recorded) {
+        restored_.queue(recorded.input->restored, *session_->exchange().restored);
     }
 
     bool is_as(const TickSample& recorded, const TickSample& made, std::uint64_t tick) {
@@ -240,6 +259,7 @@ class Repeat {
 
     void end() {
         if (!session_) throw NotRepeatable("it has no tick");
+        if (before_) give_back(*before_);
         // A step or two may have come behind the last tick of the real clock.
         for (int more = 0; is_real_ && more < 3 && checksum(session_->bone()) != playhead_.bone_checksum();
              ++more)
@@ -263,6 +283,8 @@ class Repeat {
     bool is_real_ = false;
     FixtureSet fixtures_on_ = 0;  // as the scene says
     std::uint8_t fault_ = 0;      // in the tick before
+    RestoredChanges restored_;
+    std::uint64_t placements_ = 0;
     std::uint64_t ticks_ = 0;
     std::optional<TickSample> before_;
 };

@@ -7,6 +7,7 @@
 
 #include "common/program/commit.h"
 #include "common/scene/scene_file.h"
+#include "haptic_server/session/recorded_arm.h"
 #include "simulation/carving/instruction_set.h"
 
 namespace osteomill {
@@ -19,15 +20,6 @@ std::string hex(std::uint64_t digest) {
 
 nlohmann::ordered_json numbers(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
-}
-
-nlohmann::ordered_json arm_settings(const DeviceLimits& arm) {
-    return {{"max_force_n", arm.max_force_n},
-            {"max_stiffness_n_per_mm", arm.max_stiffness_n_per_mm},
-            {"apparent_mass_kg", arm.apparent_mass_kg},
-            {"position_resolution_mm", arm.position_resolution_mm},
-            {"damping_n_s_per_mm", arm.damping_n_s_per_mm},
-            {"gives_force", arm.gives_force}};
 }
 
 }  // namespace

@@ -186,7 +186,8 @@ void SessionControls::say_placed(const Waiting& waiting) {
 }
 
 void SessionControls::choose_speed(const SessionControl& control) {
-    gate_.spindle_rev_per_s.store(control.spindle_rpm / 60.0, std::memory_order_relaxed);
+    gate_.spindle_rpm.store(static_cast<std::uint32_t>(std::lround(control.spindle_rpm)),
+                            std::memory_order_relaxed);
     say({.action = control.action,
          .text = control.spindle_rpm == 0.0 ? "each burr's own"
                                             : fmt::format("{:.0f} rpm", control.spindle_rpm)});

@@ -58,7 +58,7 @@ class SessionControls {
     /// At a streaming server's 30 Hz the client has its answer in less than a second.
     static constexpr int longest_wait_frames = 25;
 
-    /// The one writer of gate.stillness, gate.spindle_rev_per_s and gate.fixtures_on, of `restored` and of
+    /// The one writer of gate.stillness, gate.spindle_rpm and gate.fixtures_on, of `restored` and of
     /// `placements`; all outlive it.
     SessionControls(SessionGate& gate, ChangeQueue& restored, TripleBuffer<Placement>& placements,
                     Requests requests)

@@ -44,8 +44,9 @@ struct SessionGate {
     std::atomic<std::uint64_t> restored_changes{0};
     /// Number of the placement that the haptic loop has made last.
     std::atomic<std::uint64_t> placed{0};
-    /// Speed of the spindle that was chosen; 0: each burr's own.
-    std::atomic<double> spindle_rev_per_s{0.0};
+    /// Speed of the spindle that was chosen, in whole revolutions per minute as recordings keep it; 0: each
+    /// burr's own.
+    std::atomic<std::uint32_t> spindle_rpm{0};
     /// Fixtures of the scene that are to be on. Taken over while the hand feels no force.
     std::atomic<FixtureSet> fixtures_on{0};
 };

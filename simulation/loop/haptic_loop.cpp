@@ -77,10 +77,9 @@ bool HapticLoop::place(const DeviceState& device) noexcept {
     return true;
 }
 
-double HapticLoop::speed_share(double elapsed_s) noexcept {
+double HapticLoop::speed_share(double chosen_rpm, double elapsed_s) noexcept {
     if (parts_.gate == nullptr) return 1.0;
-    const double chosen = parts_.gate->spindle_rev_per_s.load(std::memory_order_relaxed);
-    return speed_.tick(burr_.burr(), chosen, spindle_turned_, elapsed_s);
+    return speed_.tick(burr_.burr(), chosen_rpm / 60.0, spindle_turned_, elapsed_s);
 }
 
 void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
@@ -89,7 +88,7 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
     const bool is_placed = place(device);
     parts_.results.refresh();
     const MillingResult& latest = parts_.results.front();
-    settle(latest.total_removed_mm3);
+    settle(latest.total_removed_mm3, latest.restored_changes);
     steps_ = note_steps(latest);
 
     const glm::dvec3 reading_mm =
@@ -111,7 +110,9 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
 
     HandState hand{.now_s = now_s, .tick_s = elapsed_s, .pose = hand_pose_, .burr = burr_.burr()};
     if (safety_.has_hand()) hand = hand_state(now_s, elapsed_s, device);
-    hand.speed_share = speed_share(elapsed_s);
+    const std::uint32_t chosen_rpm =
+        parts_.gate != nullptr ? parts_.gate->spindle_rpm.load(std::memory_order_relaxed) : 0;
+    hand.speed_share = speed_share(chosen_rpm, elapsed_s);
     if (options_.has_fixtures) {
         take_fixtures();
         hand.fixtures_on = fixtures_on_;
@@ -180,11 +181,15 @@ void HapticLoop::tick(double now_s, std::uint64_t missed_periods) noexcept {
              .wanted_burr = burr_.wanted()});
     fault_ = safety_.fault();
     input_ = input_of(device, lets_go);
+    input_.chosen_rpm = chosen_rpm;
+    input_.is_placed = is_placed;
     is_settled_ = false;
 }
 
-void HapticLoop::settle(double total_removed_mm3) noexcept {
+void HapticLoop::settle(double total_removed_mm3, std::uint64_t restored_changes) noexcept {
     if (std::exchange(is_settled_, true)) return;
+    input_.restored = static_cast<std::uint32_t>(restored_changes -
+                                                 std::exchange(settled_restored_changes_, restored_changes));
     const double removed_mm3 = options_.removed_before_mm3 + total_removed_mm3;
     // On the real clock the state has gone out with the tick's values.
     if (std::exchange(tool_.removed_mm3, removed_mm3) != removed_mm3) show();

@@ -76,10 +76,10 @@ class HapticLoop {
     /// The tick of session time `now_s`, after `missed_periods` missed deadlines. Real-time safe, as
     /// settle().
     void tick(double now_s, std::uint64_t missed_periods) noexcept;
-    /// Ends the last tick's millisecond and completes its row: so much was removed since the start. Otherwise
-    /// the next tick does so, with the volume that it knows; for callers that keep the order of the loops,
-    /// and at the end.
-    void settle(double total_removed_mm3) noexcept;
+    /// Ends the last tick's millisecond and completes its row: so much was removed since the start, and so
+    /// many bricks were restored. Otherwise the next tick does so, with the numbers that it knows; for callers
+    /// that keep the order of the loops, and at the end.
+    void settle(double total_removed_mm3, std::uint64_t restored_changes) noexcept;
 
     /// Ends the session: from the next tick on the force fades, whatever is requested, and the spindle stops.
     /// Any thread.
@@ -103,7 +103,7 @@ class HapticLoop {
     void take_fixtures() noexcept;
     void publish(const BurrCommand& command) noexcept;
     void show() noexcept;
-    double speed_share(double elapsed_s) noexcept;
+    double speed_share(double chosen_rpm, double elapsed_s) noexcept;
     const char* notice() const noexcept;
     double depth_mm(bool in_contact) noexcept;
     TickInput input_of(const DeviceState& device, bool lets_go) const noexcept;
@@ -143,6 +143,7 @@ class HapticLoop {
     TickInput input_{};
     std::uint64_t steps_ = 0;      // that it was the first to see, as a number
     std::uint64_t seen_step_ = 0;  // the last result's
+    std::uint64_t settled_restored_changes_ = 0;
     std::uint64_t ticks_ = 0;
 };
 

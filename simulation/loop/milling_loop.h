@@ -50,6 +50,8 @@ class MillingLoop {
     void step(double time_s, double elapsed_s, std::uint64_t missed = 0) noexcept;
     /// By all steps so far, less bone given back.
     double total_removed_mm3() const { return total_removed_mm3_; }
+    /// Bricks that were given back.
+    std::uint64_t restored_changes() const { return restored_changes_; }
 
     /// A tool so fast that it needs a larger margin is not examined: that would take too long.
     static constexpr double most_room_mm = 2.0;

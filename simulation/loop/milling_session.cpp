@@ -72,7 +72,7 @@ std::vector<double> spindle_speeds(const std::vector<Burr>& burrs) {
 /// All of them where they may be switched, else those that are on.
 FixtureSet fixtures_to_hold(const Scene& scene, const MillingSessionOptions& options) {
     const bool may_be_switched = options.can_be_controlled && find_coupling(options.coupling).takes_fixtures;
-    return may_be_switched ? (FixtureSet{1} << scene.fixtures.size()) - 1 : fixtures_on(scene.fixtures);
+    return may_be_switched ? fixture_bit(scene.fixtures.size()) - 1 : fixtures_on(scene.fixtures);
 }
 
 std::optional<HandpieceVibration> make_vibration(const Scene& scene, const HapticDevice& device,
@@ -282,7 +282,7 @@ void MillingSession::run_in_threads(const std::atomic<bool>& stop, const OnProgr
     is_over.store(true, std::memory_order_relaxed);
     haptic.join();
     milling.join();
-    haptic_loop_.settle(milling_loop_.total_removed_mm3());
+    haptic_loop_.settle(milling_loop_.total_removed_mm3(), milling_loop_.restored_changes());
 }
 
 std::uint64_t MillingSession::advance(std::uint64_t ticks, const OnProgress& on_progress,
@@ -296,7 +296,7 @@ std::uint64_t MillingSession::advance(std::uint64_t ticks, const OnProgress& on_
             milling_steps_.tick_now(stopwatch);
             if (exchange_.changes.has_overflowed()) wait_for_room_in_queue(stop, on_progress);
         }
-        haptic_loop_.settle(milling_loop_.total_removed_mm3());
+        haptic_loop_.settle(milling_loop_.total_removed_mm3(), milling_loop_.restored_changes());
         if (ticks_++ % chore_ticks == 0) do_chores(on_progress);
     }
     return ticks_ - before;

@@ -12,6 +12,7 @@ import tempfile
 import time
 import unittest
 
+import h5py
 import numpy as np
 from support import program, tooth
 
@@ -68,14 +69,14 @@ class RepeatRecordingTest(unittest.TestCase):
         np.testing.assert_allclose(told["removed_mm3"][1:], ticks["removed_mm3"]["total"], atol=5.1e-6)
 
     def test_a_recorded_motion_on_rails(self):
-        file, _, _ = self.record("a.pcap", arm=om.Arm())
+        file, _, _ = self.record("a.pcap")
         subprocess.run([program("packet_replay"), file, "--trajectory", self.folder / "a.csv"], check=True, capture_output=True)
         self.serve("--clock", "virtual", "--trajectory", self.folder / "a.csv", "--grip", "rails", "--record", self.folder / "b.pcap",
                    "--duration-s", "1.5")
         first, second = om.Recording(file).ticks, om.Recording(self.folder / "b.pcap").ticks
-        np.testing.assert_array_equal(second["hand_mm"], first["hand_mm"])
-        # The arm on rails has the simulated arm's encoder, whose steps are smoothed; a prescribed hand has none.
-        self.assertAlmostEqual(second["removed_mm3"][-1] / first["removed_mm3"][-1], 1.0, delta=0.05)
+        for name in ("hand_mm", "burr_mm", "axis", "force_n", "removed_mm3"):
+            # A trajectory ends with the pedal up.
+            np.testing.assert_array_equal(second[name][:-1], first[name][:-1], name)
         self.assert_repeats(self.folder / "b.pcap", 1501)
 
     def test_a_simulated_hand_with_settings_of_its_own(self):
@@ -121,6 +122,42 @@ class RepeatRecordingTest(unittest.TestCase):
         np.testing.assert_array_equal(felt[:1600], unfelt[:1600])
         self.assertGreater(np.abs(felt[1700:] - unfelt[1700:]).max(), 0.01)
 
+    def controls_of(self, file):
+        """Columns of its ticks that say how it was controlled."""
+        om.Recording(file).to_hdf5(file.with_suffix(".h5"))
+        with h5py.File(file.with_suffix(".h5")) as made:
+            return {name: made[f"ticks/{name}"][()] for name in ("chosen_rpm", "is_placed", "restored_bricks", "holds_still")}
+
+    def test_a_session_at_another_speed_of_the_spindle(self):
+        file, plain = self.folder / "fast.pcap", self.folder / "plain.pcap"
+        self.serve(*self.controlled("1.5,speed,23456.7\n3,speed,0\n"), "--clock", "virtual", "--duration-s", "4", "--record", file)
+        self.serve("--clock", "virtual", "--duration-s", "4", "--record", plain)
+        self.assertEqual(set(self.controls_of(file)["chosen_rpm"]), {0, 23457})
+        self.assert_repeats(file, 4001)
+        self.assertGreater(np.abs(om.Recording(file).ticks["force_n"] - om.Recording(plain).ticks["force_n"]).max(), 0.01)
+
+    def test_a_session_that_was_undone(self):
+        for name, lines in (("paused", "2.9,pause,\n3.1,undo,\n3.2,resume,\n"), ("at-once", "3.3,undo,\n4.5,undo,\n5,redo,\n"),
+                            ("all-of-it", "4,reset,\n5.5,undo,\n6.2,reset,\n6.9,redo,\n")):
+            with self.subTest(name):
+                file = self.folder / f"{name}.pcap"
+                self.serve(*self.controlled(lines), "--clock", "virtual", "--duration-s", "8", "--record", file)
+                controls = self.controls_of(file)
+                self.assertGreater(controls["restored_bricks"].sum(), 0, self.events(file))
+                self.assert_repeats(file, 8001)
+
+    def test_an_arm_lifted_out_of_the_bone_that_came_back(self):
+        socket = self.folder / "arm.socket"
+        self.start_arm(socket)
+        scene = (REPOSITORY / "scenes/cube.toml").read_text()
+        (self.folder / "cube.toml").write_text(scene.replace("position_mm = [-20.0, 0.0, 4.0]", "position_mm = [0.0, 0.0, 4.0]"))
+        (self.folder / "undo.csv").write_text("t_s,action,text\n6,pause,\n6.2,undo,\n6.8,resume,\n")
+        file = self.serve_until_it_repeats("--scene", self.folder / "cube.toml", "--device", "bridge", "--bridge", f"unix:{socket}",
+                                           "--controls", self.folder / "undo.csv", seconds=8)
+        controls = self.controls_of(file)
+        self.assertGreater(controls["restored_bricks"].sum(), 0, self.events(file))
+        self.assertEqual(controls["is_placed"].sum(), 1, self.events(file))
+
     def test_a_fixture_is_switched_only_while_the_session_is_paused(self):
         file = self.folder / "refused.pcap"
         self.serve(*self.controlled("0.5,fixture,Slowly=off\n0.6,pause,\n0.7,fixture,Slow=off\n0.8,resume,\n"),
@@ -133,25 +170,27 @@ class RepeatRecordingTest(unittest.TestCase):
     def test_a_paused_session_of_the_real_clock(self):
         self.serve_until_it_repeats(*self.controlled(self.SWITCHED))
 
-    def serve_until_it_repeats(self, *arguments):
+    def serve_until_it_repeats(self, *arguments, seconds=4):
         """On a busy machine a loop may stand still for longer than a tick can tell of: again, then."""
         for attempt in range(10):
             file = self.folder / f"r{attempt}.pcap"
             scene = () if "--scene" in arguments else ("--scene", "tooth")
-            self.serve(*scene, "--listen", "none", "--duration-s", "4", "--record", file, *arguments)
+            self.serve(*scene, "--listen", "none", "--duration-s", seconds, "--record", file, *arguments)
             if "which milling steps" not in om.repeat(file).line:
-                return self.assert_repeats(file, 100)
+                self.assert_repeats(file, 100)
+                return file
         return self.skipTest("the machine is too busy for a session of the real clock")
 
     def test_a_session_of_the_real_clock(self):
         self.serve_until_it_repeats()
 
+    def start_arm(self, socket):
+        self.started(sys.executable, REPOSITORY / "bridge/examples/simulated_arm.py", f"unix:{socket}",
+                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
     def test_an_arm_behind_the_bridge(self):
         socket = self.folder / "arm.socket"
-        arm = subprocess.Popen([sys.executable, REPOSITORY / "bridge/examples/simulated_arm.py", f"unix:{socket}"],
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.addCleanup(arm.wait)
-        self.addCleanup(arm.kill)
+        self.start_arm(socket)
         self.serve_until_it_repeats("--device", "bridge", "--bridge", f"unix:{socket}")
 
     def test_a_trainee_at_the_window(self):
@@ -207,10 +246,8 @@ class RepeatRecordingTest(unittest.TestCase):
         old = om.repeat(REPOSITORY / "tests/golden/0.3/recording.pcap")
         self.assertFalse(old.is_equal)
         self.assertIn("repeats to 0.1 um only", old.line)
-        (self.folder / "controls.csv").write_text("t_s,action,text\n2.9,pause,\n3.1,undo,\n3.2,resume,\n")
-        self.serve("--clock", "virtual", "--controls", self.folder / "controls.csv", "--duration-s", "4",
-                   "--record", self.folder / "undone.pcap")
-        self.assertIn("'undo' at 3.1", om.repeat(self.folder / "undone.pcap").line)
+        self.serve("--clock", "virtual", "--coupling", "hold+damper", "--duration-s", "1", "--record", self.folder / "damped.pcap")
+        self.assertIn("takes the arm's own velocity", om.repeat(self.folder / "damped.pcap").line)
         with self.assertRaisesRegex(om.Fault, "nowhere.pcap"):
             om.repeat("nowhere.pcap")
 

@@ -33,7 +33,7 @@ TEST(SimulatedDevice, FollowsItsTrajectoryInFreeAir) {
 
 TEST(SimulatedDevice, OnRailsIsWhereTheTrajectoryHasItWhateverTheForce) {
     const DeviceMapping mapping{.scale = 2.0, .offset_mm = {1.0, 2.0, 3.0}};
-    SimulatedDevice device(line(10.0, 2.0), mapping, ArmModel{});
+    SimulatedDevice device(line(10.0, 2.0), mapping, limits_of(ArmModel{}));
     for (int tick = 0; tick <= 2000; ++tick) {
         const DeviceState state = device.read(0.001 * tick);
         device.write({-3.0, 1.0, 0.0});

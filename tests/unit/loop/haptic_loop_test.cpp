@@ -57,7 +57,7 @@ class Bench {
         return device.written_n.back();
     }
     void settle(double total_removed_mm3) {
-        loop_->settle(total_removed_mm3);
+        loop_->settle(total_removed_mm3, 0);
         tool.refresh();
     }
     const BurrCommand& command() const { return commands.front(); }
@@ -300,7 +300,7 @@ TEST(HapticLoop, MeasuresDepthFromWhereTheBurrFirstMetBone) {
     tick_at(3.5, 0.2);
     bench.tool.refresh();
     EXPECT_DOUBLE_EQ(bench.tool.front().depth_mm.value_or(0.0), 0.5) << "what clients are told";
-    loop.settle(0.0);
+    loop.settle(0.0, 0);
     log.close();
     std::FILE* in = std::fopen(file.c_str(), "r");
     ASSERT_NE(in, nullptr);

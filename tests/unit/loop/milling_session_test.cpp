@@ -184,21 +184,21 @@ TEST(MillingSession, IsTheSameToTheBitEachTime) {
 }
 
 TEST(MillingSession, AtAChosenSpeedIsTheSameAsWithABurrOfThatSpeed) {
-    const auto milled = [](double own_rev_per_s, double chosen_rev_per_s) {
+    const auto milled = [](double own_rpm, std::uint32_t chosen_rpm) {
         Scene scene = block_scene();
-        scene.burrs[0].spindle_rev_per_s = own_rev_per_s;
+        scene.burrs[0].spindle_rev_per_s = own_rpm / 60.0;
         SimulatedDevice device = simulated(scene);
         MillingSessionOptions options = virtual_options(2.0);
         options.can_be_controlled = true;
         const auto session = std::make_unique<MillingSession>(scene, block(), device, options);
-        session->exchange().gate.spindle_rev_per_s = chosen_rev_per_s;
+        session->exchange().gate.spindle_rpm = chosen_rpm;
         const std::atomic<bool> never{false};
         session->run(never);
         return session->report();
     };
-    const MillingSessionReport slow = milled(250.0, 0.0);
-    const MillingSessionReport chosen = milled(250.0, 500.0);
-    const MillingSessionReport fast = milled(500.0, 0.0);
+    const MillingSessionReport slow = milled(15'000.0, 0);
+    const MillingSessionReport chosen = milled(15'000.0, 30'000);
+    const MillingSessionReport fast = milled(30'000.0, 0);
     EXPECT_EQ(chosen.bone_checksum, fast.bone_checksum);
     EXPECT_EQ(chosen.peak_force_n, fast.peak_force_n);
     EXPECT_NE(chosen.bone_checksum, slow.bone_checksum);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -30,6 +31,12 @@ TEST(WrittenPose, IsItsOwnAndTheTextOfItsDecimals) {
         // A reader uses it as a unit vector, unchanged.
         ASSERT_EQ(unit_direction(written.spindle_axis), written.spindle_axis);
     }
+}
+
+TEST(WrittenPose, HasNoMinusZeroWhichChangesOfAxesLose) {
+    const ToolPose written = as_written({{-0.0, -1e-9, 1.0}, {-0.0, -1e-12, 1.0}});
+    EXPECT_FALSE(std::signbit(written.position_mm.x) || std::signbit(written.position_mm.y));
+    EXPECT_FALSE(std::signbit(written.spindle_axis.x) || std::signbit(written.spindle_axis.y));
 }
 
 TEST(SeenSteps, AreTheirNumbersAgain) {

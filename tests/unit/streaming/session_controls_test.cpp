@@ -319,11 +319,11 @@ TEST_F(SessionControlsTest, SaysWhenSavingHasGoneWrongAlthoughNobodyAsks) {
 TEST_F(SessionControlsTest, TellsTheHapticLoopTheSpindlesSpeed) {
     controls_.control({.action = SessionAction::speed, .spindle_rpm = 30'000.0});
     frame();
-    EXPECT_EQ(gate_.spindle_rev_per_s, 500.0);
+    EXPECT_EQ(gate_.spindle_rpm, 30'000U);
     EXPECT_FALSE(holds_still());
     controls_.control({.action = SessionAction::speed, .spindle_rpm = 0.0});
     frame();
-    EXPECT_EQ(gate_.spindle_rev_per_s, 0.0);
+    EXPECT_EQ(gate_.spindle_rpm, 0U);
     const auto events = controls_.take_events();
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events[0].text, "30000 rpm");

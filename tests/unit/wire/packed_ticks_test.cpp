@@ -65,7 +65,10 @@ TickSample input_tick_of(std::mt19937& random, std::uint64_t number) {
                            .lets_go = random() % 2 == 0,
                            .steps = random() % steps_not_told,
                            .holds_still = random() % 2 == 0,
-                           .switched = static_cast<FixtureSet>(random() & every_fixture)};
+                           .switched = static_cast<FixtureSet>(random() & every_fixture),
+                           .chosen_rpm = static_cast<std::uint32_t>(random() % 500'001),
+                           .is_placed = random() % 2 == 0,
+                           .restored = static_cast<std::uint32_t>(random() % 41)};
     if (random() % 2 == 0) tick.input->burr = random() % 3;
     return tick;
 }
@@ -108,8 +111,9 @@ TEST(PackedTicks, SpendNoByteOnControlsThatNobodyUsed) {
     std::vector<TickSample> ticks;
     for (std::uint64_t i = 0; i < most_ticks_of_message; ++i) {
         ticks.push_back(input_tick_of(random, i));
-        ticks.back().input->holds_still = false;
-        ticks.back().input->switched = 0;
+        const TickInput& input = *ticks.back().input;
+        ticks.back().input = TickInput{
+            .pedal = input.pedal, .burr = input.burr, .lets_go = input.lets_go, .steps = input.steps};
     }
     const auto quantities_of = [](const v2::Ticks& message) {
         std::vector<char> content(1 << 16);
@@ -121,12 +125,14 @@ TEST(PackedTicks, SpendNoByteOnControlsThatNobodyUsed) {
     };
     TickPacker packer;
     const int usual = quantities_of(packer.pack(0, ticks));
-    EXPECT_EQ(usual, static_cast<int>(tick_quantities().size()) - 2);
+    EXPECT_EQ(usual, static_cast<int>(tick_quantities().size()) - 5);
     ticks[5].input->holds_still = true;
     EXPECT_EQ(quantities_of(packer.pack(0, ticks)), usual + 1);
     ticks[5].input->holds_still = false;
     ticks[6].input->switched = 0b10;
     EXPECT_EQ(quantities_of(packer.pack(0, ticks)), usual + 2);
+    ticks[7].input->restored = 3;
+    EXPECT_EQ(quantities_of(packer.pack(0, ticks)), usual + 5);
 }
 
 TEST(PackedTicks, OfBeforeHaveNoInput) {
