@@ -44,7 +44,8 @@ def down(from_z_mm, to_z_mm, feed=FEED_MM_PER_S):
 
 def columns_of(case, path):
     exact = states_sensor.ForceSensor(noise_n=0.0, step_n=0.0)
-    return states_samples.columns_of(case, path, exact, np.random.default_rng(1), False)[0]
+    found = states_samples.labelled(case, path, False)
+    return states_samples.columns_of(found, path, case.burrs[path.burr], exact, np.random.default_rng(1))
 
 
 class SlotTest(unittest.TestCase):
