@@ -32,6 +32,14 @@ MEASURED_BY = {"force": tradeoff_force.measure, "coupling": tradeoff_coupling.me
                "cue": tradeoff_cues.measure, "link": tradeoff_link.measure, "scaling": tradeoff_scaling.measure,
                "fixture": tradeoff_fixtures.measure, "states": tradeoff_states.measure}
 ON_THE_PAGE = ("force", "coupling", "picture", "cue", "link")
+# Each part's table: its name, how it is made. Tables of what the built-in scenes need: of which table, how.
+TABLES: dict[str, Any] = {
+    "force": ("force", tradeoff_force.table_of), "coupling": ("coupling", tradeoff_coupling.table_of),
+    "picture": ("picture", tradeoff_picture.table_of), "cue": ("picture_cues", tradeoff_cues.table_of),
+    "link": ("link", tradeoff_link.table_of), "scaling": ("scaling", tradeoff_scaling.table_of),
+    "fixture": ("fixtures", tradeoff_fixtures.table_of), "states": ("states", tradeoff_states.table_of)}
+NEEDS: dict[str, Any] = {"needs": ("force", tradeoff_force.needs_of), "picture_needs": ("picture", tradeoff_picture.needs_of),
+                         "link_needs": ("link", tradeoff_link.needs_of)}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -67,16 +75,7 @@ def tables_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> 
         cases_of_part.append(case)
         outcomes_of_part.append(outcome)
     tables = {TABLES[part][0]: TABLES[part][1](*measured) for part, measured in found.items()}
-    return tables | {f"{name}_needs" if name != "force" else "needs": needs_of(tables[name]) for name, needs_of in NEEDS.items() if name in tables}
-
-
-# Of each part: its table's name, how it is made. Of some tables: what a built-in scene needs.
-TABLES: dict[str, Any] = {
-    "force": ("force", tradeoff_force.table_of), "coupling": ("coupling", tradeoff_coupling.table_of),
-    "picture": ("picture", tradeoff_picture.table_of), "cue": ("picture_cues", tradeoff_cues.table_of),
-    "link": ("link", tradeoff_link.table_of), "scaling": ("scaling", tradeoff_scaling.table_of),
-    "fixture": ("fixtures", tradeoff_fixtures.table_of), "states": ("states", tradeoff_states.table_of)}
-NEEDS: dict[str, Any] = {"force": tradeoff_force.needs_of, "picture": tradeoff_picture.needs_of, "link": tradeoff_link.needs_of}
+    return tables | {name: needs_of(tables[table]) for name, (table, needs_of) in NEEDS.items() if table in tables}
 
 
 def run(options: argparse.Namespace, study: StudyRun) -> None:
@@ -91,7 +90,7 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
         study.chart(name, figure)
     if "force" in tables:
         study.say(_default_in_words(tables["force"]))
-    study.say(f"{', '.join(f'{name}.svg' for name in charts)}, the tables (CSV) and tradeoff.json are in {study.out}")
+    study.say(f"{''.join(f'{name}.svg, ' for name in charts)}the tables (CSV) and tradeoff.json are in {study.out}")
 
 
 def charts_of(tables: "dict[str, pd.DataFrame]") -> "dict[str, Figure]":
