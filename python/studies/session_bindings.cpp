@@ -21,6 +21,7 @@
 #include "common/files/input_file.h"
 #include "common/recording/packet_reader.h"
 #include "common/text/plain_text.h"
+#include "common/words/translation.h"
 #include "imaging/bone_file/digest.h"
 #include "python/studies/bindings.h"
 #include "python/studies/printable_error.h"
@@ -106,6 +107,9 @@ void bind_sessions(py::module_& module) {
         py::arg("key"), py::arg("value"), "A metric's value as every page shows it, in its headline's unit.");
     module.def("local_time_text", &local_time_text, py::arg("unix_ns"),
                "By the clock of this machine; empty where the recording does not say.");
+    module.def("languages", &languages, "Codes of ISO 639-1; en is the first.");
+    module.def("words_in", &translation_into, py::arg("language"),
+               "Texts of window and report in one of languages(), by the English ones; none in English.");
     module.def("trainee_groups", &groups_of, py::arg("file"),
                "Of groups.csv: the group, and the line that says so, by the trainee's name.");
     module.def("digest_of_recording", &digest_of_recording, py::arg("file"), "Of its bytes.");

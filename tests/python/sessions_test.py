@@ -11,16 +11,19 @@ import sqlite3
 import subprocess
 import tempfile
 import time
+import tomllib
 import unittest
 
 import scipy.stats
 from support import program, run_server
 
+from osteomill import _studies
 from osteomill.studies.sessions import page, records, statistics
 from osteomill.studies.sessions.cases import HEADLINES, cases_of
 from osteomill.studies.sessions.curves import _look_of, learning_curves
 from osteomill.studies.sessions.database import SessionStore
 from osteomill.studies.sessions.records import Metric, SessionRecord
+from osteomill.studies.sessions.words import ENGLISH, Words
 from osteomill.studies.tables import csv_of
 
 DATA = pathlib.Path(__file__).parents[1] / "data" / "sessions"
@@ -62,6 +65,56 @@ class GoldenTest(unittest.TestCase):
         self.assertIn("Left out: &lt;b&gt;x&lt;/b&gt;", first)
         names = re.findall(r'<g id="[^"]*"|<script', first)
         self.assertEqual(names, [])
+
+
+class LanguageTest(unittest.TestCase):
+    FOLDER = pathlib.Path(page.__file__).parent
+
+    def texts_of_the_page(self):
+        """All that its sources hand to tr, but names and headlines, as it is looked up."""
+        texts = set()
+        for file in (*self.FOLDER.glob("*.py"), *self.FOLDER.glob("*.jinja")):
+            for quote, text in re.findall(r"""\btr\((["'])(.*?)(?<!\\)\1""", file.read_text(encoding="utf-8"), re.DOTALL):
+                texts.add(" ".join(text.split()))
+        return texts - {"{} of {}"}
+
+    def test_each_text_has_its_german_and_no_german_is_of_nothing(self):
+        own = tomllib.loads((self.FOLDER / "de.toml").read_text(encoding="utf-8"))
+        shared = _studies.words_in("de")
+        said = self.texts_of_the_page()
+        self.assertGreater(len(said), 40)
+        self.assertEqual({text for text in said if text not in own and text not in shared}, set())
+        settings = {"coupling", "device", "force model", "force scale", "grip", "milling rate hz", "rpm", "vibration"}  # docs/metrics.md
+        self.assertEqual(set(own) - said, settings)
+        self.assertEqual({text for text in own if text in shared}, set())
+        for english, german in own.items():
+            self.assertEqual(re.findall(r"\{.*?\}", english), re.findall(r"\{.*?\}", german), english)
+        for what in HEADLINES:
+            self.assertIn(what.text, shared)
+
+    def test_the_page_is_german_and_its_numbers_are_the_same(self):
+        sessions = of_trainees("expert", (155.7, 162.3, 149.0), attempts=2) + of_trainees("student", (201.4, 188.9, 240.2), attempts=2)
+        for session in sessions:
+            session.case_name = "jaw"
+            session.metrics += [Metric("passed", "", 1.0, "", ""), Metric("structure_dose_mm3", "nerve_canal", 3.0, "mm^3", ""),
+                                Metric("rating_points", "", 1.0, "", ""), Metric("rating_most_points", "", 2.0, "", ""),
+                                Metric("rating_item_points", "Floor: the pulp is closed", 1.0, "", ""), Metric("undos", "", 1.0, "", "")]
+        sessions[0].bone_at_start = "carved"
+        pages = {tr.language: page.overview(sessions, ["expert", "student"], ["x.pcap: torn"], [], tr) for tr in (ENGLISH, Words("de"))}
+        english, german = (table_rows(pages[language].html) for language in ("en", "de"))
+        self.assertEqual([len(row) for row in english], [len(row) for row in german])
+        numbers = [[re.findall(r"\d+(?:\.\d+)?", cell) for row in rows for cell in row] for rows in (english, german)]
+        self.assertEqual(*numbers)
+        self.assertEqual(german[0][:6], ["Name", "Versuch", "Beginn", "bestanden", "Punkte", "dafür zurückgenommen"])
+        for words in ("<html lang='de'>", "<h1>12 Sitzungen</h1>", "Ausgelassen: x.pcap: torn", "<h2>Kiefer</h2>", "✓ ja", "Nervkanal 3 mm³", "1 von 2",
+                      "1 Zurücknehmen", "Zeit (s)", "weniger ist besser", "Boden: die Pulpa ist geschlossen", "Lernkurven",
+                      "Kiefer (ein anderer Knochen am Anfang)", ">Trend</text>", ">Versuch</text>"):
+            self.assertTrue(words in pages["de"].html, words)
+        text = re.sub(r"<[^>]*>", " ", re.sub(r"<(style|svg).*?</\1>", "", pages["de"].html, flags=re.DOTALL))
+        self.assertEqual(set(re.findall(r"\b(the|of|and|are|is|trainees?|attempts?|sessions?(?!\.csv)|mean)\b", text)), set())
+        self.assertIn("<h2>jaw</h2>", pages["en"].html)
+        with self.assertRaisesRegex(ValueError, "'xx' is not one of en, de"):
+            Words("xx")
 
 
 class StatisticsTest(unittest.TestCase):
@@ -264,6 +317,11 @@ class ProgramTest(unittest.TestCase):
         self.study("term")
         self.assertIn("Anna (novice)", self.text("sessions.html"))
         self.assertIn(">novice (n)<", self.text("sessions.html"))
+        csv = self.text("sessions.csv")
+        self.study("term", "--language", "de")
+        self.assertIn("<html lang='de'>", self.text("sessions.html"))
+        self.assertIn("<h1>3 Sitzungen</h1>", self.text("sessions.html"))
+        self.assertEqual(self.text("sessions.csv"), csv)
         groups.write_text("Anna\n")
         self.assertIn("groups.csv:1: a line is TRAINEE,GROUP", self.refusal("term"))
 

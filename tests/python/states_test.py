@@ -44,7 +44,8 @@ def down(from_z_mm, to_z_mm, feed=FEED_MM_PER_S):
 
 def columns_of(case, path):
     exact = states_sensor.ForceSensor(noise_n=0.0, step_n=0.0)
-    return states_samples.columns_of(case, path, exact, np.random.default_rng(1), False)[0]
+    found = states_samples.labelled(case, path, False)
+    return states_samples.columns_of(found, path, case.burrs[path.burr], exact, np.random.default_rng(1))
 
 
 class SlotTest(unittest.TestCase):
@@ -301,12 +302,12 @@ class BaselineTest(unittest.TestCase):
                 rows.append({"motion": motion, "bone": f"plate {motion // 3}", "state": state, "force_n": force,
                              "force_rms_n": 0.05, "time_to_breakthrough_s": max(0.0, 0.1 * (50 - window))})
         found = states_baseline.fit(pd.DataFrame(rows), 1)
-        self.assertGreater(found.numbers["accuracy"], 0.95)
-        self.assertEqual(int(found.confusion.sum()), 12 * 60)
-        self.assertEqual(len(found.warned_s), 12)
-        for warned_s in found.warned_s:
+        self.assertGreater(found["accuracy"], 0.95)
+        self.assertEqual(int(found["confusion"].sum()), 12 * 60)
+        self.assertEqual(len(found["warned_s"]), 12)
+        for warned_s in found["warned_s"]:
             self.assertAlmostEqual(warned_s, states_baseline.WARNS_S, delta=0.35)
-        self.assertEqual(found.numbers["false_alarms"], 0)
+        self.assertEqual(found["false_alarms"], 0)
         with self.assertRaisesRegex(ValueError, "two bones or more"):
             states_baseline.fit(pd.DataFrame(rows).assign(bone="plate 0"), 1)
 

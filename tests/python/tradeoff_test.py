@@ -10,10 +10,15 @@ import unittest
 import numpy as np
 import pandas as pd
 
+import osteomill as om
 from osteomill import Burr, _studies
-from osteomill.studies import tradeoff, tradeoff_coupling, tradeoff_cues, tradeoff_force, tradeoff_link, tradeoff_picture
+from osteomill.studies import (tradeoff, tradeoff_coupling, tradeoff_cues, tradeoff_fixtures, tradeoff_force, tradeoff_link, tradeoff_picture,
+                               tradeoff_states)
 from osteomill.studies.fronts import on_front
+from osteomill.studies.options import UsageError
+from osteomill.studies.program import parser_of
 from osteomill.studies.study_run import StudyRun
+from study_files import run_of
 from support import tooth
 
 
@@ -110,6 +115,53 @@ class NeedTest(unittest.TestCase):
         self.assertEqual((row["is_held"], row["frame_rate_hz"]), (True, 15.0))
 
 
+class FixtureTest(unittest.TestCase):
+    def test_each_spares_what_it_is_for_by_the_same_hand(self):
+        (case,) = tradeoff_fixtures.cases(quick=True)
+        table = tradeoff_fixtures.table_of([case], [tradeoff_fixtures.measure(case)]).set_index("fixture")
+        without = table.loc[tradeoff_fixtures.WITHOUT]
+        # A sine of 0.5 mm has an rms of 0.354 mm, and a hole to the slip's height lies above the pulp.
+        self.assertAlmostEqual(without["from_middle_mm"], 0.5 / math.sqrt(2.0), delta=0.02)
+        self.assertGreater(without["structure_mm3"], 0.2)
+        self.assertLess(table.loc["guide", "from_middle_mm"], 0.5 * without["from_middle_mm"])
+        for spares in ("forbidden region", "slow zone"):
+            self.assertLess(table.loc[spares, "structure_mm3"], 0.1 * without["structure_mm3"])
+        self.assertGreater(table.loc["slow zone", "time_s"], 1.2 * without["time_s"])
+        self.assertEqual(without["added_us"], 0.0)
+        self.assertTrue(np.isfinite(table["added_us"]).all() and (table["step_us"] > 0.0).all())
+
+    def test_what_is_timed_moves_the_burr_as_good_as_not_at_all(self):
+        hands_mm, pedals = tradeoff_fixtures.hand()
+        burr_mm = {}
+        for fixture in tradeoff_fixtures.FIXTURES:
+            with om.Session(tradeoff_fixtures.case_with(fixture, weak=True), start_mm=hands_mm[0]) as session:
+                burr_mm[fixture] = session.rollout(hands_mm, pedals=pedals)["burr_mm"]
+        without_mm = burr_mm.pop(tradeoff_fixtures.WITHOUT)
+        for fixture, places_mm in burr_mm.items():
+            apart_mm = np.linalg.norm(places_mm - without_mm, axis=1)
+            self.assertGreater(apart_mm.max(), 0.0, fixture)
+            self.assertLess(float(np.median(apart_mm)), 0.01, fixture)
+
+
+class StatesTest(unittest.TestCase):
+    def test_a_swing_is_that_about_the_mean_of_each_tooth_period(self):
+        time_s = np.arange(10_000) / tradeoff_states.RATE_HZ
+        force_n = np.zeros((len(time_s), 3))
+        # The mean drifts, which is no swing; a sine of 0.3 on 2 has 0.15 / sqrt(2).
+        force_n[:, 2] = 2.0 + 0.3 * np.sin(2.0 * np.pi * 1000.0 * time_s)
+        self.assertAlmostEqual(tradeoff_states.swing_percent(force_n, 1000.0), 15.0 / math.sqrt(2.0))
+        force_n[:, 2] = np.repeat(np.linspace(1.0, 3.0, 1000), 10)
+        self.assertAlmostEqual(tradeoff_states.swing_percent(force_n, 1000.0), 0.0)
+
+    def test_a_plate_is_drilled_at_a_cost(self):
+        choices = tradeoff_states.cases(quick=True)
+        table = tradeoff_states.table_of(choices, [tradeoff_states.measure(case) for case in choices])
+        self.assertEqual(list(table["kind"]), ["drill"])
+        for column in ("path_s", "labels_s_per_s", "force_s_per_s"):
+            self.assertGreater(table[column][0], 0.0)
+        self.assertTrue(1.0 < table["swing_percent"][0] < 60.0)
+
+
 class TradeoffTest(unittest.TestCase):
     def test_front_holds_what_nothing_beats(self):
         self.assertEqual(on_front([1.0, 2.0, 3.0, 3.0], [5.0, 6.0, 1.0, 2.0]), [True, False, True, False])
@@ -128,10 +180,11 @@ class TradeoffTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder)
             with open(out / "said", "w+") as said:
-                tradeoff.run(types.SimpleNamespace(quick=True), StudyRun(out, ["tradeoff"], "", said=said, aside=said))
+                tradeoff.run(types.SimpleNamespace(quick=True, parts=None), StudyRun(out, ["tradeoff"], "", said=said, aside=said))
             found = json.loads((out / "tradeoff.json").read_text())
             page = (out / "tradeoff.svg").read_text()
             overview = (out / "tradeoff_overview.svg").read_text()
+            fixtures, states = ((out / f"tradeoff_{part}.svg").read_text() for part in ("fixtures", "states"))
         self._check_forces(found)
         self._check_couplings(found)
         default = next(row for row in found["picture"] if row["is_default"])
@@ -147,7 +200,17 @@ class TradeoffTest(unittest.TestCase):
         self.assertTrue(all(row["frame_ms"] > 0.0 for row in found["scaling"]))
         for words in ("published", "front of the best", "what a built-in scene needs", "the tool alone"):
             self.assertIn(words, overview)
-        self.assertNotIn("mathdefault", page + overview)
+        self.assertIn("time that it adds to a step, us", fixtures)
+        self.assertIn("seconds of a core for one second of a path", states)
+        self.assertNotIn("mathdefault", page + overview + fixtures + states)
+
+    def test_some_parts_alone_draw_no_page(self):
+        with run_of("tradeoff", tradeoff, "--quick", "--parts", "states", jobs=1) as (out, said):
+            self.assertEqual(sorted(file.name for file in out.glob("*.*") if "cases" not in file.name),
+                             ["tradeoff.json", "tradeoff_states.csv", "tradeoff_states.svg"])
+        self.assertIn("tradeoff_states.svg, the tables (CSV)", said)
+        with self.assertRaisesRegex(UsageError, "'glue' is not one of force, coupling"):
+            parser_of("tradeoff", tradeoff).parse(["--parts", "glue"])
 
     def _check_forces(self, found):
         for row in found["force"]:

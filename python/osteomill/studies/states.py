@@ -10,6 +10,7 @@ import functools
 import pathlib
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from osteomill.studies.options import UsageError, existing_file, number_above_zero, whole_within
@@ -82,6 +83,9 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
     study.say(f"{len(motions)} motions, {len(windows)} windows of 0.1 s ({counts}) are in {study.out}")
     if options.baseline:
         found = states_baseline.fit(windows, options.seed)
-        study.json("baseline", found.numbers)
+        study.json("baseline", found)
         study.chart("baseline", states_baseline.chart(found))
-        study.say(found.words)
+        in_time_s = [time_s for time_s in found["warned_s"] if time_s > 0.0]
+        median = f", {np.median(in_time_s):.2f} s before in the median" if in_time_s else ""
+        study.say(f"baseline: {found['accuracy']:.1%} of {len(windows)} windows of bones that it has not seen; warns before "
+                  f"{len(in_time_s)} of {len(found['warned_s'])} breakthroughs{median}; {found['false_alarms']} false alarms")

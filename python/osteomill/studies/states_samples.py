@@ -8,11 +8,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from osteomill import Case, _studies
+from osteomill import Burr, Case, _studies
 from osteomill.studies import states_sensor
 from osteomill.studies.states_motions import Motion, Path, bone_name, case_of_motion, path_of
 from osteomill.studies.states_sensor import RATE_HZ, ForceSensor, finer, held
-from osteomill.studies.states_truth import STATES, has_ct, state_of, time_to_breakthrough_s, truth_of
+from osteomill.studies.states_truth import STATES, Truth, has_ct, state_of, time_to_breakthrough_s, truth_of
 
 Array = NDArray[np.float64]
 
@@ -58,7 +58,8 @@ def samples_of(motion: Motion) -> Samples:
     rng = np.random.default_rng([motion["seed"], 5, motion["number"]])
     sensor = ForceSensor.drawn(rng)
     has_scan = "plate" not in motion and has_ct(case)
-    columns, sound = columns_of(case, path, sensor, rng, has_scan)
+    found = labelled(case, path, has_scan)
+    columns = columns_of(found, path, burr, sensor, rng)
     about = {"bone": bone_name(motion), "kind": motion["kind"], "number": motion["number"], "seed": motion["seed"],
              "split_by_case": motion["split_by_case"], "split_by_motion": motion["split_by_motion"],
              "burr": burr.name, "diameter_mm": burr.diameter_mm, "edges": burr.edges, "rpm": burr.rpm,
@@ -66,33 +67,42 @@ def samples_of(motion: Motion) -> Samples:
              "states": list(STATES), "tissues": [f"{label} {name}" for name, label in case.tissues.items()],
              "ct_hu_from": "the scan" if has_scan else "the stiffness, by Keyak's relation",
              "rate_hz": RATE_HZ, **{f"sensor_{key}": value for key, value in dataclasses.asdict(sensor).items()}}
-    return Samples(columns, sound, sensor, about)
+    return Samples(columns, found.milled["sound"], sensor, about)
 
 
-def columns_of(
-    case: Case, path: Path, sensor: ForceSensor, rng: np.random.Generator, has_scan: bool
-) -> tuple[dict[str, NDArray[Any]], NDArray[np.float32]]:
+@dataclasses.dataclass(frozen=True)
+class Labelled:
+    """A path, milled: an entry a millisecond, from the second pose on."""
+
+    milled: dict[str, NDArray[Any]]
+    truth: Truth
+    state: NDArray[np.uint8]
+
+
+def labelled(case: Case, path: Path, has_scan: bool) -> Labelled:
     """The path's first row is where the burr is put down; each further row is a step."""
+    milled = _studies.mill_path(case, path.burr, path.positions_mm, path.axes, path.spindle_on)
+    radius_mm = 0.5 * case.burrs[path.burr].diameter_mm
+    truth = truth_of(case, path.positions_mm[1:], path.axes[1:], milled["normal"], milled["relative_stiffness"], radius_mm, has_scan)
+    return Labelled(milled, truth, state_of(milled["normal"].any(axis=1), truth.wall_mm, truth.stiffness))
+
+
+def columns_of(found: Labelled, path: Path, burr: Burr, sensor: ForceSensor, rng: np.random.Generator) -> dict[str, NDArray[Any]]:
     from scipy import signal
 
-    burr = case.burrs[path.burr]
-    radius_mm = 0.5 * burr.diameter_mm
-    milled = _studies.mill_path(case, path.burr, path.positions_mm, path.axes, path.spindle_on)
-    positions_mm = path.positions_mm[1:]
-    truth = truth_of(case, positions_mm, path.axes[1:], milled["normal"], milled["relative_stiffness"], radius_mm, has_scan)
-    state = state_of(milled["normal"].any(axis=1), truth.wall_mm, truth.stiffness)
+    milled, truth = found.milled, found.truth
     force_n = states_sensor.force_within_tooth_n(milled, burr, rng.uniform(0.0, 2.0 * np.pi))
     rows = len(force_n)
-    state_rows = held(state)
-    columns = {
+    state_rows = held(found.state)
+    return {
         "time_s": (1 + np.arange(rows)) / RATE_HZ,
-        "position_mm": finer(positions_mm),
+        "position_mm": finer(path.positions_mm[1:]),
         "force_n": force_n,
         "measured_force_n": sensor.read(force_n, rng),
         "vibration_n": finer(milled["vibration_n"]),
         "sound": signal.resample_poly(milled["sound"], RATE_HZ, _studies.SOUND_HZ)[:rows],
         "engaged_mm2": held(milled["engaged_mm2"]),
-        "engaged_share": held(milled["engaged_mm2"] / (4.0 * np.pi * radius_mm**2)),
+        "engaged_share": held(milled["engaged_mm2"] / (np.pi * burr.diameter_mm**2)),
         "removed_mm3_per_s": held(1000.0 * milled["removed_mm3"]),
         "ct_hu": held(truth.ct_hu),
         "relative_stiffness": held(milled["relative_stiffness"]),
@@ -102,7 +112,6 @@ def columns_of(
         "state": state_rows,
         "time_to_breakthrough_s": time_to_breakthrough_s(state_rows, 1.0 / RATE_HZ),
     }
-    return columns, milled["sound"]
 
 
 def write_hdf5(file: pathlib.Path, samples: Samples, every: int) -> None:

@@ -13,10 +13,12 @@ import pathlib
 import urllib.parse
 from typing import Any
 
-from osteomill.studies.options import existing_file
+from osteomill import _studies
+from osteomill.studies.options import existing_file, one_of
 from osteomill.studies.sessions import records
 from osteomill.studies.sessions.groups import Groups, groups_text
 from osteomill.studies.sessions.records import SessionRecord
+from osteomill.studies.sessions.words import Words
 from osteomill.studies.study_run import StudyRun
 from osteomill.studies.tables import csv_of
 from osteomill.studies.text import holds_password, printable
@@ -34,6 +36,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                         help="which group each trainee is in: a CSV of lines TRAINEE,GROUP (default: groups.csv in DIR); "
                         "\"expert\" is the group that others are shown against")
     parser.add_argument("--compare", nargs=2, default=[], metavar=("A", "B"), help="two groups to compare, if there are more")
+    parser.add_argument("--language", type=one_of(*_studies.languages()), default="en",
+                        help=f"of the page and its charts: {', '.join(_studies.languages())} (%(default)s)")
     parser.add_argument("--database", type=_address, metavar="ADDRESS",
                         help="add the sessions to this PostgreSQL database, too: postgresql://USER@HOST/NAME")
 
@@ -42,14 +46,15 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
     files = records.recordings_in(options.places)
     groups = Groups.of(options.groups or records.groups_file(options.places))
     sessions, skipped = _read(files, study)
-    nobodies = groups.assign(sessions)
+    tr = Words(options.language)
+    nobodies = groups.assign(sessions, tr)
     for line in nobodies:
         study.warn(line)
     if options.database:
         from osteomill.studies.sessions.database import add_to_database
 
         add_to_database(options.database, sessions)
-    _write(sessions, options.compare, skipped, nobodies, study)
+    _write(sessions, options.compare, skipped, nobodies, tr, study)
 
 
 def _read(files: list[pathlib.Path], study: StudyRun) -> tuple[list[SessionRecord], list[str]]:
@@ -95,12 +100,14 @@ def _read_one(store: str, case: dict[str, str]) -> dict[str, Any]:
     return dataclasses.asdict(kept) if kept else records.read(case["file"])
 
 
-def _write(sessions: list[SessionRecord], compare: list[str], skipped: list[str], nobodies: list[str], study: StudyRun) -> None:
+def _write(
+    sessions: list[SessionRecord], compare: list[str], skipped: list[str], nobodies: list[str], tr: Words, study: StudyRun
+) -> None:
     from osteomill.studies.sessions import page
 
     table = csv_of(page.sessions_table(sessions), CSV_DIGITS)
     study.text("sessions.csv", table if table.isascii() else UTF8_MARK + table)
-    found = page.overview(sessions, page.compared_groups(sessions, compare), skipped, nobodies)
+    found = page.overview(sessions, page.compared_groups(sessions, compare), skipped, nobodies, tr)
     for name, svg in found.charts.items():
         study.text(name + ".svg", svg)
     study.text("sessions.html", found.html)

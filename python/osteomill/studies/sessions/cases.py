@@ -9,6 +9,7 @@ import pandas as pd
 from osteomill import _studies
 from osteomill.studies.sessions.records import SessionRecord
 from osteomill.studies.sessions.statistics import Interval, Possible, middle_half
+from osteomill.studies.sessions.words import ENGLISH, Words
 
 EXPERTS = "expert"  # the group that others are shown against
 
@@ -33,8 +34,8 @@ class Headline:
     def number(self, value: float) -> str:
         return _studies.number_text(self.key, value)
 
-    def heading(self) -> str:
-        return f"{self.text} ({self.unit})" if self.unit else self.text
+    def heading(self, tr: Words) -> str:
+        return f"{tr(self.text)} ({self.unit})" if self.unit else tr(self.text)
 
 
 HEADLINES = [Headline(*row) for row in _studies.headlines()]
@@ -90,8 +91,8 @@ class Case:
         return dict(sorted(passes.items()))
 
 
-def cases_of(sessions: Iterable[SessionRecord]) -> list[Case]:
-    """In the order in which the cases first occur; within a case, sessions that began as most did come first."""
+def cases_of(sessions: Iterable[SessionRecord], tr: Words = ENGLISH) -> list[Case]:
+    """In the order in which the cases first occur; within a case, sessions that began as most did come first. Names are in words of `tr`."""
     cases: dict[str, dict[Any, list[SessionRecord]]] = {}
     for session in sessions:
         start = (session.bone_at_start, *sorted(session.settings.items()))
@@ -101,8 +102,8 @@ def cases_of(sessions: Iterable[SessionRecord]) -> list[Case]:
         by_number = sorted(starts.values(), key=len, reverse=True)
         usual = by_number[0][0]
         for alike in by_number:
-            apart = _apart(alike[0], usual)
-            found.append(Case(f"{name} ({apart})" if apart else name, _numbered(alike), apart))
+            apart = _apart(alike[0], usual, tr)
+            found.append(Case(f"{tr(name)} ({apart})" if apart else tr(name), _numbered(alike), apart))
     return found
 
 
@@ -115,9 +116,9 @@ def _numbered(sessions: list[SessionRecord]) -> list[Attempt]:
     return attempts
 
 
-def _apart(one: SessionRecord, usual: SessionRecord) -> str:
-    ways = ["another bone at the start"] if one.bone_at_start != usual.bone_at_start else []
+def _apart(one: SessionRecord, usual: SessionRecord, tr: Words) -> str:
+    ways = [tr("another bone at the start")] if one.bone_at_start != usual.bone_at_start else []
     for name in sorted({*one.settings, *usual.settings}):
         if (value := one.settings.get(name)) != usual.settings.get(name):
-            ways.append(f"{name.replace('_', ' ')} {value or 'none'}")
+            ways.append(f"{tr.name(name)} {value or tr('none')}")
     return ", ".join(ways)

@@ -9,47 +9,48 @@ from matplotlib.ticker import MaxNLocator
 from osteomill.studies import charts
 from osteomill.studies.sessions.cases import HEADLINES, Case, Headline
 from osteomill.studies.sessions.statistics import CusumDesign, Possible, PracticeTrend, practice_trend
+from osteomill.studies.sessions.words import ENGLISH, Words
 
 MOST_IN_LEGEND = 20
 STEPS_PER_ATTEMPT = 8
 MARKERS = "osD^vPX*<>h"
 
 
-def learning_curves(case: Case) -> dict[str, Figure]:
+def learning_curves(case: Case, tr: Words = ENGLISH) -> dict[str, Figure]:
     """Curves by the metric's key, of headlines that some session has: a line for each trainee, the trend, the experts'
     band."""
-    return {what.key: _curve_of(case, what) for what in HEADLINES if not case.values(what).empty}
+    return {what.key: _curve_of(case, what, tr) for what in HEADLINES if not case.values(what).empty}
 
 
-def pass_chart(case: Case) -> Figure | None:
+def pass_chart(case: Case, tr: Words = ENGLISH) -> Figure | None:
     """A line for each trainee, with the levels at which the test decides; None where no session was judged."""
     passes = case.passes()
     if not passes:
         return None
     design = CusumDesign()
-    figure, axes = _empty("Passes and failures, cumulative sum (lower is better)", "failures beyond the rate")
+    figure, axes = _empty(tr("Passes and failures, cumulative sum (lower is better)"), tr("failures beyond the rate"), tr)
     for trainee, has_passed in passes.items():
         axes.plot(design.sums(has_passed), **_look_of(case, trainee), label=_legend_text(trainee))
-    for level, text in ((design.level(), f"fails {100.0 * design.unacceptable_rate:.0f} % or more"),
-                        (-design.level(), f"fails {100.0 * design.acceptable_rate:.0f} % or less")):
+    for level, text in ((design.level(), tr("fails {:.0f} % or more", 100.0 * design.unacceptable_rate)),
+                        (-design.level(), tr("fails {:.0f} % or less", 100.0 * design.acceptable_rate))):
         axes.axhline(level, color=charts.GREY, linestyle="--", linewidth=1.0)
         axes.annotate(text, (1.0, level), xycoords=("axes fraction", "data"), ha="right", va="bottom", color="#555555")
     _finish(axes, len(passes))
     return figure
 
 
-def _curve_of(case: Case, what: Headline) -> Figure:
+def _curve_of(case: Case, what: Headline, tr: Words) -> Figure:
     values = case.values(what)
-    title = f"{what.text} ({what.better})" if what.better else what.text
-    figure, axes = _empty(title, what.unit)
+    title = f"{tr(what.text)} ({tr(what.better)})" if what.better else tr(what.text)
+    figure, axes = _empty(title, what.unit, tr)
     attempts = int(values["attempt"].max())
     if band := case.expert_band(what):
         axes.fill_between([1, attempts], *(what.scale * end for end in band), color=charts.SKY, alpha=0.25,
-                          linewidth=0, label="middle half of experts")
+                          linewidth=0, label=tr("middle half of experts"))
     for trainee, own in values.groupby("trainee"):
         axes.plot(own["attempt"], what.scale * own["value"], **_look_of(case, str(trainee)), label=_legend_text(str(trainee)))
     if trend := practice_trend(case.learners().values(what)):
-        _add_trend(axes, trend, what, attempts)
+        _add_trend(axes, trend, what, attempts, tr("trend"))
     if what.possible is not Possible.ANY:
         axes.set_ylim(bottom=0.0)
     if what.possible is Possible.SHARE:
@@ -65,18 +66,18 @@ def _look_of(case: Case, trainee: str) -> dict[str, Any]:
     return {"color": f"C{place % 8}", "marker": MARKERS[place % len(MARKERS)]}
 
 
-def _add_trend(axes: Any, trend: PracticeTrend, what: Headline, attempts: int) -> None:
+def _add_trend(axes: Any, trend: PracticeTrend, what: Headline, attempts: int, label: str) -> None:
     scale = what.scale
     at = np.linspace(1.0, attempts, STEPS_PER_ATTEMPT * (attempts - 1) + 1)
     low, high = zip(*(trend.interval_at(attempt, what.possible) for attempt in at))
     axes.fill_between(at, scale * np.array(low), scale * np.array(high), color=charts.GREY, alpha=0.25, linewidth=0)
-    axes.plot(at, [scale * trend.at(attempt) for attempt in at], color=charts.BLACK, linewidth=2.5, label="trend")
+    axes.plot(at, [scale * trend.at(attempt) for attempt in at], color=charts.BLACK, linewidth=2.5, label=label)
 
 
-def _empty(title: str, y_text: str) -> tuple[Figure, Any]:
+def _empty(title: str, y_text: str, tr: Words) -> tuple[Figure, Any]:
     figure = charts.figure(9.5, 3.6)
     axes = figure.subplots()
-    axes.set(title=title, xlabel="attempt", ylabel=y_text)
+    axes.set(title=title, xlabel=tr("attempt"), ylabel=y_text)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     return figure, axes
 

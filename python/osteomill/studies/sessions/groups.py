@@ -8,6 +8,7 @@ from collections import Counter
 
 from osteomill import _studies
 from osteomill.studies.sessions.records import SessionRecord
+from osteomill.studies.sessions.words import ENGLISH, Words
 from osteomill.studies.text import printable
 
 
@@ -22,8 +23,8 @@ class Groups:
     def of(cls, file: pathlib.Path | None) -> "Groups":
         return cls(file, _studies.trainee_groups(file) if file else {})
 
-    def assign(self, sessions: list[SessionRecord]) -> list[str]:
-        """Sets each session's group; returns a line for each line of the file that matches nobody.
+    def assign(self, sessions: list[SessionRecord], tr: Words = ENGLISH) -> list[str]:
+        """Sets each session's group; returns a line, in words of `tr`, for each line of the file that matches nobody.
 
         Names that differ only in the composition of letters and accents are the same.
         """
@@ -32,7 +33,7 @@ class Groups:
         for session in sessions:
             session.group = groups.get(_composed(session.trainee), "")
         return [
-            f'{printable(str(self.file))}:{line}: no session is of "{name}"{_advice(name, list(trainees.values()))}'
+            f"{printable(str(self.file))}:{line}: " + tr('no session is of "{}"', name) + _advice(name, list(trainees.values()), tr)
             for name, (_, line) in sorted(self.of_trainee.items(), key=lambda item: item[1][1])
             if _composed(name) not in trainees
         ]
@@ -49,9 +50,9 @@ def _composed(name: str) -> str:
     return unicodedata.normalize("NFC", name)
 
 
-def _advice(name: str, trainees: list[str]) -> str:
+def _advice(name: str, trainees: list[str], tr: Words) -> str:
     first = name.split(",")[0].strip()
     if first in trainees:
-        return f'; a line is TRAINEE,GROUP: is it "{first}"?'
+        return tr('; a line is TRAINEE,GROUP: is it "{}"?', first)
     likely = difflib.get_close_matches(name, trainees, n=1)
-    return f'; is it "{likely[0]}"?' if likely else ""
+    return tr('; is it "{}"?', likely[0]) if likely else ""

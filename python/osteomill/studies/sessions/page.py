@@ -23,6 +23,7 @@ from osteomill.studies.sessions.statistics import (
     mean_of,
     practice_trend,
 )
+from osteomill.studies.sessions.words import ENGLISH, Words
 
 NONE = "–"
 
@@ -61,24 +62,26 @@ class Overview:
     charts: dict[str, str]
 
 
-def overview(sessions: list[SessionRecord], compared: list[str], skipped: list[str], nobodies: Sequence[str] = ()) -> Overview:
-    """`sessions` in the order of their start; `skipped`: recordings left out and why; `nobodies`: lines of groups.csv."""
+def overview(
+    sessions: list[SessionRecord], compared: list[str], skipped: list[str], nobodies: Sequence[str] = (), tr: Words = ENGLISH
+) -> Overview:
+    """`sessions` in the order of their start; `skipped`: recordings left out and why; `nobodies`: lines of groups.csv; `tr`: its language."""
     files: dict[str, str] = {}
     shown = []
-    for number, case in enumerate(cases_of(sessions), 1):
-        drawn = {key: charts.svg_of(figure) for key, figure in learning_curves(case).items()}
+    for number, case in enumerate(cases_of(sessions, tr), 1):
+        drawn = {key: charts.svg_of(figure) for key, figure in learning_curves(case, tr).items()}
         files |= {key if number == 1 else f"{key}_{number}": svg for key, svg in drawn.items()}
-        passes = pass_chart(case)
+        passes = pass_chart(case, tr)
         shown.append({
             "name": case.name,
             "apart": case.apart,
             "is_opened": any(one.session.opened() for one in case.attempts),
-            "columns": [what.heading() for what in _columns(case)],
+            "columns": [what.heading(tr) for what in _columns(case)],
             "is_judged": bool(case.passes()),
             "is_rated": any(one.session.rating_items() for one in case.attempts),
-            "rating": _rating_rows(case),
-            "sessions": [_session_row(case, one) for one in sorted(case.attempts, key=lambda one: one.session.trainee)],
-            "statistics": [_statistics_row(case, what, compared) for what in _columns(case)],
+            "rating": _rating_rows(case, tr),
+            "sessions": [_session_row(case, one, tr) for one in sorted(case.attempts, key=lambda one: one.session.trainee)],
+            "statistics": [_statistics_row(case, what, compared, tr) for what in _columns(case)],
             "curves": [_inline(svg) for svg in drawn.values()],
             "passes": _inline(charts.svg_of(passes)) if passes else "",
         })
@@ -86,7 +89,8 @@ def overview(sessions: list[SessionRecord], compared: list[str], skipped: list[s
         loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True, trim_blocks=True,
         lstrip_blocks=True, undefined=jinja2.StrictUndefined,
     ).get_template("page.html.jinja")
-    html = page.render(style=Markup(_studies.PAGE_STYLE), count=len(sessions), skipped=skipped, nobodies=nobodies, cases=shown, compared=compared)
+    html = page.render(tr=tr, style=Markup(_studies.PAGE_STYLE), count=len(sessions), skipped=skipped, nobodies=nobodies, cases=shown,
+                       compared=compared)
     return Overview(html + "\n", files)
 
 
@@ -94,7 +98,7 @@ def _columns(case: Case) -> list[Headline]:
     return [what for what in HEADLINES if not case.values(what).empty]
 
 
-def _session_row(case: Case, attempt: Attempt) -> dict[str, Any]:
+def _session_row(case: Case, attempt: Attempt, tr: Words) -> dict[str, Any]:
     session = attempt.session
     values = [(what, session.value(what.key)) for what in _columns(case)]
     return {
@@ -104,52 +108,53 @@ def _session_row(case: Case, attempt: Attempt) -> dict[str, Any]:
         "began": _studies.local_time_text(session.began_unix_ns),
         "report": session.report,
         "passed": session.value("passed"),
-        "points": _points(session),
-        "undone": _undone(session),
-        "opened": ", ".join(f"{one.of} {_studies.number_text(one.key, one.value or 0.0)} mm³" for one in session.opened()),
+        "points": _points(session, tr),
+        "undone": _undone(session, tr),
+        "opened": ", ".join(f"{tr.name(one.of)} {_studies.number_text(one.key, one.value or 0.0)} mm³" for one in session.opened()),
         "values": [NONE if value is None else what.number(value) for what, value in values],
     }
 
 
-def _points(session: SessionRecord) -> str:
+def _points(session: SessionRecord, tr: Words) -> str:
     points, most = session.value("rating_points"), session.value("rating_most_points")
-    return "" if points is None or most is None else f"{points:g} of {most:g}"
+    return "" if points is None or most is None else tr("{} of {}", f"{points:g}", f"{most:g}")
 
 
-def _undone(session: SessionRecord) -> str:
+def _undone(session: SessionRecord, tr: Words) -> str:
     """Beside the points: full marks by undoing are none."""
     if not (undos := session.value("undos")):
         return ""
-    return f"{undos:g} undo{'' if undos == 1 else 's'}, {_studies.number_text('undone_mm3', session.value('undone_mm3') or 0.0)} mm³"
+    volume_mm3 = _studies.number_text("undone_mm3", session.value("undone_mm3") or 0.0)
+    return tr("{} undo, {} mm³", 1, volume_mm3) if undos == 1 else tr("{} undos, {} mm³", f"{undos:g}", volume_mm3)
 
 
-def _rating_rows(case: Case) -> list[tuple[str, str]]:
+def _rating_rows(case: Case, tr: Words) -> list[tuple[str, str]]:
     """For each item, the number of rated sessions in which it is reached."""
     reached: dict[str, list[bool]] = {}
     for one in case.attempts:
         for name, points in one.session.rating_items().items():
             reached.setdefault(name, []).append(points > 0.0)
-    return [(name, f"{sum(found)} of {len(found)}") for name, found in reached.items()]
+    return [(tr(name), tr("{} of {}", sum(found), len(found))) for name, found in reached.items()]
 
 
-def _statistics_row(case: Case, what: Headline, compared: list[str]) -> dict[str, Any]:
+def _statistics_row(case: Case, what: Headline, compared: list[str], tr: Words) -> dict[str, Any]:
     band = case.expert_band(what)
     return {
-        "heading": what.heading(),
-        "better": what.better,
-        "numbers": [*_mean_cells(case, what), _interval_text(what, band) if band else NONE, *_trend_cells(case, what)],
-        "comparison": _comparison_cells(case, what, compared) if compared else [],
+        "heading": what.heading(tr),
+        "better": tr(what.better),
+        "numbers": [*_mean_cells(case, what, tr), _interval_text(what, band, tr) if band else NONE, *_trend_cells(case, what, tr)],
+        "comparison": _comparison_cells(case, what, compared, tr) if compared else [],
     }
 
 
-def _mean_cells(case: Case, what: Headline) -> list[str]:
+def _mean_cells(case: Case, what: Headline, tr: Words) -> list[str]:
     mean = mean_of(case.learners().trainee_means(what), what.possible)
     if mean is None:
         return ["0", NONE]
-    return [str(mean.n), _with_interval(what, mean.mean, mean.interval) if mean.interval else what.number(mean.mean)]
+    return [str(mean.n), _with_interval(what, mean.mean, mean.interval, tr) if mean.interval else what.number(mean.mean)]
 
 
-def _trend_cells(case: Case, what: Headline) -> list[str]:
+def _trend_cells(case: Case, what: Headline, tr: Words) -> list[str]:
     """Trend of a doubling of attempts."""
     trend = practice_trend(case.learners().values(what))
     if trend is None:
@@ -157,10 +162,10 @@ def _trend_cells(case: Case, what: Headline) -> list[str]:
     low, high = trend.slope_interval()
     doubling = math.log(2.0)
     interval = what.possible.difference((doubling * low, doubling * high))
-    return [_with_interval(what, doubling * trend.slope, interval), _p_text(trend.p())]
+    return [_with_interval(what, doubling * trend.slope, interval, tr), _p_text(trend.p())]
 
 
-def _comparison_cells(case: Case, what: Headline, compared: list[str]) -> list[str]:
+def _comparison_cells(case: Case, what: Headline, compared: list[str], tr: Words) -> list[str]:
     """Both means, the difference, the effect size, p, and the name of the test."""
     first, second = (case.trainee_means(what, group) for group in compared)
     means = [f"{what.number(mean.mean)} ({mean.n})" if (mean := mean_of(group)) else NONE for group in (first, second)]
@@ -174,15 +179,15 @@ def _comparison_cells(case: Case, what: Headline, compared: list[str]) -> list[s
     welch = compare_means(first, second)
     if welch is None:
         return [*means, NONE, NONE, NONE, ""]
-    return [*means, _with_interval(what, welch.difference, what.possible.difference(welch.interval)), f"g {welch.hedges_g:.2f}", _p_text(welch.p), "Welch"]
+    return [*means, _with_interval(what, welch.difference, what.possible.difference(welch.interval), tr), f"g {welch.hedges_g:.2f}", _p_text(welch.p), "Welch"]
 
 
-def _interval_text(what: Headline, interval: Interval) -> str:
-    return f"{what.number(interval[0])} to {what.number(interval[1])}"
+def _interval_text(what: Headline, interval: Interval, tr: Words) -> str:
+    return tr("{} to {}", *map(what.number, interval))
 
 
-def _with_interval(what: Headline, value: float, interval: Interval) -> str:
-    return f"{what.number(value)} [{_interval_text(what, interval)}]"
+def _with_interval(what: Headline, value: float, interval: Interval, tr: Words) -> str:
+    return f"{what.number(value)} [{_interval_text(what, interval, tr)}]"
 
 
 def _p_text(p: float) -> str:
