@@ -70,9 +70,9 @@ std::set<std::pair<std::uint8_t, std::uint8_t>> tissues_in_touch(const Bone& bon
 }
 
 TEST(TissueColours, OfTissuesInTouchAreToldApartByTheColourBlind) {
-    for (const char* const name : {"jaw", "tooth", "mastoid"}) {
+    for (const std::string name : {"jaw", "tooth", "mastoid"}) {
         const Scene scene = phantom_scene(name);
-        const Bone& bone = testing::made_bone(name);
+        const Bone& bone = testing::made_bone(name.c_str());
         const auto tissue_of = [&](std::uint8_t label) -> const Tissue& {
             return *std::ranges::find(scene.tissues, label, &Tissue::label);
         };
