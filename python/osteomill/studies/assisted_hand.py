@@ -17,7 +17,7 @@ import numpy as np
 from osteomill import Recording, Session
 
 TICK_S = 0.001
-SUBSTEPS = 5  # 0.2 ms: a hundredth of the fastest swing, arm and soft hand on 1.5 N/mm
+SUBSTEPS = 5  # 0.2 ms: a hundredth of the fastest swing, arm and soft hand on 2.3 N/mm
 ARM_KG = 0.045
 MOST_PUSH_N = 2.6
 FULL_PACE_WITHIN_MM, SLOWEST_PACE_FROM_MM, SLOWEST_PACE = 1.0, 3.0, 0.05
