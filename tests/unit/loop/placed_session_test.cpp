@@ -13,6 +13,7 @@
 #include "devices/simulated/recorded_device.h"
 #include "simulation/loop/milling_session.h"
 #include "tests/support/block.h"
+#include "tests/support/kept_ticks.h"
 
 namespace osteomill::placed_session_test {
 namespace {
@@ -29,18 +30,10 @@ Scene scene() {
     return scene;
 }
 
-class KeptTicks final : public SampleLog<TickSample> {
-  public:
-    void push(const TickSample& sample) noexcept override { samples.push_back(sample); }
-    void drain() override {}
-    void drain_all() override {}
-    std::vector<TickSample> samples;
-};
-
 /// Sets its device and what controls it before each tick. Returns its ticks and the checksum of its bone.
 template <typename BeforeTick>
 std::pair<std::vector<TickSample>, std::uint64_t> run(HapticDevice& device, const BeforeTick& before_tick) {
-    KeptTicks log;
+    testing::KeptTicks log;
     MillingSession session(scene(), testing::make_block({-4.0, -4.0, -1.0}, {4.0, 4.0, 0.0}, 0.1), device,
                            {.clock = ClockKind::virtual_time, .can_be_controlled = true}, &log);
     session.start();
