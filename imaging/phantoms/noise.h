@@ -24,11 +24,12 @@ inline double lattice_noise(const glm::ivec3& point) {
 /// Value between the lattice's points; `weight` are the shares of the next point along each axis, 0 to 1.
 inline double noise_between(const glm::dvec3& base, const glm::dvec3& weight) {
     const glm::ivec3 first(base);
+    const glm::dvec3 rest = 1.0 - weight;
     double sum = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::ivec3 step(corner & 1, (corner >> 1) & 1, corner >> 2);
-        const glm::dvec3 share = glm::mix(1.0 - weight, weight, glm::dvec3(step));
-        sum += share.x * share.y * share.z * lattice_noise(first + step);
+        sum += (step.x ? weight.x : rest.x) * (step.y ? weight.y : rest.y) * (step.z ? weight.z : rest.z) *
+               lattice_noise(first + step);
     }
     return sum;
 }
