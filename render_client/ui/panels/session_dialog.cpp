@@ -76,11 +76,14 @@ glm::vec2 session_dialog_size(const OverlayContent& content, const PanelPainter&
 }
 
 void draw_session_dialog(const OverlayContent& content, const PanelPlace& place) {
-    const InputPanel window("question", place);
+    const bool takes_note = content.view->question == SessionQuestion::mark;
+    // A panel that keys do not reach gives its field no keyboard (Dear ImGui 1.90).
+    const InputPanel window("question", place, InputPanel::Background::filled, InputPanel::Size::whole,
+                            takes_note ? InputPanel::Keys::reach_it : InputPanel::Keys::none);
     const Question question = question_of(content);
     ImGui::TextUnformatted(question.text);
     bool is_answered = false;
-    if (content.view->question == SessionQuestion::mark) {
+    if (takes_note) {
         ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
         if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
         is_answered = ImGui::InputText("##note", content.view->note.data(), content.view->note.size(),
