@@ -90,7 +90,7 @@ class Simulation:
 
 
 class CalibrationCoverageTest(unittest.TestCase):
-    LABS = 200
+    LABS = 100
 
     def assert_held(self, lab, low_percent, high_percent, **how):
         """Each coefficient's share of labs is compatible with the level; by chance the check fails for one seed of a thousand."""

@@ -1,6 +1,7 @@
 """Simulated hands that open a mastoid, well or badly, for tests of its rating."""
 
 import concurrent.futures
+import functools
 import multiprocessing
 import pathlib
 import tempfile
@@ -11,7 +12,7 @@ import numpy as np
 import osteomill as om
 
 MOUTH_MM, ANTRUM_MM = np.array([19.0, 12.0, 4.0]), np.array([6.0, 11.0, 5.5])  # the plan of the case
-BURR_MM, LAYER_MM, TURN_MM, FEED_MM_PER_S = 5.0, 1.25, 1.5, 5.0
+BURR_MM, LAYER_MM, TURN_MM, FEED_MM_PER_S = 5.0, 1.25, 1.5, 10.0
 
 # Depth of the cavity along the plan, its radius at the mouth and at the floor, mm. The plan is 13 mm deep and 6 mm wide; the dura
 # comes to 5.5 mm from its middle at 12 mm, the short process of the incus to 5.1 at 19, the facial nerve to 5.0 at 22.
@@ -37,10 +38,16 @@ def cavity_mm(depth_mm, mouth_mm, floor_mm):
     return np.stack([np.interp(time_s, at_s, corners[:, axis]) for axis in range(3)], axis=1), -into
 
 
+@functools.cache
+def mastoid():
+    """Made once a process."""
+    return om.Case("mastoid")
+
+
 def rated(cavity, file):
     """The rating of a hand that makes it. The bone yields 100 times a second, which is quick."""
     hand_mm, axis = cavity_mm(*cavity)
-    with om.Session(om.Case("mastoid"), start_mm=hand_mm[0], start_axis=axis, milling_rate_hz=100.0, record=file) as session:
+    with om.Session(mastoid(), start_mm=hand_mm[0], start_axis=axis, milling_rate_hz=100.0, record=file) as session:
         session.rollout(hand_mm, pedals=True)
     with om.Recording(file) as recording:
         return recording.rating()

@@ -41,7 +41,7 @@ class OriginTest(unittest.TestCase):
         for changed in (dict(set=["wall_friction=0.9"]), dict(set=["burrs.2 mm.cutting_coefficients_n_per_mm2=[900,40,20]"]),
                         dict(set=["tissues.carious lesion.material=enamel"]), dict(set=["force_scale=2"]), dict(rpm=20000),
                         dict(set=["start_pose.position_mm=[0.5, 0.2, 6.0]"]), dict(burr="4 mm")):
-            self.assertNotEqual(self.settings(om.Case("tooth", **changed), "b"), of_the_tooth, changed)
+            self.assertNotEqual(self.settings(tooth().with_(**changed), "b"), of_the_tooth, changed)
         self.assertNotEqual(self.settings(tooth(), "c", start_mm=tooth().start_mm + [0.1, 0, 0]), of_the_tooth)
 
     def test_a_state_of_other_settings_is_refused(self):
@@ -53,7 +53,7 @@ class OriginTest(unittest.TestCase):
                               (dict(set=["wall_friction=0.3"]), "wall_friction"), (dict(set=["device.scale=0.5"]), "scale"),
                               (dict(set=["tissues.enamel.relative_stiffness=2.5"]), "bone_digest|relative_stiffness")):
             with self.assertRaisesRegex(om.BadInput, line):
-                om.Session(om.Case("tooth", **changed)).load_state(state)
+                om.Session(tooth().with_(**changed)).load_state(state)
         for other, line in ((dict(coupling="hold"), "coupling"), (dict(vibration=True), "vibration"), (dict(hand="firm"), "arm|simulated")):
             with self.assertRaisesRegex(om.BadInput, line):
                 om.Session(tooth(), **other).load_state(state)

@@ -1,6 +1,7 @@
 """A case's rating puts simulated hands into the right order, and says the same everywhere."""
 
 import concurrent.futures
+import functools
 import json
 import multiprocessing
 import pathlib
@@ -13,8 +14,14 @@ from support import program
 import osteomill as om
 
 
-def rated(name, motion, ms, file):
-    with om.Session(om.Case(name).with_(set=motion), hand="firm", record=file) as session:
+@functools.cache
+def jaw():
+    """Made once a process."""
+    return om.Case("jaw")
+
+
+def rated(motion, ms, file):
+    with om.Session(jaw().with_(set=motion), hand="firm", record=file) as session:
         session.run(ms)
     with om.Recording(file) as recording:
         return recording.rating()
@@ -34,7 +41,7 @@ class CariesPreparations(unittest.TestCase):
         motions = [(["trajectory.width_mm=5.6", f"trajectory.depth_mm={mm}"], 70_000) for mm in depths_mm]
         motions += [(["trajectory.depth_mm=4.4", f"trajectory.width_mm={mm}"], 45_000) for mm in widths_mm]
         with concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as pool:
-            found = [hand.result() for hand in [pool.submit(rated, "jaw", motion, ms, self.folder / f"{number}.pcap")
+            found = [hand.result() for hand in [pool.submit(rated, motion, ms, self.folder / f"{number}.pcap")
                                                 for number, (motion, ms) in enumerate(motions)]]
         points = [one["points"] for one in found]
         self.assertGreaterEqual(points[0], 0.9 * found[0]["most_points"])

@@ -2,6 +2,7 @@
 
 import contextlib
 import html
+import io
 import json
 import math
 import os
@@ -15,9 +16,10 @@ import tomllib
 import unittest
 
 import scipy.stats
-from support import program, run_server
+from support import run_server
 
 from osteomill import _studies
+from osteomill.studies.program import main
 from osteomill.studies.sessions import page, records, statistics
 from osteomill.studies.sessions.cases import HEADLINES, cases_of
 from osteomill.studies.sessions.curves import _look_of, learning_curves
@@ -244,8 +246,11 @@ class ProgramTest(unittest.TestCase):
         self.out = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
 
     def study(self, *words, out=None, code=0):
-        done = subprocess.run([program("osteomill_study"), "sessions", *map(str, words), "--out", str(out or self.out / "out")],
-                              capture_output=True, text=True, cwd=self.folder)
+        """In this process, for pandas, SciPy and matplotlib take longer to load than most of these to run."""
+        command = ["sessions", *map(str, words), "--out", str(out or self.out / "out")]
+        with contextlib.chdir(self.folder), contextlib.redirect_stdout(io.StringIO()) as said, contextlib.redirect_stderr(io.StringIO()) as aside:
+            found = main(command)
+        done = subprocess.CompletedProcess(command, found, said.getvalue(), aside.getvalue())
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 

@@ -14,7 +14,7 @@ import osteomill as om
 from osteomill import _studies
 from osteomill.studies import states, states_motions, states_samples, states_sensor, states_truth
 from study_files import run_of
-from support import program
+from support import program, tooth
 
 RADIUS_MM, FEED_MM_PER_S = 2.0, 0.5
 
@@ -156,7 +156,7 @@ class FarSideTest(unittest.TestCase):
         self.assertTrue(np.isnan(columns["time_to_breakthrough_s"]).all())
 
     def test_a_protected_structure_is_an_end(self):
-        case = om.Case("mastoid")
+        case = tooth()
         self.assertTrue(case.structures)
         tissue = case.bone.tissue()
         label = case.tissues[case.structures[0]]
@@ -257,7 +257,7 @@ class StudyTest(unittest.TestCase):
             self.assertTrue(0.042 <= file.attrs["sensor_noise_n"] <= 0.048)
 
     def test_a_recording_gives_its_own_path(self):
-        case = om.Case("tooth", burr="2 mm") if "2 mm" in [burr.name for burr in om.Case("tooth").burrs] else om.Case("tooth")
+        case = tooth().with_(burr="2 mm")
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "session.pcap")
             with om.Session(case, record=file) as session:

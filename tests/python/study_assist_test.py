@@ -8,6 +8,7 @@ import unittest
 import numpy as np
 import pandas as pd
 from study_files import run_of
+from support import tooth
 
 import osteomill as om
 from osteomill.studies import assist, assisted_hand
@@ -32,7 +33,7 @@ def plunge(session):
 
 
 def record(file, *changes):
-    with om.Session(om.Case("tooth", burr="1 mm", set=list(changes)), start_mm=[0.5, 0.2, 6.5], record=file) as session:
+    with om.Session(tooth().with_(burr="1 mm", set=list(changes)), start_mm=[0.5, 0.2, 6.5], record=file) as session:
         plunge(session)
 
 
@@ -94,7 +95,7 @@ class HandTest(unittest.TestCase):
         hand = RecordedHand(np.column_stack([np.full(1500, 0.5), np.full(1500, 0.2), height]), np.tile([0.0, 0.0, 1.0], (1500, 1)),
                             np.zeros((1500, 3)), np.zeros(1500, bool), np.zeros(1500, np.uint8))
         for grip in GRIPS.values():
-            with om.Session(om.Case("tooth"), start_mm=hand.hand_mm[0]) as session:
+            with om.Session(tooth(), start_mm=hand.hand_mm[0]) as session:
                 felt = assisted_hand.play(session, hand, grip)
                 self.assertLess(np.linalg.norm(session.now.hand_mm - hand.hand_mm[-1]), 0.05)
             self.assertTrue(felt.came_to_end)
@@ -137,14 +138,14 @@ class SessionTest(unittest.TestCase):
     def test_a_step_says_the_fixtures_force(self):
         changes = ["fixture=[{name = 'gently', kind = 'slow', tissue = 'pulp', distance_mm = 3, spindle_share = 0.5},"
                    "{name = 'off', kind = 'forbidden', tissue = 'pulp', distance_mm = 4.5}]"]
-        with om.Session(om.Case("tooth", burr="1 mm", set=changes), start_mm=[0.5, 0.2, 4.2]) as session:
+        with om.Session(tooth().with_(burr="1 mm", set=changes), start_mm=[0.5, 0.2, 4.2]) as session:
             step = session.step(pedal=False, ms=500)
             self.assertGreater(step.fixture_force_n[2], 0.0, "up, off the pulp")
-        with om.Session(om.Case("tooth", burr="1 mm"), start_mm=[0.5, 0.2, 4.2]) as session:
+        with om.Session(tooth().with_(burr="1 mm"), start_mm=[0.5, 0.2, 4.2]) as session:
             self.assertEqual(list(session.step(pedal=False, ms=500).fixture_force_n), [0.0] * 3)
 
     def test_a_coupling_without_a_spring_refuses_fixtures(self):
-        case = om.Case("tooth", set=["fixture=[{name = 'off', kind = 'forbidden', tissue = 'pulp'}]"])
+        case = tooth().with_(set=["fixture=[{name = 'off', kind = 'forbidden', tissue = 'pulp'}]"])
         with self.assertRaisesRegex(ValueError, "takes no .*fixture.*choose implicit or virtual-coupling"):
             om.Session(case, coupling="interpolate")
 

@@ -1,5 +1,6 @@
 """Speed against accuracy: the kernels of picture and link, and the pages that are made of all parts. No time is asserted."""
 
+import functools
 import json
 import math
 import pathlib
@@ -115,10 +116,19 @@ class NeedTest(unittest.TestCase):
         self.assertEqual((row["is_held"], row["frame_rate_hz"]), (True, 15.0))
 
 
+@functools.cache
+def quick_study():
+    """Tables of the whole study in its quick form, and its charts by name: made once for all that look at them."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder)
+        with open(out / "said", "w+") as said:
+            tradeoff.run(types.SimpleNamespace(quick=True, parts=None), StudyRun(out, ["tradeoff"], "", said=said, aside=said))
+        return json.loads((out / "tradeoff.json").read_text()), {file.stem: file.read_text() for file in out.glob("*.svg")}
+
+
 class FixtureTest(unittest.TestCase):
     def test_each_spares_what_it_is_for_by_the_same_hand(self):
-        (case,) = tradeoff_fixtures.cases(quick=True)
-        table = tradeoff_fixtures.table_of([case], [tradeoff_fixtures.measure(case)]).set_index("fixture")
+        table = pd.DataFrame(quick_study()[0]["fixtures"]).set_index("fixture")
         without = table.loc[tradeoff_fixtures.WITHOUT]
         # A sine of 0.5 mm has an rms of 0.354 mm, and a hole to the slip's height lies above the pulp.
         self.assertAlmostEqual(without["from_middle_mm"], 0.5 / math.sqrt(2.0), delta=0.02)
@@ -154,12 +164,11 @@ class StatesTest(unittest.TestCase):
         self.assertAlmostEqual(tradeoff_states.swing_percent(force_n, 1000.0), 0.0)
 
     def test_a_plate_is_drilled_at_a_cost(self):
-        choices = tradeoff_states.cases(quick=True)
-        table = tradeoff_states.table_of(choices, [tradeoff_states.measure(case) for case in choices])
-        self.assertEqual(list(table["kind"]), ["drill"])
+        (plate,) = quick_study()[0]["states"]
+        self.assertEqual(plate["kind"], "drill")
         for column in ("path_s", "labels_s_per_s", "force_s_per_s"):
-            self.assertGreater(table[column][0], 0.0)
-        self.assertTrue(1.0 < table["swing_percent"][0] < 60.0)
+            self.assertGreater(plate[column], 0.0)
+        self.assertTrue(1.0 < plate["swing_percent"] < 60.0)
 
 
 class TradeoffTest(unittest.TestCase):
@@ -177,14 +186,8 @@ class TradeoffTest(unittest.TestCase):
             self.assertEqual(set(scenes), set(tradeoff_force.SCENES) - set(left_out))
 
     def test_quick_page_has_numbers_and_the_default_near_the_front(self):
-        with tempfile.TemporaryDirectory() as folder:
-            out = pathlib.Path(folder)
-            with open(out / "said", "w+") as said:
-                tradeoff.run(types.SimpleNamespace(quick=True, parts=None), StudyRun(out, ["tradeoff"], "", said=said, aside=said))
-            found = json.loads((out / "tradeoff.json").read_text())
-            page = (out / "tradeoff.svg").read_text()
-            overview = (out / "tradeoff_overview.svg").read_text()
-            fixtures, states = ((out / f"tradeoff_{part}.svg").read_text() for part in ("fixtures", "states"))
+        found, charts = quick_study()
+        page, overview, fixtures, states = (charts[name] for name in ("tradeoff", "tradeoff_overview", "tradeoff_fixtures", "tradeoff_states"))
         self._check_forces(found)
         self._check_couplings(found)
         default = next(row for row in found["picture"] if row["is_default"])

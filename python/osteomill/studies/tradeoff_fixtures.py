@@ -50,8 +50,13 @@ def cases(quick: bool) -> list[dict[str, Any]]:
 
 
 @functools.cache
+def plain_case() -> Case:
+    return Case(SCENE, burr=BURR)
+
+
+@functools.cache
 def case_with(fixture: str, weak: bool = False) -> Case:
-    case = Case(SCENE, burr=BURR)
+    case = plain_case()
     tables = [one | WEAK[one["kind"]] if weak else one for one in FIXTURES[fixture]]
     return case.with_(set=["fixture=" + inline_tables(tables)]) if tables else case
 
