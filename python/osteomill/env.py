@@ -220,7 +220,7 @@ class Env(_Base):
     def _way(self, action: Any) -> Way:
         """Path of the hand in this action's time; with a delay, that of an earlier action."""
         velocity_mm_per_s, rate_rad_per_s, pedal = self._meant(action)
-        passed_s = np.arange(1, self._ms + 1)[:, None] * 1e-3
+        passed_s: NDArray[np.float64] = 1e-3 * np.arange(1, self._ms + 1, dtype=np.float64)[:, None]
         hands_mm = self._hand_mm + passed_s * velocity_mm_per_s
         axes = _turned(self._axis, rate_rad_per_s, passed_s) if rate_rad_per_s.size else None
         self._hand_mm = hands_mm[-1]

@@ -13,6 +13,7 @@ import pathlib
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from osteomill import Recording, Session
 
@@ -73,7 +74,9 @@ def play(session: Session, hand: RecordedHand, grip: Grip) -> Felt:
     mass = 1e-3 * (ARM_KG + grip.mass_kg)  # N s^2/mm
     dt = TICK_S / SUBSTEPS
     last = len(hand.hand_mm) - 1
-    off, speed, force = np.zeros(3), np.zeros(3), session.now.force_n
+    off: NDArray[np.float64] = np.zeros(3)
+    speed: NDArray[np.float64] = np.zeros(3)
+    force = session.now.force_n
     at, recorded = hand.hand_mm[0].astype(float), 0.0
     ticks = force_off = with_fixture = 0
     peak = given = most_given = 0.0

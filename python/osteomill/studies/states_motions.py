@@ -61,8 +61,8 @@ def split_of(motions: list[Motion], seed: int) -> None:
     each bone and kind alike. A motion has one name in each."""
     rng = np.random.default_rng([seed, 1])
     bones = sorted({bone_name(motion) for motion in motions})
-    by_case = dict(zip(rng.permutation(bones).tolist(), _shares(len(bones))))
-    by_motion = dict(zip(rng.permutation(len(motions)).tolist(), _shares(len(motions))))
+    by_case = dict(zip(map(str, rng.permutation(bones)), _shares(len(bones))))
+    by_motion = dict(zip(map(int, rng.permutation(len(motions))), _shares(len(motions))))
     for place, motion in enumerate(motions):
         motion |= {"split_by_case": by_case[bone_name(motion)], "split_by_motion": by_motion[place]}
 

@@ -84,7 +84,7 @@ def labelled(case: Case, path: Path, has_scan: bool) -> Labelled:
     milled = _studies.mill_path(case, path.burr, path.positions_mm, path.axes, path.spindle_on)
     radius_mm = 0.5 * case.burrs[path.burr].diameter_mm
     truth = truth_of(case, path.positions_mm[1:], path.axes[1:], milled["normal"], milled["relative_stiffness"], radius_mm, has_scan)
-    return Labelled(milled, truth, state_of(milled["normal"].any(axis=1), truth.wall_mm, truth.stiffness))
+    return Labelled(milled, truth, state_of(np.asarray(milled["normal"].any(axis=1)), truth.wall_mm, truth.stiffness))
 
 
 def columns_of(found: Labelled, path: Path, burr: Burr, sensor: ForceSensor, rng: np.random.Generator) -> dict[str, NDArray[Any]]:

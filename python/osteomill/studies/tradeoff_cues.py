@@ -48,8 +48,9 @@ def table_of(choices: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> p
 
 
 def draw_cues(costs: Axes, silhouettes: Axes, table: pd.DataFrame) -> None:
-    marks = {(scene, view): {"color": colour, "marker": mark} for scene, colour in zip(SCENES, (charts.BLUE, charts.AMBER))
-             for view, mark in (("overview", "o"), ("close-up", "X"))}
+    marks: dict[tuple[str, str], dict[str, Any]] = {
+        (scene, view): {"color": colour, "marker": mark} for scene, colour in zip(SCENES, (charts.BLUE, charts.AMBER))
+        for view, mark in (("overview", "o"), ("close-up", "X"))}
     for (scene, view), rows in table.groupby(["scene", "view"], sort=False):
         costs.plot(rows["cost_percent"], [CUES.index(cue) for cue in rows["cue"]], linestyle="none", label=f"{scene}, {view}",
                    **marks[scene, view])

@@ -74,7 +74,7 @@ def chart_of(table: pd.DataFrame) -> Figure:
         axes.barh(places, took, left=before, color=colour, label=text)
         before = before + took
     for place, end, percent in zip(places, before, table["swing_percent"]):
-        axes.annotate(f"swing {percent:.0f} %", (end, place), xytext=(4, -3), textcoords="offset points", fontsize=9)
+        axes.annotate(f"swing {percent:.0f} %", (float(end), float(place)), xytext=(4, -3), textcoords="offset points", fontsize=9)
     axes.set_yticks(places, names)
     axes.set_xlim(right=1.3 * float(before.max()))
     axes.set_ylim(len(table) - 0.4, -1.6)
