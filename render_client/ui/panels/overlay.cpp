@@ -238,10 +238,10 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         add_controls(panels, content, painter, picture, side_width);
         add_readings(panels, content, painter, size_px, side_width);
     }
-    const auto places = panels.draw_in(picture, margin, burr_in(content, size_px));
     if (content.tool && content.has_bone && content.bone && content.operator_command && !starts)
         draw_touch_ring(painter, *content.bone, *content.tool, content.burr_radius_mm(), *content.camera,
                         size_px);
+    const auto places = panels.draw_in(picture, margin, burr_in(content, size_px));
     if (content.tool && content.has_bone && shows_panels)
         draw_force_label(painter, *content.tool, content.burr_radius_mm(), *content.camera, size_px, places);
 }
