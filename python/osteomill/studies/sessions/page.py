@@ -187,6 +187,8 @@ def _interval_text(what: Headline, interval: Interval, tr: Words) -> str:
 
 
 def _with_interval(what: Headline, value: float, interval: Interval, tr: Words) -> str:
+    if abs(value) < 1e-9 * (interval[1] - interval[0]):
+        value = 0.0  # but for rounding
     return f"{what.number(value)} [{_interval_text(what, interval, tr)}]"
 
 
