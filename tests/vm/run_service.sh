@@ -8,6 +8,10 @@ printf 'root:x:0:0::/:/bin/sh\nosteomill:x:900:900::/:/bin/sh\n' >/etc/passwd
 printf 'root:x:0:\nplugdev:x:46:\nosteomill:x:900:\n' >/etc/group
 echo 0123456789abcdef0123456789abcdef >/etc/machine-id
 ln -s /bin/haptic_server /usr/local/bin/haptic_server
+if [ -e /bin/systemd-executor ]; then
+    mkdir -p /usr/lib/systemd
+    cp /bin/systemd-executor /usr/lib/systemd/
+fi
 cp osteomill.service /etc/systemd/system/
 cat >/etc/systemd/system/osteomill.service.d/trial.conf <<'UNIT'
 [Unit]
