@@ -43,7 +43,7 @@ TEST_F(HelpPanel, CanBeReadInASmallWindow) {
         speak(language);
         for (const Situation situation :
              {Situation::drilling, Situation::playing, Situation::looking_on, Situation::starting}) {
-            EXPECT_GE(letter_px * help_letters(painter, situation, room), 12.0f)
+            EXPECT_GE(letter_px * help_letters(painter, situation, room), 11.9f)
                 << language << ", situation " << static_cast<int>(situation);
             const glm::vec2 size = help_size(painter, situation, room);
             EXPECT_LE(size.x, room.x + 1.0f);
