@@ -1,15 +1,29 @@
-// The help that F1 shows, printed from the table of key bindings, in as many columns as keep its letters largest in the picture.
+// The help that F1 shows, printed from the table of key bindings, in as many columns as keep its letters
+// largest in the picture.
 #pragma once
+
+#include <cstddef>
+#include <vector>
 
 #include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/panels/panel_painter.h"
 
 namespace osteomill {
 
-/// Size of its letters in that room, as a share of the usual.
-float help_letters(const PanelPainter& painter, Situation situation, const glm::vec2& room);
+struct HelpColumn {
+    std::size_t rows = 0;
+    float names = 0.0f, meanings = 0.0f;  ///< widths, px at the usual size of letters
+};
+
+struct HelpLayout {
+    std::vector<HelpLine> lines;  ///< column by column
+    std::vector<HelpColumn> columns;
+    glm::vec2 size{0.0f};  ///< of the panel, px
+    float letters = 1.0f;  ///< their size, as a share of the usual
+};
+
 /// At most `room` large.
-glm::vec2 help_size(const PanelPainter& painter, Situation situation, const glm::vec2& room);
-void draw_help(const PanelPainter& painter, Situation situation, const PanelPlace& place);
+HelpLayout lay_out_help(const PanelPainter& painter, Situation situation, const glm::vec2& room);
+void draw_help(const PanelPainter& painter, const HelpLayout& help, const PanelPlace& place);
 
 }  // namespace osteomill

@@ -204,9 +204,9 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
                                     : plays || elements.controls
                                         ? situation_of(content.operator_command.has_value(), plays)
                                         : Situation::waiting;
-        panels.add_page(
-            Anchor::middle, help_size(painter, situation, picture - 2.0f * margin),
-            [&painter, situation](const PanelPlace& place) { draw_help(painter, situation, place); });
+        const HelpLayout help = lay_out_help(painter, situation, picture - 2.0f * margin);
+        panels.add_page(Anchor::middle, help.size,
+                        [&painter, help](const PanelPlace& place) { draw_help(painter, help, place); });
     }
     if (content.start != nullptr && content.link.status == LinkStatus::finished)
         content.start->page.note_end_of_session();

@@ -12,6 +12,8 @@
 
 namespace osteomill {
 
+/// From Debian's fonts-dejavu-core. If it is missing, Dear ImGui's own letters serve: coarser, but there.
+inline constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 /// Height of a letter, px of the screen at scale 1.
 inline constexpr float letter_px = 14.0f;
 /// Numbers at axes, in share of it: smaller than 12 px nobody reads them in a small window.

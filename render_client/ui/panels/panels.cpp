@@ -20,8 +20,6 @@ namespace osteomill {
 
 namespace {
 
-/// From Debian's fonts-dejavu-core. If it is missing, Dear ImGui's own letters serve: coarser, but there.
-constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float built_in_letter_px = 13.0f;
 
 /// Latin letters, and the signs on the tool bar.

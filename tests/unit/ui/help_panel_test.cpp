@@ -10,7 +10,6 @@
 namespace osteomill::help_panel_test {
 namespace {
 
-constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";  // the window's
 constexpr float margin_px = 12.0f;
 
 /// Dear ImGui without anything to draw on, in a frame.
@@ -43,20 +42,20 @@ TEST_F(HelpPanel, CanBeReadInASmallWindow) {
         speak(language);
         for (const Situation situation :
              {Situation::drilling, Situation::playing, Situation::looking_on, Situation::starting}) {
-            EXPECT_GE(letter_px * help_letters(painter, situation, room), 11.9f)
+            const HelpLayout help = lay_out_help(painter, situation, room);
+            EXPECT_GE(letter_px * help.letters, 12.0f)
                 << language << ", situation " << static_cast<int>(situation);
-            const glm::vec2 size = help_size(painter, situation, room);
-            EXPECT_LE(size.x, room.x + 1.0f);
-            EXPECT_LE(size.y, room.y + 1.0f);
+            EXPECT_LE(help.size.x, room.x + 1.0f);
+            EXPECT_LE(help.size.y, room.y + 1.0f);
         }
     }
 }
 
 TEST_F(HelpPanel, HasOneColumnWhereThereIsRoom) {
     const PanelPainter painter(theme_of(ThemeName::dark), 1.0f);
-    const glm::vec2 tall = help_size(painter, Situation::drilling, {4000.0f, 4000.0f});
-    EXPECT_GT(tall.y, tall.x);
-    EXPECT_EQ(help_letters(painter, Situation::drilling, {4000.0f, 4000.0f}), 1.0f);
+    const HelpLayout tall = lay_out_help(painter, Situation::drilling, {4000.0f, 4000.0f});
+    EXPECT_GT(tall.size.y, tall.size.x);
+    EXPECT_EQ(tall.letters, 1.0f);
 }
 
 }  // namespace
