@@ -50,7 +50,10 @@ std::optional<ToolState> ShownTool::shown() const {
 
 DrawnTool ShownTool::drawn(const ToolState& shown, const SessionInfo* session,
                            const std::optional<OperatorCommand>& command) const {
-    DrawnTool drawn{.state = shown, .spin_rad = spin_rad_};
+    DrawnTool drawn{.state = shown,
+                    .spin_rad = spin_rad_,
+                    .motion = has_turning_burr() ? BurrMotion::at_speed : BurrMotion::still,
+                    .has_handpiece = true};
     if (const Burr* burr = session ? session->burr_of(shown.burr) : nullptr)
         drawn.burr = {burr->diameter_mm, burr->head, burr->edges, burr->sense == SpindleSense::clockwise};
     if (command && !shown_pose_ &&

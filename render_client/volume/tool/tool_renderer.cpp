@@ -48,12 +48,39 @@ HiddenField field_of(const DrawnTool& tool, const Camera& camera, const glm::ive
     return {true, {down.x, size_px.y - down.y}, radius_px, radius_px * mm_per_px};
 }
 
+/// The pose of what does not turn with the burr.
+glm::dmat4 pose_of_handpiece(const DrawnTool& tool) {
+    return glm::translate(glm::dmat4(1.0), tool.state.burr_position_mm) * z_to(tool.state.spindle_axis);
+}
+
+/// Draws a mesh that was placed over what is there: first the depth of its nearest surface, then its colour, so that
+/// it is seen through once, not twice.
+void draw_translucent(const gl::Mesh& mesh) {
+    glEnable(GL_CULL_FACE);
+    glDepthFunc(GL_LEQUAL);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    mesh.draw();
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    mesh.draw();
+    glDisable(GL_BLEND);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_CULL_FACE);
+}
+
 }  // namespace
 
 glm::dmat4 pose_of(const DrawnTool& tool) {
-    const glm::dmat4 at_burr =
-        glm::translate(glm::dmat4(1.0), tool.state.burr_position_mm) * z_to(tool.state.spindle_axis);
-    return glm::rotate(at_burr, tool.spin_rad, glm::dvec3(0, 0, 1));
+    return glm::rotate(pose_of_handpiece(tool), tool.spin_rad, glm::dvec3(0, 0, 1));
+}
+
+double handpiece_opacity(const DrawnTool& tool, const Camera& camera) {
+    constexpr double solid_cosine = 0.5, gone_cosine = 0.866;
+    if (!tool.has_handpiece) return 0.0;
+    const glm::dvec3 to_eye = camera.eye_mm() - tool.state.burr_position_mm;
+    const double cosine = glm::dot(glm::normalize(to_eye), glm::normalize(tool.state.spindle_axis));
+    return 1.0 - glm::smoothstep(solid_cosine, gone_cosine, cosine);
 }
 
 std::optional<ForceArrow> force_arrow(const ToolState& tool, double burr_radius_mm, const Camera& camera,
@@ -80,14 +107,20 @@ ToolRenderer::ToolRenderer()
       arrow_outline_(unit_arrow(glm::vec3(0.0f))),
       ghost_(unit_sphere(linear_from_srgb({86, 180, 233}))),
       head_(burr_head(burr_shape_)),
-      shank_(burr_shank(burr_shape_)) {}
+      shank_(burr_shank(burr_shape_)),
+      handpiece_(handpiece(burr_shape_)) {}
+
+void ToolRenderer::shape(const DrawnTool& tool) {
+    if (tool.burr == burr_shape_ && tool.motion == burr_motion_) return;
+    if (tool.burr != burr_shape_) handpiece_ = gl::Mesh(handpiece(tool.burr));
+    burr_shape_ = tool.burr;
+    burr_motion_ = tool.motion;
+    head_ = gl::Mesh(burr_head(burr_shape_, burr_motion_));
+    shank_ = gl::Mesh(burr_shank(burr_shape_, burr_motion_));
+}
 
 void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, TileMask& covered) {
-    if (tool.burr != burr_shape_) {
-        burr_shape_ = tool.burr;
-        head_ = gl::Mesh(burr_head(burr_shape_));
-        shank_ = gl::Mesh(burr_shank(burr_shape_));
-    }
+    shape(tool);
     const glm::dmat4 view_projection = camera.projection(covered.size_px()) * camera.view();
     program_.use();
     program_.set("eye", glm::vec3(camera.eye_mm()));
@@ -104,6 +137,10 @@ void ToolRenderer::draw(const DrawnTool& tool, const Camera& camera, TileMask& c
     glEnable(GL_CULL_FACE);
     draw_mesh(shank_, at_burr, view_projection,
               {.polish = 1.0f, .sees_through = field.is_before_eye ? leave_out : 0.0f}, covered);
+    if (const double opacity = handpiece_opacity(tool, camera); opacity >= 1.0)
+        draw_mesh(handpiece_, pose_of_handpiece(tool), view_projection, {.polish = 1.0f}, covered);
+    else if (opacity > 0.0)
+        mark_box(covered, handpiece_.low(), handpiece_.high(), view_projection * pose_of_handpiece(tool));
     glDisable(GL_CULL_FACE);
 
     if (tool.hand_target_mm) {
@@ -148,9 +185,15 @@ void ToolRenderer::draw_force(const DrawnTool& tool, const Camera& camera, TileM
     glEnable(GL_DEPTH_TEST);
 }
 
-// First the depth of the nearest surface, then its colour: the shank is seen through once, not twice.
 void ToolRenderer::draw_seen_through(const DrawnTool& tool, const Camera& camera,
                                      const glm::ivec2& size_px) const {
+    const glm::dmat4 view_projection = camera.projection(size_px) * camera.view();
+    program_.use();
+    if (const double opacity = handpiece_opacity(tool, camera); opacity > 0.0 && opacity < 1.0) {
+        place_mesh(pose_of_handpiece(tool), view_projection,
+                   {.opacity = static_cast<float>(opacity), .polish = 1.0f});
+        draw_translucent(handpiece_);
+    }
     const HiddenField field = field_of(tool, camera, size_px);
     if (!field.is_before_eye) return;
     const glm::dvec2 middle = glm::clamp(field.middle_px, -1e6, 1e6);
@@ -158,22 +201,10 @@ void ToolRenderer::draw_seen_through(const DrawnTool& tool, const Camera& camera
     const glm::ivec2 first = glm::max(glm::ivec2(middle - reach), 0);
     const glm::ivec2 end = glm::min(glm::ivec2(middle + reach) + 1, size_px);
     if (end.x <= first.x || end.y <= first.y) return;
-    program_.use();
-    place_mesh(pose_of(tool), camera.projection(size_px) * camera.view(),
-               {.polish = 1.0f, .sees_through = leave_only});
+    place_mesh(pose_of(tool), view_projection, {.polish = 1.0f, .sees_through = leave_only});
     glEnable(GL_SCISSOR_TEST);
     glScissor(first.x, first.y, end.x - first.x, end.y - first.y);
-    glEnable(GL_CULL_FACE);
-    glDepthFunc(GL_LEQUAL);
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    shank_.draw();
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    shank_.draw();
-    glDisable(GL_BLEND);
-    glDepthFunc(GL_LESS);
-    glDisable(GL_CULL_FACE);
+    draw_translucent(shank_);
     glDisable(GL_SCISSOR_TEST);
 }
 

@@ -15,6 +15,8 @@ namespace {
 constexpr glm::vec3 bright_steel(0.62f, 0.64f, 0.67f);
 constexpr glm::vec3 groove_steel(0.16f, 0.17f, 0.19f);
 constexpr glm::vec3 shank_steel(0.48f, 0.50f, 0.53f);
+constexpr glm::vec3 body_steel(0.34f, 0.35f, 0.37f);
+constexpr glm::vec3 grip_grey(0.075f, 0.08f, 0.09f);
 
 // Shanks of dental burrs: 1.6 mm for the turbine, 2.35 mm for the straight handpiece (ISO 1797).
 constexpr double turbine_shank_radius_mm = 0.8;
@@ -87,9 +89,18 @@ Triangles lathe(const std::vector<Station>& stations, const ColourRound& colour)
     return body;
 }
 
+/// Part of the contrast of flutes and marks that is seen.
+double contrast(BurrMotion motion) { return motion == BurrMotion::still ? 1.0 : 0.2; }
+
 /// A smooth shank would not show that it turns: two dark marks do, also while the burr is out of sight.
-glm::vec3 marked_shank(double angle_rad) {
-    return std::abs(std::sin(angle_rad)) < 0.35 ? groove_steel : shank_steel;
+ColourRound marked_shank(BurrMotion motion) {
+    constexpr double half_mark = 0.35;  // sine of half of a mark's angle
+    const double mean = 2.0 / std::numbers::pi * std::asin(half_mark);
+    return [=](double angle_rad) {
+        const double mark = std::abs(std::sin(angle_rad)) < half_mark ? 1.0 : 0.0;
+        return glm::mix(shank_steel, groove_steel,
+                        static_cast<float>(std::lerp(mean, mark, contrast(motion))));
+    };
 }
 
 /// `share` at the bottom of a flute, 0 on the land between two. Flutes wind round the axis.
@@ -99,66 +110,113 @@ double groove_depth(const BurrShape& burr, double angle_rad, double winding_rad,
     return std::pow(0.5 + 0.5 * std::cos(phase), 3.0) * share;
 }
 
-Triangles fluted_sphere(const BurrShape& burr) {
+/// Depth of a flute, as a share of the head's radius. At speed the land sweeps over it.
+double flute_depth(BurrMotion motion) { return motion == BurrMotion::still ? 0.14 : 0.0; }
+
+/// `share` is that of groove_depth at this place.
+glm::vec3 steel_of(double groove, double share, BurrMotion motion) {
+    constexpr double mean_over_a_turn = 5.0 / 16.0;  // of (1/2 + cos / 2)^3
+    return glm::mix(bright_steel, groove_steel,
+                    static_cast<float>(std::lerp(mean_over_a_turn * share, groove, contrast(motion))));
+}
+
+Triangles fluted_sphere(const BurrShape& burr, BurrMotion motion) {
     constexpr int rows = 40;
     const double radius = 0.5 * burr.diameter_mm;
     Triangles sphere = wrap(rows, 120, [&](int row, double angle_rad) {
         const double from_tip_rad = std::numbers::pi * row / (rows - 1);
-        const double groove = groove_depth(burr, angle_rad, from_tip_rad, std::sin(from_tip_rad));
-        const double r = radius * (1.0 - 0.14 * groove);
+        const double share = std::sin(from_tip_rad);
+        const double groove = groove_depth(burr, angle_rad, from_tip_rad, share);
+        const double r = radius * (1.0 - flute_depth(motion) * groove);
         const double around = r * std::sin(from_tip_rad);
         return Vertex{
             {around * std::cos(angle_rad), around * std::sin(angle_rad), -r * std::cos(from_tip_rad)},
             {},
-            glm::mix(bright_steel, groove_steel, static_cast<float>(groove))};
+            steel_of(groove, share, motion)};
     });
     smooth_normals(sphere);
     return sphere;
 }
 
 /// A fluted head that is no ball: along its outline, with flutes that fade where a face nears the spindle.
-Triangles fluted_head(const BurrShape& burr, const BurrProfile& profile) {
+Triangles fluted_head(const BurrShape& burr, const BurrProfile& profile, BurrMotion motion) {
     constexpr int rows = 96;
     const double radius = 0.5 * burr.diameter_mm;
     Triangles head = wrap(rows, 120, [&](int row, double angle_rad) {
         const OutlinePoint point = profile.outline_at(profile.outline_length() * row / (rows - 1));
         const double winding_rad = (point.height - profile.tip_height()) / radius;
-        const double groove =
-            groove_depth(burr, angle_rad, winding_rad, std::min(1.0, point.radius / radius));
-        const double around = point.radius - 0.14 * radius * groove * point.out;
+        const double share = std::min(1.0, point.radius / radius);
+        const double groove = groove_depth(burr, angle_rad, winding_rad, share);
+        const double cut_mm = flute_depth(motion) * radius * groove;
+        const double around = point.radius - cut_mm * point.out;
         return Vertex{{around * std::cos(angle_rad), around * std::sin(angle_rad),
-                       point.height - 0.14 * radius * groove * point.up},
+                       point.height - cut_mm * point.up},
                       {},
-                      glm::mix(bright_steel, groove_steel, static_cast<float>(groove))};
+                      steel_of(groove, share, motion)};
     });
     smooth_normals(head);
     return head;
 }
 
-}  // namespace
+struct ShankShape {
+    double neck_mm = 0.0;  ///< radii
+    double shank_mm = 0.0;
+    double head_end_mm = 0.0;  ///< heights
+    double neck_end_mm = 0.0;
+    double taper_end_mm = 0.0;
+    double end_mm = 0.0;
+};
 
-Triangles burr_head(const BurrShape& burr) {
-    if (burr.head.shape == HeadShape::ball) return fluted_sphere(burr);
-    return fluted_head(burr, BurrProfile(burr.head, burr.diameter_mm));
+ShankShape shank_of(const BurrShape& burr) {
+    const double radius = 0.5 * burr.diameter_mm;
+    ShankShape shape{.neck_mm = 0.45 * radius,
+                     .shank_mm = radius > 1.0 ? handpiece_shank_radius_mm : turbine_shank_radius_mm,
+                     .head_end_mm = radius};
+    if (burr.head.shape != HeadShape::ball) {
+        shape.head_end_mm = BurrProfile(burr.head, burr.diameter_mm).top_height();
+        shape.neck_mm = std::min(shape.neck_mm, 0.4 * burr.head.neck_diameter_mm);
+    }
+    shape.neck_end_mm = shape.head_end_mm + std::max(2.0, 1.2 * radius);
+    shape.taper_end_mm = shape.neck_end_mm + 3.0;
+    shape.end_mm = shape.taper_end_mm + shank_length_mm;
+    return shape;
 }
 
-Triangles burr_shank(const BurrShape& burr) {
-    const double radius = 0.5 * burr.diameter_mm;
-    const double shank = radius > 1.0 ? handpiece_shank_radius_mm : turbine_shank_radius_mm;
-    double neck = 0.45 * radius;
-    double head_end = radius;
-    if (burr.head.shape != HeadShape::ball) {
-        head_end = BurrProfile(burr.head, burr.diameter_mm).top_height();
-        neck = std::min(neck, 0.4 * burr.head.neck_diameter_mm);
+}  // namespace
+
+Triangles burr_head(const BurrShape& burr, BurrMotion motion) {
+    if (burr.head.shape == HeadShape::ball) return fluted_sphere(burr, motion);
+    return fluted_head(burr, BurrProfile(burr.head, burr.diameter_mm), motion);
+}
+
+Triangles burr_shank(const BurrShape& burr, BurrMotion motion) {
+    const ShankShape shape = shank_of(burr);
+    return lathe({{shape.head_end_mm - 0.1 * burr.diameter_mm, shape.neck_mm},
+                  {shape.neck_end_mm, shape.neck_mm},
+                  {shape.taper_end_mm, shape.shank_mm},
+                  {shape.end_mm, shape.shank_mm},
+                  {shape.end_mm, 0.0}},
+                 marked_shank(motion));
+}
+
+Triangles handpiece(const BurrShape& burr) {
+    const double from_mm = shank_of(burr).end_mm;
+    // Heights above the end of the shank, which ends within the nose.
+    const auto part = [&](std::vector<Station> stations, const glm::vec3& linear_rgb) {
+        for (Station& station : stations) station.z += from_mm;
+        return lathe(stations, [=](double) { return linear_rgb; });
+    };
+    Triangles whole = part({{-0.5, 0.0}, {-0.5, 1.9}, {0.5, 2.4}, {7.0, 2.9}, {8.0, 4.2}, {18.0, 5.6}}, body_steel);
+    constexpr int ribs = 8;
+    constexpr double rib_mm = 2.6;
+    double z = 18.0;
+    for (int rib = 0; rib < ribs; ++rib, z += rib_mm) {
+        append(whole, part({{z, 5.6}, {z + 0.4, 6.1}, {z + 1.6, 6.1}, {z + 2.0, 5.6}}, grip_grey));
+        append(whole, part({{z + 2.0, 5.6}, {z + rib_mm, 5.6}}, body_steel));
     }
-    const double neck_end = head_end + std::max(2.0, 1.2 * radius);
-    const double taper_end = neck_end + 3.0;
-    return lathe({{head_end - 0.2 * radius, neck},
-                  {neck_end, neck},
-                  {taper_end, shank},
-                  {taper_end + shank_length_mm, shank},
-                  {taper_end + shank_length_mm, 0.0}},
-                 marked_shank);
+    append(whole, part({{z, 5.6}, {z + 6.0, 7.0}, {z + 45.0, 8.6}, {z + 52.0, 7.8}, {z + 54.0, 4.0}}, body_steel));
+    append(whole, part({{z + 54.0, 4.0}, {z + 66.0, 2.6}, {z + 110.0, 2.6}, {z + 110.0, 0.0}}, grip_grey));
+    return whole;
 }
 
 Triangles unit_arrow(const glm::vec3& linear_rgb) {

@@ -96,6 +96,30 @@ TEST_F(ScenePictureTest, ShowsTheBurrThroughAShankBeforeIt) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(mixed[i], burr[i], 0.22 * 255 + 1) << i;
 }
 
+TEST_F(ScenePictureTest, ShowsAHandpieceFromTheSideAndNoneThatPointsAtTheEye) {
+    const BoneTextures textures(ball(), {});
+    RaycastRenderer renderer;
+    DrawnTool tool = burr_at({0.0, 0.0, 3.2});
+    tool.state.spindle_axis = {0.0, 0.0, 1.0};
+    double opacity_before = 1.0;
+    for (const double elevation_rad : {0.0, 0.4, 0.7, 0.85, 1.1, 1.5}) {
+        Camera camera = camera_on({0.0, 0.0, 13.0}, 40.0);
+        camera.elevation_rad = elevation_rad;
+        ScenePicture scene(renderer, size_px);
+        const Picture bone = scene.draw(&textures, nullptr, camera).read_back();
+        tool.has_handpiece = false;
+        const Picture without = scene.draw(&textures, &tool, camera).read_back();
+        tool.has_handpiece = true;
+        const Picture with = scene.draw(&textures, &tool, camera).read_back();
+        const double opacity = handpiece_opacity(tool, camera);
+        EXPECT_LE(opacity, opacity_before);
+        opacity_before = opacity;
+        EXPECT_EQ(with == without, opacity == 0.0) << elevation_rad;
+        EXPECT_EQ(scene.draw(&textures, nullptr, camera).read_back(), bone) << "the next frame has it no more";
+    }
+    EXPECT_EQ(opacity_before, 0.0);
+}
+
 TEST_F(ScenePictureTest, ShowsAThingWithoutItsForceAndWithNothingSeenThrough) {
     const BoneTextures textures(ball(), {});
     RaycastRenderer renderer;
