@@ -137,7 +137,7 @@ void bind_pictures(py::module_& module) {
              "The median of so many frames; with 0 the first is what counts. renderer: raycast, slices.")
         .def("cue", &cue, py::arg("name"), py::kw_only(), py::arg("pairs") = 5,
              "Frames with a cue of the usual look and without it, in turns. name: ambient occlusion, thin "
-             "bone, smooth silhouettes, wet bone, grain, sawn faces.")
+             "bone, smooth silhouettes, wet bone, grain, sawn faces, handpiece, motion blur.")
         .def("silhouettes", &silhouettes,
              "PSNR on silhouettes, smoothed and not, against a picture of 4 x 4 rays a pixel.")
         .def_property_readonly("has_smoothed_normals", &PictureTrial::has_smoothed_normals)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "common/statistics/percentile.h"
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/raycast_renderer.h"
+#include "render_client/volume/tool/tool_renderer.h"
 #include "studies/render/full_rate/finished_frames.h"
 
 namespace osteomill::study {
@@ -20,6 +23,50 @@ namespace {
 
 constexpr int rays_a_side = 4;
 constexpr double leap_mm = 1.0;
+
+bool is_of_tool(std::string_view cue) { return cue == "handpiece" || cue == "motion blur"; }
+
+/// A burr of 5 mm, or the nose of its handpiece, before what the camera looks at; the handpiece points upwards and a
+/// little towards the eye.
+DrawnTool tool_with(std::string_view cue, bool is_on, const Camera& camera) {
+    constexpr double nose_mm = 40.0;  // above the burr
+    DrawnTool tool;
+    tool.state.spindle_axis = glm::normalize(camera.up() - 0.3 * camera.forward());
+    tool.state.burr_position_mm = camera.target_mm - 0.5 * camera.distance_mm * camera.forward();
+    if (cue == "handpiece") tool.state.burr_position_mm -= nose_mm * tool.state.spindle_axis;
+    tool.has_handpiece = cue == "handpiece" && is_on;
+    tool.motion = cue == "motion blur" && is_on ? BurrMotion::at_speed : BurrMotion::still;
+    return tool;
+}
+
+/// Frames of the usual picture with one of its cues, or without it.
+class CuedFrames {
+  public:
+    CuedFrames(std::string_view cue, bool is_on, const Camera& camera, const glm::ivec2& size_px)
+        : framebuffer_(size_px), camera_(camera), covered_(size_px) {
+        bone_.set_appearance(look_with(cue, is_on));
+        if (!is_of_tool(cue)) return;
+        tool_.emplace();
+        drawn_tool_ = tool_with(cue, is_on, camera);
+    }
+
+    void draw(const BoneTextures& bone) {
+        framebuffer_.bind();
+        bone_.draw(bone, camera_, framebuffer_.size_px());
+        if (!tool_) return;
+        tool_->draw(drawn_tool_, camera_, covered_);
+        tool_->draw_seen_through(drawn_tool_, camera_, framebuffer_.size_px());
+    }
+    Picture read_back() const { return framebuffer_.read_back(); }
+
+  private:
+    gl::Framebuffer framebuffer_;
+    Camera camera_;
+    TileMask covered_;
+    RaycastRenderer bone_;
+    std::optional<ToolRenderer> tool_;
+    DrawnTool drawn_tool_;
+};
 
 Picture drawn(BoneRenderer& renderer, const gl::Framebuffer& framebuffer, const BoneTextures& bone,
               const Camera& camera) {
@@ -98,24 +145,22 @@ SceneAppearance look_with(std::string_view cue, bool is_on) {
         look.grain = is_on;
     else if (cue == "sawn faces")
         look.neutral_sawn_faces = is_on;
-    else
+    else if (!is_of_tool(cue))
         throw std::invalid_argument("no cue is called '" + std::string(cue) + "'");
     return look;
 }
 
 CueCost cue_cost(std::string_view cue, const BoneTextures& bone, const Camera& camera,
                  const glm::ivec2& size_px, int pairs) {
-    const gl::Framebuffer framebuffer(size_px);
-    RaycastRenderer without, with;
-    without.set_appearance(look_with(cue, false));
-    with.set_appearance(look_with(cue, true));
-    const Picture plain = drawn(without, framebuffer, bone, camera);
-    const Picture cued = drawn(with, framebuffer, bone, camera);
+    CuedFrames without(cue, false, camera, size_px), with(cue, true, camera, size_px);
+    without.draw(bone);
+    with.draw(bone);
+    const Picture plain = without.read_back();
+    const Picture cued = with.read_back();
     FrameStopwatch without_watch, with_watch;
-    const auto time = [&](RaycastRenderer& renderer, FrameStopwatch& watch) {
+    const auto time = [&](CuedFrames& frames, FrameStopwatch& watch) {
         watch.time([&] {
-            framebuffer.bind();
-            renderer.draw(bone, camera, size_px);
+            frames.draw(bone);
             glFinish();
         });
     };

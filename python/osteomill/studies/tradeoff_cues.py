@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from osteomill.studies import charts
 from osteomill.studies.tradeoff_picture import QUICK_SIZE_PX, SIZE_PX, trial_of
 
-CUES = ("ambient occlusion", "thin bone", "smooth silhouettes", "wet bone", "grain", "sawn faces")
+CUES = ("ambient occlusion", "thin bone", "smooth silhouettes", "wet bone", "grain", "sawn faces", "handpiece", "motion blur")
 SCENES = ("tooth", "mastoid")
 DEFAULT_BELOW_PERCENT = 10.0  # of a frame
 WORTH_DB = 3.0  # of silhouettes
