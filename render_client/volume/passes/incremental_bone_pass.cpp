@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "render_client/volume/shaders/shading_reach.h"
 #include "render_client/volume/textures/block_summary.h"
@@ -63,11 +64,14 @@ IncrementalBonePass::IncrementalBonePass(BoneRenderer& renderer, const glm::ivec
       control_(frame_s),
       layer_(size_px),
       coarse_({1, 1}),
-      stale_(size_px) {}
+      stale_(size_px),
+      refined_(size_px) {}
 
 void IncrementalBonePass::resize(const glm::ivec2& size_px) {
     layer_ = gl::Framebuffer(size_px);
+    aside_.reset();
     stale_ = TileMask(size_px);
+    refined_ = TileMask(size_px);
     camera_.reset();
 }
 
@@ -109,17 +113,18 @@ TileMask IncrementalBonePass::update(const BoneTextures& bone, const Camera& cam
     frames_at_rest_ = moved ? 0 : frames_at_rest_ + 1;
     if (!stale_.any()) coarsest_divisor_ = 1.0;
     stale_ |= fresh;
+    refined_ -= fresh;
     if (!stale_.any()) return stale_;
+    const TileMask waiting = TileMask(stale_) -= refined_;
 
     const Extent extent = moved ? Extent::whole : Extent::parts;
     std::int64_t room_px = frames_of_calm_ >= frames_before_refining ? control_.affordable_pixels_at_rest()
                                                                      : control_.affordable_pixels(extent);
-    const bool fits = !stopwatch_ || (moved ? control_.divisor_for(extent, stale_.pixels()) == 1.0
-                                            : stale_.pixels() <= room_px);
+    const bool fits = !stopwatch_ || (moved ? control_.divisor_for(extent, waiting.pixels()) == 1.0
+                                            : waiting.pixels() <= room_px);
     if (fits) {
-        const TileMask drawn = stale_;
-        draw_exact(bone, camera, drawn, extent);
-        return drawn;
+        draw_exact(bone, camera, waiting, extent);
+        return show_refined() |= waiting;
     }
     TileMask exact(size_px());
     if (misplaced.any()) {
@@ -129,11 +134,15 @@ TileMask IncrementalBonePass::update(const BoneTextures& bone, const Camera& cam
         else
             room_px -= draw_coarse(bone, camera, misplaced, extent, divisor);
     }
-    // Parts drawn coarsely just now are about to change again and not worth refining.
-    if (frames_at_rest_ >= frames_before_refining)
-        exact |= part_that_fits(TileMask(stale_) -= misplaced, room_px - exact.pixels());
     draw_exact(bone, camera, exact, extent);
-    return exact |= misplaced;
+    if (frames_at_rest_ < frames_before_refining) return misplaced;
+    // Parts drawn coarsely just now are about to change again and not worth refining.
+    TileMask unrefined = TileMask(waiting) -= misplaced;
+    const TileMask part = part_that_fits(unrefined, room_px - exact.pixels());
+    draw_aside(bone, camera, part, extent);
+    unrefined -= part;
+    if (unrefined.any()) return misplaced;
+    return show_refined() |= misplaced;
 }
 
 void IncrementalBonePass::learn() {
@@ -160,6 +169,21 @@ void IncrementalBonePass::draw_exact(const BoneTextures& bone, const Camera& cam
                                      Extent extent) {
     stale_ -= tiles;
     draw_timed(bone, camera, layer_, tiles.rectangles(), extent);
+}
+
+void IncrementalBonePass::draw_aside(const BoneTextures& bone, const Camera& camera, const TileMask& tiles,
+                                     Extent extent) {
+    if (!tiles.any()) return;
+    if (!aside_) aside_.emplace(size_px());
+    refined_ |= tiles;
+    draw_timed(bone, camera, *aside_, tiles.rectangles(), extent);
+}
+
+TileMask IncrementalBonePass::show_refined() {
+    const TileMask shown = std::exchange(refined_, TileMask(size_px()));
+    for (const PixelBox& box : shown.rectangles()) aside_->copy_to(layer_, box);
+    stale_ -= shown;
+    return shown;
 }
 
 std::int64_t IncrementalBonePass::draw_coarse(const BoneTextures& bone, const Camera& camera,

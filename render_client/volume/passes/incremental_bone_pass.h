@@ -6,7 +6,8 @@
 // shading, can meet a changed brick. Stale tiles are drawn again at once if time allows. Otherwise tiles that
 // show a removed surface are drawn at a lower resolution and upscaled; tiles in which a nearby carve changes
 // only the ambient light stay as they are. Once the camera rests, all become exact piece by piece, as frames
-// can afford it.
+// can afford it. The pieces are drawn aside, and shown together when none is left: there is no seam between sharp
+// and coarse parts that moves through the picture.
 #pragma once
 
 #include <optional>
@@ -74,6 +75,9 @@ class IncrementalBonePass {
                             std::span<const PixelBox> boxes, Extent extent);
     /// Takes turns: parts that did not fit come first the next time.
     TileMask part_that_fits(const TileMask& tiles, std::int64_t room_px);
+    void draw_aside(const BoneTextures& bone, const Camera& camera, const TileMask& tiles, Extent extent);
+    /// Shows what was drawn aside; returns those tiles.
+    TileMask show_refined();
 
     BoneRenderer& renderer_;
     Stopwatch* stopwatch_;
@@ -81,7 +85,9 @@ class IncrementalBonePass {
     DetailControl control_;
     gl::Framebuffer layer_;
     gl::Framebuffer coarse_;  ///< where stale parts are drawn before they are upscaled
+    std::optional<gl::Framebuffer> aside_;  ///< once parts were refined
     TileMask stale_;
+    TileMask refined_;  ///< of the stale ones, those drawn aside and not shown yet
     double coarsest_divisor_ = 1.0;  ///< among the stale tiles
     std::size_t next_tile_ = 0;      ///< whose turn it is to be refined
     std::vector<VoxelBox> dirty_;  ///< voxels of the bone's grid, whole blocks: shading reads means over them

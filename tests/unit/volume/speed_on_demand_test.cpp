@@ -118,6 +118,39 @@ TEST_F(SpeedOnDemand, RefinesToThePictureOfFullQualityWithinTheFramesThatItsPixe
     EXPECT_EQ(picture.draw(&*textures_, nullptr, camera_).read_back(), full_picture(camera_));
 }
 
+TEST_F(SpeedOnDemand, ShowsNoSeamBetweenSharpAndCoarsePartsWhileItRefines) {
+    PricedRenderer renderer(16.0 * target_frame_s / all_pixels);
+    ScenePicture picture(renderer, size_px, &renderer);
+    turn(picture, camera_);
+    const Picture coarse = picture.draw(&*textures_, nullptr, camera_).read_back();
+    const Picture full = full_picture(camera_);
+    ASSERT_NE(coarse, full);
+    int coarse_frames = 0;
+    Picture shown = coarse;
+    while (!picture.quality().refined && coarse_frames < 60) {
+        shown = picture.draw(&*textures_, nullptr, camera_).read_back();
+        if (!picture.quality().refined) {
+            EXPECT_EQ(shown, coarse) << coarse_frames;
+            ++coarse_frames;
+        }
+    }
+    EXPECT_EQ(shown, full);
+    EXPECT_GT(coarse_frames, 3) << "several frames' worth were drawn aside";
+}
+
+TEST_F(SpeedOnDemand, TakesACarveIntoPartsThatWereDrawnAside) {
+    for (const int frames_before : {3, 4, 5, 6, 8}) {
+        PricedRenderer renderer(16.0 * target_frame_s / all_pixels);
+        ScenePicture picture(renderer, size_px, &renderer);
+        turn(picture, camera_);
+        for (int frame = 0; frame < frames_before; ++frame) picture.draw(&*textures_, nullptr, camera_);
+        carve(picture, {0.1 * frames_before, -1.0, 2.6}, 0.6);
+        for (int frame = 0; frame < 60; ++frame) picture.draw(&*textures_, nullptr, camera_);
+        EXPECT_TRUE(picture.quality().refined);
+        EXPECT_EQ(picture.draw(&*textures_, nullptr, camera_).read_back(), full_picture(camera_)) << frames_before;
+    }
+}
+
 TEST_F(SpeedOnDemand, ShowsTheSameSceneCoarselyAndInPerspective) {
     PricedRenderer renderer(4.0 * target_frame_s / all_pixels);
     ScenePicture picture(renderer, size_px, &renderer);
