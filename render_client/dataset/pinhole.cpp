@@ -46,6 +46,8 @@ void look_through(Camera& camera, const Pinhole& pinhole, const Pose& pose) {
     const bool is_upright = std::abs(forward.z) > 1.0 - 1e-12;
     if (is_upright) camera.azimuth_rad = std::atan2(right.y, right.x);
     camera.roll_rad = std::atan2(glm::dot(right, camera.up()), glm::dot(right, camera.right()));
+    camera.distance_mm =
+        std::max(glm::dot(camera.target_mm - pose.position_mm, camera.forward()), camera.near_mm);
     camera.target_mm = pose.position_mm + camera.distance_mm * camera.forward();
 
     const glm::dvec2 size(pinhole.size_px);

@@ -73,8 +73,19 @@ TEST(PinholeTest, MovesACameraToWhereAnotherLooks) {
     EXPECT_NEAR(glm::distance(mine.right(), theirs.right()), 0.0, 1e-9);
     EXPECT_NEAR(glm::distance(mine.forward(), theirs.forward()), 0.0, 1e-9);
     EXPECT_NEAR(mine.field_of_view_rad, 0.3, 1e-12);
-    EXPECT_EQ(mine.distance_mm, before.distance_mm);
+    EXPECT_NEAR(mine.distance_mm, glm::dot(-between_eyes_mm, mine.forward()), 1e-9);
     EXPECT_EQ(mine.near_mm, before.near_mm);
+}
+
+TEST(Pinhole, LeavesThePivotAsDeepAsItWasForTheScaleOfThePicture) {
+    const glm::ivec2 size_px(960, 720);
+    const Pinhole pinhole{.size_px = size_px, .focal_px = {1000.0, 1000.0}, .centre_px = {479.5, 359.5}};
+    Camera camera = camera_on({0.0, 0.0, 3.0}, 20.0);
+    look_through(camera, pinhole, looking_at({0.0, -250.0, 3.0}, {20.0, 0.0, 3.0}, {0.0, 0.0, 1.0}));
+    const double depth_mm = 250.0 * 250.0 / std::hypot(250.0, 20.0);
+    EXPECT_NEAR(mm_per_px_at(camera, camera.target_mm, size_px), depth_mm / 1000.0, 1e-9);
+    look_through(camera, pinhole, looking_at({0.0, 50.0, 3.0}, {0.0, 90.0, 3.0}, {0.0, 0.0, 1.0}));
+    EXPECT_EQ(camera.distance_mm, camera.near_mm) << "it looks away from there";
 }
 
 }  // namespace
