@@ -36,7 +36,7 @@ std::string heading(const SessionTrace& trace) {
         html +=
             fmt::format("<p class='wrong'>{}</p>",
                         trf("The recording could not be read to its end; this is of what comes before: {}",
-                            html_text(trace.error)));
+                            html_text(tr_about_file(trace.error))));
     else if (!trace.ends)
         html += fmt::format("<p class='wrong'>{}</p>",
                             tr("The recording ends before the session does; this is of what it holds."));

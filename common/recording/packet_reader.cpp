@@ -1,5 +1,6 @@
 #include "common/recording/packet_reader.h"
 
+#include <fmt/format.h>
 #include <pcap/pcap.h>
 
 #include <array>
@@ -50,11 +51,10 @@ PacketReader::PacketReader(std::filesystem::path file) : file_(std::move(file)) 
     input_.reset(pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, why.data()));
     if (!input_) {
         std::fclose(stream);
-        throw refuse(std::string("is no recording, which is a pcap file: ") + why.data());
+        throw refuse(fmt::format("is no recording, which is a pcap file: {}", why.data()));
     }
     if (const int link_type = pcap_datalink(input_.get()); link_type != DLT_USER0)
-        throw refuse("is a capture of link type " + std::to_string(link_type) +
-                     ", not a recording, which has 147 (USER0)");
+        throw refuse(fmt::format("is a capture of link type {}, not a recording, which has 147 (USER0)", link_type));
 }
 
 std::optional<Packet> PacketReader::next() {
@@ -77,8 +77,8 @@ std::optional<Packet> PacketReader::next() {
     }
     ++next_number_;
     if (header->caplen != header->len)
-        throw RecordingError(where(here) + "only " + std::to_string(header->caplen) + " of its " +
-                             std::to_string(header->len) + " bytes were kept; a recording holds them all");
+        throw RecordingError(where(here) + fmt::format("only {} of its {} bytes were kept; a recording holds them all",
+                                                       header->caplen, header->len));
     if (header->len == 0 || header->len > largest_frame_bytes)
         throw RecordingError(where(here) + "it has " + std::to_string(header->len) + " bytes, not 1 to " +
                              std::to_string(largest_frame_bytes));
@@ -129,8 +129,7 @@ void PacketReader::seek(const PacketPlace& place) {
 }
 
 std::string PacketReader::where(const PacketPlace& place) const {
-    return file_.string() + ", packet " + std::to_string(place.number) + " at byte " +
-           std::to_string(place.offset_bytes) + ": ";
+    return fmt::format("{}, packet {} at byte {}: ", file_.string(), place.number, place.offset_bytes);
 }
 
 }  // namespace osteomill

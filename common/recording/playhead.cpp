@@ -15,7 +15,7 @@ Playhead::Playhead(std::filesystem::path file) : reader_(file) {
     read_ahead();
     while (!replica_)
         if (step(std::numeric_limits<double>::infinity()) == Step::end)
-            throw RecordingError(file.string() + ": ends before the bone is complete");
+            throw RecordingError(file.string() + ": " + "ends before the bone is complete");
 }
 
 Playhead::Step Playhead::step(double until_s) {

@@ -1,5 +1,7 @@
 #include "common/recording/recording_reader.h"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 
@@ -21,10 +23,13 @@ std::optional<RecordedEvent> RecordingReader::next() {
     auto event = receiver_.take(std::get<v2::ServerFrame>(std::move(frame)));
     if (const auto* error = std::get_if<WireError>(&event)) throw error_at(packet->place, error->line);
     if (const auto* other = std::get_if<SpeaksOtherProtocol>(&std::get<SessionEvent>(event)))
-        throw error_at(packet->place, "recorded with protocol " + std::to_string(other->major) +
-                                          ", this program reads " + std::to_string(protocol_major) +
-                                          ": use Osteomill " + other->program_version +
-                                          (other->major > protocol_major ? " or later" : " or earlier"));
+        throw error_at(
+            packet->place,
+            other->major > protocol_major
+                ? fmt::format("recorded with protocol {}, this program reads {}: use Osteomill {} or later",
+                              other->major, protocol_major, other->program_version)
+                : fmt::format("recorded with protocol {}, this program reads {}: use Osteomill {} or earlier",
+                              other->major, protocol_major, other->program_version));
     if (!has_its_time)
         throw error_at(packet->place,
                        "its time stamp is not the one that was recorded: damaged, or moved by a tool");

@@ -120,6 +120,19 @@ std::string tr_filled(const std::string& english) {
     return best != nullptr ? filled(best->second, *values_in(english, best->first)) : english;
 }
 
+std::string tr_about_file(const std::string& english) {
+    if (std::string whole = tr_filled(english); whole != english) return whole;
+    for (const std::string_view behind_name : {", packet ", ": "}) {
+        std::size_t at = english.find(behind_name);
+        if (at == std::string::npos) continue;
+        if (behind_name == ": ") at += behind_name.size();
+        const std::string rest = english.substr(at);
+        if (std::string translated = tr_filled(rest); translated != rest)
+            return english.substr(0, at) + translated;
+    }
+    return english;
+}
+
 std::string tissue_words(std::string name) {
     std::ranges::replace(name, '_', ' ');
     return tr_filled(name);

@@ -136,7 +136,7 @@ void RecordingPlayer::wind_back() {
 }
 
 std::string RecordingPlayer::status_line() const {
-    if (!error_.empty()) return error_;
+    if (!error_.empty()) return tr_about_file(error_);
     const std::string name = file_.filename().string();
     return is_at_end_ && playhead_->is_truncated() ? trf("recording {}, which ends within a frame", name)
                                                    : trf("recording {}", name);

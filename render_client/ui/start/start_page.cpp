@@ -112,7 +112,7 @@ void StartPage::attempt(const std::function<void()>& act) {
     try {
         act();
     } catch (const std::exception& error) {
-        message_ = error.what();
+        message_ = tr_about_file(error.what());
     }
 }
 

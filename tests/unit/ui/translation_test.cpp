@@ -200,7 +200,16 @@ std::set<std::string> server_words() {
                 const std::string text = literal_at(source, at);
                 words.insert({text, with_plain_places(text)});
             }
-    for (const int error : {ECONNREFUSED, ECONNRESET, EHOSTUNREACH, ENETUNREACH, ETIMEDOUT})
+    // What is wrong with a recording, behind the place in it.
+    const std::string in_recording = ", packet {} at byte {}: ";
+    words.insert(in_recording + "{}");
+    for (const char* folder : {"common/recording", "common/wire"})
+        for (const auto& [file, source] : sources_in(folder))
+            for (std::size_t at = source.find('"'); at != std::string::npos; at = source.find('"', at)) {
+                const std::string text = literal_at(source, at);
+                words.insert({text, in_recording + text});
+            }
+    for (const int error : {ENOENT, EACCES, ECONNREFUSED, ECONNRESET, EHOSTUNREACH, ENETUNREACH, ETIMEDOUT})
         words.insert(std::generic_category().message(error));
     for (const auto error :
          {boost::asio::error::host_not_found, boost::asio::error::host_not_found_try_again})
@@ -307,6 +316,20 @@ TEST(Translation, KeepTheNamesOfWhatTheServerSays) {
     EXPECT_EQ(tissue_words("Sinus_+_Dura"), "Sinus und Dura");
     speak("en");
     EXPECT_EQ(tissue_words("Sinus_+_Dura"), "Sinus + Dura");
+}
+
+TEST(Translation, SayWhatIsWrongWithARecordingBehindItsName) {
+    speak("de");
+    EXPECT_EQ(tr_about_file("/a b/x.pcap: ends before the bone is complete"),
+              "/a b/x.pcap: endet, bevor der Knochen vollständig ist");
+    EXPECT_EQ(tr_about_file("x.pcap, packet 3 at byte 812: a frame's checksum does not hold"),
+              "x.pcap, Paket 3 ab Byte 812: die Prüfsumme stimmt nicht, es ist beschädigt");
+    EXPECT_EQ(tr_about_file("x.pcap, packet 3 at byte 812: the scene has no burr"),
+              "x.pcap, Paket 3 ab Byte 812: the scene has no burr");
+    EXPECT_EQ(tr_about_file("nothing was milled"), "nichts wurde gefräst");
+    EXPECT_EQ(tr_about_file("x.pcap: nothing like that"), "x.pcap: nothing like that");
+    speak("en");
+    EXPECT_EQ(tr_about_file("x.pcap: ends before the bone is complete"), "x.pcap: ends before the bone is complete");
 }
 
 TEST(Translation, HaveTheSamePlacesForValues) {
