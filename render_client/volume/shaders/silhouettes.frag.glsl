@@ -13,27 +13,29 @@ const int places = 24;
 
 float distance_of(float window_depth) { return depth_terms.y / (window_depth - depth_terms.x); }
 
-float slope_at(vec3 point) {
-    vec2 step = vec2(0.5, 0.0);
-    return length(vec3(fraction_at(point + step.xyy) - fraction_at(point - step.xyy),
-                       fraction_at(point + step.yxy) - fraction_at(point - step.yxy),
-                       fraction_at(point + step.yyx) - fraction_at(point - step.yyx)));
-}
-
-// Fraction at the fullest place between two on the ray; `place` becomes that place.
-float fullest(float first, float end, out float place) {
-    float most = -1.0, width = (end - first) / float(places);
-    place = first;
-    for (int i = 0; i <= places; ++i) {
+// The fullest place on the ray between `first` and `end`, the fraction there and its slope. One loop, with one sample a
+// round: a software rasteriser computes all branches for all pixels, and leaves a loop early where none of them needs it.
+void find_fullest(bool is_needed, float first, float end, out float most, out float slope) {
+    const int beside = places + 1, around = beside + 2, samples = around + 6;
+    float width = (end - first) / float(places), place = first, middle = first;
+    vec3 gradient = vec3(0.0);
+    most = -1.0;
+    int last = is_needed ? samples : 0;
+    for (int i = 0; i < last; ++i) {
         float along = first + float(i) * width;
-        float fraction = fraction_at(eye + along * direction);
-        place = fraction > most ? along : place;
-        most = max(most, fraction);
+        if (i == beside) middle = place;
+        if (i >= beside) along = i == beside ? max(middle - 0.5 * width, first) : min(middle + 0.5 * width, end);
+        int side = i - around;
+        vec3 axis = vec3(side / 2 == 0, side / 2 == 1, side / 2 == 2) * (side % 2 == 0 ? 0.5 : -0.5);
+        if (i < around) axis = vec3(0.0); else along = place;
+        float fraction = fraction_at(eye + along * direction + axis);
+        gradient += 2.0 * fraction * axis;
+        if (i < around && fraction > most) {
+            most = fraction;
+            place = along;
+        }
     }
-    vec2 beside = vec2(max(place - 0.5 * width, first), min(place + 0.5 * width, end));
-    vec2 fractions = vec2(fraction_at(eye + beside.x * direction), fraction_at(eye + beside.y * direction));
-    if (max(fractions.x, fractions.y) > most) place = fractions.x > fractions.y ? beside.x : beside.y;
-    return max(most, max(fractions.x, fractions.y));
+    slope = length(gradient);
 }
 
 void main() {
@@ -51,15 +53,15 @@ void main() {
     }
     float near = distance_of(nearest), far = distance_of(farthest);
     float width = pixel_width * near;  // voxels
-    // A software rasteriser stops if all pixels of a group are discarded.
-    if (far - near < least_step * width + 1.0) discard;
+    bool is_silhouette = far - near >= least_step * width + 1.0;
     begin_ray();
     float along = 1.0 / dot(direction, forward);
     float first = clamp((near - 2.0 * width) * along - 2.0, enter, leave);
     float end = clamp(min(near + limb_depth * width, 0.5 * (near + far)) * along + 1.0, first, leave);
-    float place;
-    float most = fullest(first, end, place);
-    float inside = (most - bone_surface) / max(slope_at(eye + place * direction), 1e-3);
+    float most, slope;
+    find_fullest(is_silhouette, first, end, most, slope);
+    if (!is_silhouette) discard;
+    float inside = (most - bone_surface) / max(slope, 1e-3);
     float covered = clamp(0.5 + inside / width, 0.0, 1.0);
     bool is_far = distance_of(own) > 0.5 * (near + far);
     vec3 near_colour = texelFetch(drawn_colour, is_far ? near_at : here, 0).rgb;
