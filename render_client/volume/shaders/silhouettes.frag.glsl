@@ -54,13 +54,13 @@ void main() {
     float near = distance_of(nearest), far = distance_of(farthest);
     float width = pixel_width * near;  // voxels
     bool is_silhouette = far - near >= least_step * width + 1.0;
+    if (!is_silhouette) discard;
     begin_ray();
     float along = 1.0 / dot(direction, forward);
     float first = clamp((near - 2.0 * width) * along - 2.0, enter, leave);
     float end = clamp(min(near + limb_depth * width, 0.5 * (near + far)) * along + 1.0, first, leave);
     float most, slope;
     find_fullest(is_silhouette, first, end, most, slope);
-    if (!is_silhouette) discard;
     float inside = (most - bone_surface) / max(slope, 1e-3);
     float covered = clamp(0.5 + inside / width, 0.0, 1.0);
     bool is_far = distance_of(own) > 0.5 * (near + far);
