@@ -1,5 +1,6 @@
 """Recordings of any session repeat to the bit: they hold the values that were used."""
 
+import functools
 import json
 import os
 import pathlib
@@ -29,6 +30,20 @@ def wandering_hand(case, ms, seed):
     return hands, axes, rng.random(ms) > 0.05
 
 
+def serve(*arguments):
+    subprocess.run([program("haptic_server"), *map(str, arguments)], check=True, capture_output=True, timeout=300)
+
+
+@functools.cache
+def plain_session():
+    """A recording of the tooth that nobody controls, and its bone in the end."""
+    folder = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(folder.cleanup)
+    file, bone = pathlib.Path(folder.name) / "plain.pcap", pathlib.Path(folder.name) / "carved.nrrd"
+    serve("--clock", "virtual", "--duration-s", "4", "--record", file, "--save-bone", bone)
+    return file, bone
+
+
 class RepeatRecordingTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -42,9 +57,6 @@ class RepeatRecordingTest(unittest.TestCase):
             ticks = made.rollout(hands, axes, pedals)
             self.assertGreater(ticks["removed_mm3"]["total"][-1], 0.1)
             return file, ticks, made.bone.checksum()
-
-    def serve(self, *arguments):
-        subprocess.run([program("haptic_server"), *map(str, arguments)], check=True, capture_output=True, timeout=300)
 
     def assert_repeats(self, file, least_ticks):
         result = om.repeat(file)
@@ -71,7 +83,7 @@ class RepeatRecordingTest(unittest.TestCase):
     def test_a_recorded_motion_on_rails(self):
         file, _, _ = self.record("a.pcap")
         subprocess.run([program("packet_replay"), file, "--trajectory", self.folder / "a.csv"], check=True, capture_output=True)
-        self.serve("--clock", "virtual", "--trajectory", self.folder / "a.csv", "--grip", "rails", "--record", self.folder / "b.pcap",
+        serve("--clock", "virtual", "--trajectory", self.folder / "a.csv", "--grip", "rails", "--record", self.folder / "b.pcap",
                    "--duration-s", "1.5")
         first, second = om.Recording(file).ticks, om.Recording(self.folder / "b.pcap").ticks
         for name in ("hand_mm", "burr_mm", "axis", "force_n", "removed_mm3"):
@@ -81,13 +93,13 @@ class RepeatRecordingTest(unittest.TestCase):
 
     def test_a_simulated_hand_with_settings_of_its_own(self):
         file = self.folder / "s.pcap"
-        self.serve("--clock", "virtual", "--scene", "tooth", "--set", "wall_friction=0.35", "--set", "device.scale=0.5",
+        serve("--clock", "virtual", "--scene", "tooth", "--set", "wall_friction=0.35", "--set", "device.scale=0.5",
                    "--grip", "light", "--rpm", "20000", "--duration-s", "3", "--record", file)
         self.assert_repeats(file, 3001)
 
     def test_a_bone_that_was_carved_before(self):
-        self.serve("--clock", "virtual", "--duration-s", "4", "--save-bone", self.folder / "carved.nrrd")
-        self.serve("--clock", "virtual", "--scene", "tooth", "--bone", self.folder / "carved.nrrd", "--duration-s", "4",
+        _, carved = plain_session()
+        serve("--clock", "virtual", "--scene", "tooth", "--bone", carved, "--duration-s", "4",
                    "--record", self.folder / "c.pcap")
         self.assert_repeats(self.folder / "c.pcap", 4001)
 
@@ -110,12 +122,12 @@ class RepeatRecordingTest(unittest.TestCase):
 
     def test_a_session_that_was_paused_and_whose_fixtures_were_switched(self):
         file = self.folder / "switched.pcap"
-        self.serve(*self.controlled(self.SWITCHED), "--clock", "virtual", "--duration-s", "4", "--record", file)
+        serve(*self.controlled(self.SWITCHED), "--clock", "virtual", "--duration-s", "4", "--record", file)
         self.assertEqual([event for event in self.events(file) if event[0] == "fixture"],
                          [("fixture", "Slowly: off", False), ("fixture", "Aside: on", False)])
         self.assert_repeats(file, 4001)
         plain = self.folder / "plain.pcap"
-        self.serve(*self.controlled("1.5,pause,\n1.6,resume,\n2.5,pause,\n2.7,resume,\n"), "--clock", "virtual",
+        serve(*self.controlled("1.5,pause,\n1.6,resume,\n2.5,pause,\n2.7,resume,\n"), "--clock", "virtual",
                    "--duration-s", "4", "--record", plain)
         self.assert_repeats(plain, 4001)
         felt, unfelt = (om.Recording(one).ticks["force_n"] for one in (file, plain))
@@ -129,22 +141,22 @@ class RepeatRecordingTest(unittest.TestCase):
             return {name: made[f"ticks/{name}"][()] for name in ("chosen_rpm", "is_placed", "restored_bricks", "holds_still")}
 
     def test_a_session_at_another_speed_of_the_spindle(self):
-        file, plain = self.folder / "fast.pcap", self.folder / "plain.pcap"
-        self.serve(*self.controlled("1.5,speed,23456.7\n3,speed,0\n"), "--clock", "virtual", "--duration-s", "4", "--record", file)
-        self.serve("--clock", "virtual", "--duration-s", "4", "--record", plain)
+        file, (plain, _) = self.folder / "fast.pcap", plain_session()
+        serve(*self.controlled("1.5,speed,23456.7\n3,speed,0\n"), "--clock", "virtual", "--duration-s", "4", "--record", file)
         self.assertEqual(set(self.controls_of(file)["chosen_rpm"]), {0, 23457})
         self.assert_repeats(file, 4001)
         self.assertGreater(np.abs(om.Recording(file).ticks["force_n"] - om.Recording(plain).ticks["force_n"]).max(), 0.01)
 
     def test_a_session_that_was_undone(self):
-        for name, lines in (("paused", "2.9,pause,\n3.1,undo,\n3.2,resume,\n"), ("at-once", "3.3,undo,\n4.5,undo,\n5,redo,\n"),
-                            ("all-of-it", "4,reset,\n5.5,undo,\n6.2,reset,\n6.9,redo,\n")):
+        for name, lasts_s, lines in (("paused", 4, "2.9,pause,\n3.1,undo,\n3.2,resume,\n"),
+                                     ("at-once", 6, "3.3,undo,\n4.5,undo,\n5,redo,\n"),
+                                     ("all-of-it", 8, "4,reset,\n5.5,undo,\n6.2,reset,\n6.9,redo,\n")):
             with self.subTest(name):
                 file = self.folder / f"{name}.pcap"
-                self.serve(*self.controlled(lines), "--clock", "virtual", "--duration-s", "8", "--record", file)
+                serve(*self.controlled(lines), "--clock", "virtual", "--duration-s", lasts_s, "--record", file)
                 controls = self.controls_of(file)
                 self.assertGreater(controls["restored_bricks"].sum(), 0, self.events(file))
-                self.assert_repeats(file, 8001)
+                self.assert_repeats(file, 1000 * lasts_s + 1)
 
     def test_an_arm_lifted_out_of_the_bone_that_came_back(self):
         socket = self.folder / "arm.socket"
@@ -162,7 +174,7 @@ class RepeatRecordingTest(unittest.TestCase):
 
     def test_a_fixture_is_switched_only_while_the_session_is_paused(self):
         file = self.folder / "refused.pcap"
-        self.serve(*self.controlled("0.5,fixture,Slowly=off\n0.6,pause,\n0.7,fixture,Slow=off\n0.8,resume,\n"),
+        serve(*self.controlled("0.5,fixture,Slowly=off\n0.6,pause,\n0.7,fixture,Slow=off\n0.8,resume,\n"),
                    "--clock", "virtual", "--duration-s", "1", "--record", file)
         refused = [event[1] for event in self.events(file) if event[2]]
         self.assertEqual(refused, ["pause the session first",
@@ -177,7 +189,7 @@ class RepeatRecordingTest(unittest.TestCase):
         for attempt in range(10):
             file = self.folder / f"r{attempt}.pcap"
             scene = () if "--scene" in arguments else ("--scene", "tooth")
-            self.serve(*scene, "--listen", "none", "--duration-s", seconds, "--record", file, *arguments)
+            serve(*scene, "--listen", "none", "--duration-s", seconds, "--record", file, *arguments)
             if "which milling steps" not in om.repeat(file).line:
                 self.assert_repeats(file, 100)
                 return file
@@ -248,7 +260,7 @@ class RepeatRecordingTest(unittest.TestCase):
         old = om.repeat(REPOSITORY / "tests/golden/0.3/recording.pcap")
         self.assertFalse(old.is_equal)
         self.assertIn("repeats to 0.1 um only", old.line)
-        self.serve("--clock", "virtual", "--coupling", "hold+damper", "--duration-s", "1", "--record", self.folder / "damped.pcap")
+        serve("--clock", "virtual", "--coupling", "hold+damper", "--duration-s", "1", "--record", self.folder / "damped.pcap")
         self.assertIn("takes the arm's own velocity", om.repeat(self.folder / "damped.pcap").line)
         with self.assertRaisesRegex(om.Fault, "nowhere.pcap"):
             om.repeat("nowhere.pcap")
