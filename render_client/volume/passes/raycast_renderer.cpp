@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/common.hpp>
+#include <optional>
 
 #include "render_client/volume/shaders/appearance_uniforms.h"
 
@@ -24,6 +25,16 @@ PixelBox scissor_box() {
 PixelBox common_part(const PixelBox& a, const PixelBox& b) {
     const glm::ivec2 first = glm::max(a.first, b.first);
     return {first, glm::max(glm::min(a.first + a.size, b.first + b.size) - first, 0)};
+}
+
+/// Pixels that show bone, and one more on each side, where a silhouette may lie.
+PixelBox pixels_beside(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
+    const Grid& grid = bone.grid();
+    const VoxelBox& box = bone.box();
+    const std::optional<PixelBox> seen =
+        pixels_of_box(camera, centre_of_voxel_mm(grid, box.first) - grid.spacing_mm,
+                      centre_of_voxel_mm(grid, box.first + box.size - 1) + grid.spacing_mm, size_px);
+    return seen ? PixelBox{seen->first - 1, seen->size + 2} : PixelBox{{0, 0}, size_px};
 }
 
 }  // namespace
@@ -59,7 +70,9 @@ void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const
     glScissor(grown.first.x, grown.first.y, grown.size.x, grown.size.y);
     draw_rays(bone, camera, size_px);
     glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
-    silhouettes_->draw(bone, camera, look(), settings_, size_px, static_cast<GLuint>(target), box);
+    silhouettes_->draw(bone, camera, look(), settings_, size_px, static_cast<GLuint>(target), box,
+                       common_part(box, pixels_beside(bone, camera, size_px)));
+    glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
     if (!is_part) glDisable(GL_SCISSOR_TEST);
 }
 

@@ -17,10 +17,12 @@ const gl::Framebuffer& Silhouettes::begin(const glm::ivec2& size_px) {
 
 void Silhouettes::draw(const BoneTextures& bone, const Camera& camera, const SceneAppearance& look,
                        const RaycastSettings& settings, const glm::ivec2& size_px, GLuint target,
-                       const PixelBox& box) {
+                       const PixelBox& box, const PixelBox& near_bone) {
     drawn_->copy_to(target, box);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glViewport(0, 0, size_px.x, size_px.y);
+    if (near_bone.size.x <= 0 || near_bone.size.y <= 0) return;
+    glScissor(near_bone.first.x, near_bone.first.y, near_bone.size.x, near_bone.size.y);
     const gl::Program& program = program_.use(bone, look);
     set_ray_uniforms(program, bone, camera, size_px, settings);
     constexpr int colour_unit = BoneProgram::first_free_unit;
