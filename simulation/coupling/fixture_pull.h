@@ -112,7 +112,7 @@ class FixturePull {
     std::shared_ptr<const Fixtures> fixtures_;
     double share_ = 0.0;    // that has come in
     double changed_ = 1.0;  // of the change to this burr
-    bool pulls_ = false;  // in this tick
+    bool pulls_ = false;    // in this tick
     bool has_burr_ = false;
     std::size_t burr_ = 0;
     std::size_t burr_before_ = 0;
