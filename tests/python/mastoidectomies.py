@@ -73,7 +73,8 @@ class Mastoidectomies(unittest.TestCase):
             files = [pathlib.Path(folder, f"{number}.pcap") for number in range(len(hands))]
             found = list(pool.map(rated, hands, files))
         points, most = [one["points"] for one in found], found[0]["most_points"]
-        self.assertGreaterEqual(points[0], most - 2, "a hand without a trainee's view has not the point for it, and the plan's last corners lie at the dura")
+        # A hand without a trainee's view has not the point for it, and the plan's last corners lie at the dura.
+        self.assertGreaterEqual(points[0], most - 2)
         self.assertEqual(points[0], max(points), points)
         by_bone = [points_without_force(one) for one in found]
         self.assertLess(max(by_bone[1:]), by_bone[0])
