@@ -190,6 +190,29 @@ class SessionTest(unittest.TestCase):
             again = om.repeat(file)
             self.assertTrue(again.is_equal, again.line)
 
+    def test_a_region_holds_off_a_head_of_any_shape_by_the_reports_own_measure(self):
+        off = "fixture=[{name='off', kind='forbidden', tissue='pulp', distance_mm=1, stiffness_n_per_mm=20, max_force_n=6}]"
+        axis = np.array([math.sin(0.5), 0.0, math.cos(0.5)])
+        height_mm = np.interp(np.arange(2500), (0, 300, 2000, 2500), (6.5, 4.5, -0.5, -0.5))
+        hand_mm = np.column_stack([np.full(2500, 0.5), np.full(2500, 0.2), height_mm])
+
+        def held(shape, *fixture):
+            """How near it came, mm, and the fixture's force at the end, N."""
+            case = tooth().with_(burr="1 mm", set=[f"burrs.1 mm.shape={shape}", "burrs.1 mm.length_mm=3", *fixture])
+            with tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder) / "held.pcap"
+                with om.Session(case, start_mm=hand_mm[0], start_axis=axis, record=file) as session:
+                    session.rollout(hand_mm, pedals=True)
+                    force_n = float(np.linalg.norm(session.now.fixture_force_n))
+                return om.Recording(file).metrics()["structure_nearest_mm_of"]["pulp"], force_n
+
+        self.assertLess(held("cylinder")[0], 0.4)
+        for shape in ("cylinder", "cone", "pear"):
+            nearest_mm, force_n = held(shape, off)
+            self.assertGreater(force_n, 0.5)
+            # F on 20 N/mm that come in over 0.5 mm: sqrt(2 F 0.5 / 20) in, less up to 0.26 mm by which the blend of its balls holds it off.
+            self.assertAlmostEqual(nearest_mm, 1.0 - math.sqrt(force_n / 20.0) + 0.1, delta=0.16, msg=f"{shape}, {force_n}")
+
     def test_a_step_says_the_fixtures_force(self):
         changes = ["fixture=[{name = 'gently', kind = 'slow', tissue = 'pulp', distance_mm = 3, spindle_share = 0.5},"
                    "{name = 'off', kind = 'forbidden', tissue = 'pulp', distance_mm = 4.5}]"]
