@@ -41,6 +41,8 @@ class BurrProfile {
     double tip_height() const { return chain_.front().height - rounding_; }
     double top_height() const { return chain_.back().height + rounding_; }
     double largest_radius() const { return largest_radius_; }
+    /// Radius of the edges: a ball of it that touches the outline from within, anywhere, lies in the head.
+    double rounding() const { return rounding_; }
     /// Radius of a ball about the point half-way up the spindle that holds all of the head.
     double bounding_radius() const;
 

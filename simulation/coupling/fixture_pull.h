@@ -43,6 +43,7 @@ class FixturePull {
         share_ = 0.0;
         has_burr_ = false;
         drag_n_s_per_mm_ = 0.0;
+        pulls_ = false;
         felt_ = {};
     }
 
@@ -54,6 +55,11 @@ class FixturePull {
         take_burr(burr);
         share_ = std::min(1.0, share_ + tick_s / come_in_s);
         changed_ = std::min(1.0, changed_ + tick_s / come_in_s);
+        if (on == 0 && drag_n_s_per_mm_ == 0.0) {
+            pulls_ = false;
+            felt_ = {};
+            return false;
+        }
         const FixturesHere here = fixtures_->at(pose, burr_, on);
         SpringAndDamper now = scaled(here.pull, share_ * changed_);
         double drag_n_s_per_mm = share_ * changed_ * here.drag_n_s_per_mm;
@@ -67,7 +73,8 @@ class FixturePull {
         at_rest_n_ = now.force_n;
         felt_ = {.force_n = now.force_n, .spindle_share = here.spindle_share, .acting = here.acting};
         resistance_n_per_mm_ = now.resistance_n_per_mm + now.damping_n_s_per_mm / tick_s;
-        if (now.is_none()) return false;
+        pulls_ = !now.is_none();
+        if (!pulls_) return false;
         pull.has_fixtures = true;
         pull.of_fixtures_n = at_rest_n_;
         pull.offset_n += at_rest_n_;
@@ -77,7 +84,7 @@ class FixturePull {
 
     /// Takes the burr's step in that tick.
     void settle(const glm::dvec3& step_mm) noexcept {
-        if (fixtures_) felt_.force_n = at_rest_n_ - resistance_n_per_mm_ * step_mm;
+        if (pulls_) felt_.force_n = at_rest_n_ - resistance_n_per_mm_ * step_mm;
     }
 
     /// At the end of the last tick.
@@ -105,6 +112,7 @@ class FixturePull {
     std::shared_ptr<const Fixtures> fixtures_;
     double share_ = 0.0;    // that has come in
     double changed_ = 1.0;  // of the change to this burr
+    bool pulls_ = false;    // in this tick
     bool has_burr_ = false;
     std::size_t burr_ = 0;
     std::size_t burr_before_ = 0;

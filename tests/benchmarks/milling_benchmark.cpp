@@ -203,55 +203,66 @@ BENCHMARK(LoopAtTenKilohertz)
     ->Unit(benchmark::kMillisecond);
 
 /// What fixtures add to a haptic tick: the default coupling's tick with a burr half a millimetre from a
-/// nerve, in air, without a fixture, with a guide, with a forbidden region and with a slow zone, in turn; all
-/// of them act. Counters: medians of a tick, in microseconds, each over that without.
+/// nerve, in air, without a fixture, with all of the following switched off, with a guide, a forbidden region
+/// and a slow zone, and with a forbidden region about a fissure burr, in turn; all act but those that are
+/// off. Counters: medians of a tick, in microseconds, each over that without.
 void TickWithFixture(benchmark::State& state) {
     const Grid grid{.size_voxels = {96, 96, 96}, .spacing_mm = 0.1, .origin_mm = {-4.75, -4.75, -4.75}};
     const std::vector<Structure> nerve{{.tissue = 0, .mask = testing::ball_mask(grid, glm::dvec3(0.0), 1.0)}};
     Scene scene;
     scene.tissues = {{.label = 7, .name = "nerve", .is_protected = true}};
-    scene.burrs = {{.name = "2 mm", .diameter_mm = 2.0}};
-    const auto coupling_with = [&](std::vector<Fixture> fixtures) {
-        scene.fixtures = std::move(fixtures);
-        for (Fixture& fixture : scene.fixtures) fixture.tissue = "nerve";
-        return make_coupling("implicit", {.device = in_patient_space(DeviceLimits(), ArmScale()),
-                                          .fixtures = make_fixtures(scene, nerve, 1.5)});
+    scene.burrs = {{.name = "2 mm", .diameter_mm = 2.0}, {.name = "fissure", .diameter_mm = 2.0}};
+    scene.burrs[1].head = usual_head(HeadShape::cylinder, 2.0, 4.0);
+    struct Tried {
+        const char* name;
+        std::vector<Fixture> fixtures;
+        FixtureSet on = every_fixture;
+        std::size_t burr = 0;
+        std::unique_ptr<Coupling> coupling{};
+        Times times{};
     };
     Fixture guide = usual_fixture(FixtureKind::guide);
     guide.path = PlaneGuide{{2.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
-    const std::vector<std::unique_ptr<Coupling>> couplings = [&] {
-        std::vector<std::unique_ptr<Coupling>> all;
-        all.push_back(coupling_with({}));
-        all.push_back(coupling_with({guide}));
-        all.push_back(coupling_with({usual_fixture(FixtureKind::forbidden)}));
-        all.push_back(coupling_with({usual_fixture(FixtureKind::slow)}));
-        return all;
-    }();
+    const Fixture forbidden = usual_fixture(FixtureKind::forbidden);
+    const Fixture slow = usual_fixture(FixtureKind::slow);
+    std::vector<Tried> all;
+    all.push_back({"without", {}});
+    all.push_back({"off", {guide, forbidden, slow}, 0});
+    all.push_back({"guide", {guide}});
+    all.push_back({"forbidden", {forbidden}});
+    all.push_back({"slow", {slow}});
+    all.push_back({"forbidden_fissure", {forbidden}, every_fixture, 1});
+    for (Tried& one : all) {
+        scene.fixtures = one.fixtures;
+        for (Fixture& fixture : scene.fixtures) fixture.tissue = "nerve";
+        one.coupling = make_coupling("implicit", {.device = in_patient_space(DeviceLimits(), ArmScale()),
+                                                  .fixtures = make_fixtures(scene, nerve, 1.5)});
+    }
     // A tick is short beside a reading of the clock: so many are timed at once.
     constexpr int ticks = 100;
-    std::vector<Times> times(couplings.size());
     const auto latest = std::make_unique<MillingResult>();
     double time_s = 0.0;
-    const auto tick = [&](Coupling& coupling, double now_s) {
+    const auto tick = [&](Tried& one, double now_s) {
         const glm::dvec3 hand_mm(2.5 + 0.05 * std::sin(10.0 * now_s), 0.1, 0.0);
-        benchmark::DoNotOptimize(coupling.tick({.now_s = now_s, .pose = {hand_mm, up}}, *latest));
+        benchmark::DoNotOptimize(one.coupling->tick(
+            {.now_s = now_s, .pose = {hand_mm, up}, .burr = one.burr, .fixtures_on = one.on}, *latest));
     };
     for ([[maybe_unused]] auto _ : state) {
-        for (std::size_t i = 0; i < couplings.size(); ++i) {
-            times[i].time([&] {
-                for (int j = 0; j < ticks; ++j) tick(*couplings[i], time_s + 0.001 * j);
+        for (Tried& one : all)
+            one.times.time([&] {
+                for (int j = 0; j < ticks; ++j) tick(one, time_s + 0.001 * j);
             });
-        }
         time_s += 0.001 * ticks;
-        state.SetIterationTime(1e-6 * times[0].last_us() / ticks);
+        state.SetIterationTime(1e-6 * all.front().times.last_us() / ticks);
     }
-    const double without_us = times[0].percentile_us(0.5);
+    const double without_us = all.front().times.percentile_us(0.5);
     state.counters["without_p50_us"] = without_us / ticks;
-    const char* const names[] = {"without", "guide", "forbidden", "slow"};
-    for (std::size_t i = 1; i < times.size(); ++i) {
-        if (couplings[i]->felt_fixtures().acting == 0) state.SkipWithError("a fixture does not act");
-        state.counters[std::string(names[i]) + "_p50_us"] = times[i].percentile_us(0.5) / ticks;
-        state.counters[std::string(names[i]) + "_times"] = times[i].percentile_us(0.5) / without_us;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        const Tried& one = all[i];
+        if ((one.coupling->felt_fixtures().acting == 0) != (one.on == 0))
+            state.SkipWithError("a fixture does not act, or one that is off does");
+        state.counters[std::string(one.name) + "_p50_us"] = one.times.percentile_us(0.5) / ticks;
+        state.counters[std::string(one.name) + "_times"] = one.times.percentile_us(0.5) / without_us;
     }
 }
 BENCHMARK(TickWithFixture)->Iterations(300)->UseManualTime()->Unit(benchmark::kMicrosecond);

@@ -53,19 +53,34 @@ def rated(cavity, file):
         return recording.rating()
 
 
+def points_without_force(rating):
+    """Of the items that the finished bone decides alone."""
+    return sum(one["points"] for one in rating["items"] if one["is_reached"] and "force" not in one["when"])
+
+
 class Mastoidectomies(unittest.TestCase):
     def check(self, bolder, more_timid):
-        """After the best hand some go ever deeper and wider, to the labyrinth; then some leave ever more of the way to the antrum."""
+        """After the best hand some go ever deeper and wider, to the labyrinth; then some leave ever more of the way to the antrum.
+
+        By the bone that they leave they come in their order. The two items of force may change neighbours: they compare a hand to itself.
+        So the first timid hand, 13.4 mm deep, has a point less than the second, 12 mm deep: both lack the free way to the antrum (75 and
+        57 % of the plan) and have all else that bone decides, but near the dura the first cuts with 1.10 times its own force elsewhere,
+        the second, which is farther from it, with 0.83.
+        """
         hands = [BEST, *bolder, *more_timid]
         with tempfile.TemporaryDirectory() as folder, \
                 concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as pool:
             files = [pathlib.Path(folder, f"{number}.pcap") for number in range(len(hands))]
             found = list(pool.map(rated, hands, files))
         points, most = [one["points"] for one in found], found[0]["most_points"]
-        self.assertGreaterEqual(points[0], most - 2, "a hand without a trainee's view has not the point for it, and the plan's last corners lie at the dura")
+        # A hand without a trainee's view has not the point for it, and the plan's last corners lie at the dura.
+        self.assertGreaterEqual(points[0], most - 2)
         self.assertEqual(points[0], max(points), points)
-        for row in ([points[0], *points[1 : 1 + len(bolder)]], [points[0], *points[1 + len(bolder) :]]):
-            self.assertEqual(row[-1], min(row), points)
-            self.assertLess(row[-1], row[0], points)
+        by_bone = [points_without_force(one) for one in found]
+        self.assertLess(max(by_bone[1:]), by_bone[0])
+        for row in (range(1 + len(bolder)), [0, *range(1 + len(bolder), len(hands))]):
+            self.assertEqual([by_bone[hand] for hand in row], sorted((by_bone[hand] for hand in row), reverse=True))
+            self.assertEqual(points[row[-1]], min(points[hand] for hand in row), points)
+            self.assertLess(points[row[-1]], points[0], points)
             for better, worse in zip(row, row[1:]):
-                self.assertLessEqual(worse, better + 1, f"neighbours may differ by a point, the least that the scale can tell: {points}")
+                self.assertLessEqual(points[worse], points[better] + 1, f"neighbours may change by a point: {points}")

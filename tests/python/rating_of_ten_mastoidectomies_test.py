@@ -1,4 +1,4 @@
-"""The mastoid's rating puts the best and the worst of ten simulated hands into their order, and those between them to within a point."""
+"""The mastoid's rating puts ten simulated hands into their order by the bone that they leave; the items of force change neighbours by a point at most."""
 
 import unittest
 

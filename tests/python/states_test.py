@@ -267,8 +267,27 @@ class StudyTest(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "session.pcap: is of another bone than this case has"):
                 states_motions.recorded_path(file, om.Case("cube"))
 
+    def test_a_trajectory_gives_its_own_path(self):
+        lines = ["t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal", "1.0,0,0,9,0,0,1,0", "1.01,0,0,7,0,0,2,1", "1.02,1,0,7,1,0,1,1"]
+        case = tooth().with_(burr="2 mm")
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "path.csv")
+            file.write_text("\n".join(lines))
+            path = states_motions.trajectory_path(file, case)
+            self.assertEqual((len(path.positions_mm), path.burr), (21, case.start_burr))
+            np.testing.assert_allclose(path.positions_mm[[0, 5, 10, 15, 20]], [[0, 0, 9], [0, 0, 8], [0, 0, 7], [0.5, 0, 7], [1, 0, 7]])
+            np.testing.assert_allclose(path.axes[[0, 10, 20]], [[0, 0, 1], [0, 0, 1], [np.sqrt(0.5), 0, np.sqrt(0.5)]])
+            np.testing.assert_array_equal(path.spindle_on, np.arange(21) >= 10)
+            for wrong, line in ((lines[:2], "a path lasts at least a millisecond"), ([lines[0], "1,2"], "path.csv"),
+                                ([lines[0] + ",burr", lines[1] + ",0", lines[2] + ",1"], "has 2 burrs in use: a motion is of one")):
+                file.write_text("\n".join(wrong))
+                with self.assertRaisesRegex((ValueError, RuntimeError), line) as raised:
+                    states_motions.trajectory_path(file, case)
+                self.assertNotIn("\n", str(raised.exception))
+
     def test_bad_input_is_one_line(self):
         for words, line in (
+            (("--trajectory", __file__), "--trajectory requires --case, the case that it is of"),
             (("--recording", __file__), "--recording requires --case, the case that was recorded"),
             (("--case", "cube", "--plates", "3"), "--plates excludes --case"),
             (("--every", "0"), "--every: Value 0 not in range 1 to 1000"),

@@ -3,6 +3,7 @@
 import math
 import pathlib
 import tempfile
+import types
 import unittest
 
 import numpy as np
@@ -59,6 +60,7 @@ class AssistTest(unittest.TestCase):
             effects = pd.read_csv(out / "effects.csv")
             for chart in ("assist", "effects"):
                 self.assertIn("</svg>", (out / f"{chart}.svg").read_text())
+            page = (out / "assist.html").read_text()
         recorded, without, soft, hard = (table.iloc[row] for row in range(4))
         self.assertEqual(list(table["fixture"]), ["as recorded", "without", "with", "with"])
         self.assertGreater(recorded["structure_mm3"], 0.2)
@@ -73,6 +75,24 @@ class AssistTest(unittest.TestCase):
         self.assertAlmostEqual(milled["difference"], hard["structure_mm3"] - without["structure_mm3"], places=5)
         self.assertTrue(math.isnan(milled["low"]), "a single trainee has no interval")
         self.assertIn("stiff grip, 10 N/mm: milled of protected structures", said)
+        self.assertEqual(page.count("</svg>"), 2)
+        self.assertNotIn("<script", page)
+        self.assertIn("1 recording of 1 trainee", page)
+        self.assertIn("name = &#34;Off the pulp&#34;", page)
+        numbers = [f"{milled[column]:.3g}" for column in ("mean_without", "mean_with", "difference")]
+        row = "<td>stiff grip, 10 N/mm</td><td>milled of protected structures, mm³</td>" + "".join(f"<td class='n'>{one}</td>" for one in ("1", *numbers, "–"))
+        self.assertIn(row, page)
+
+    def test_another_burr_and_speed_take_the_place_of_those_recorded(self):
+        words = ("--recordings", str(self.hands), "--fixture", str(self.fixture), "--stiffness", "10", "--grips", "stiff")
+        with run_of("assist", assist, *words, "--burr", "1.5 mm", "--rpm", "80000", jobs=1) as (out, _):
+            recorded, without, helped = (row for _, row in pd.read_csv(out / "assist.csv").iterrows())
+            self.assertIn("In place of what was recorded: burr 1.5 mm, 80000 rpm.", (out / "assist.html").read_text())
+        # A hole half as wide again has 2.25 times the section; the hand, which is pushed back more, goes less deep.
+        self.assertGreater(without["removed_mm3"], 1.2 * recorded["removed_mm3"])
+        self.assertLess(without["removed_mm3"], 2.3 * recorded["removed_mm3"])
+        self.assertGreater(helped["fixture_s"], 0.5)
+        self.assertLess(helped["removed_mm3"], without["removed_mm3"])
 
     def test_says_in_a_line_what_is_wrong(self):
         def refusal(text, *words):
@@ -87,6 +107,19 @@ class AssistTest(unittest.TestCase):
         self.assertIn("is no TOML", refusal("[[fixture"))
         self.assertIn("no protected tissue of the scene", refusal(OFF_THE_PULP.replace("pulp\"\nd", "enamel\"\nd"), "--grips", "firm"))
         self.assertIn("began with another bone", refusal(OFF_THE_PULP, "--grips", "firm", "--case", "cube"))
+        self.assertIn("9 mm", refusal(OFF_THE_PULP, "--grips", "firm", "--burr", "9 mm"))
+
+
+class _SteadyForce:
+    """In the place of a session: one force, wherever the hand goes."""
+
+    def __init__(self, force_n):
+        self.now = types.SimpleNamespace(force_n=np.array([force_n, 0.0, 0.0]), fault="", fixture_force_n=np.zeros(3))
+        self.hand_mm = []
+
+    def step(self, hand_mm, **_):
+        self.hand_mm.append(hand_mm)
+        return self.now
 
 
 class HandTest(unittest.TestCase):
@@ -101,6 +134,28 @@ class HandTest(unittest.TestCase):
             self.assertTrue(felt.came_to_end)
             self.assertAlmostEqual(felt.time_s, 1.499, places=3)
             self.assertEqual((felt.peak_force_n, felt.energy_to_hand_mj), (0.0, 0.0))
+
+    def test_swings_under_a_force_as_mass_spring_and_damper_do(self):
+        """From rest under a steady force a body of m, K and B goes to F / K and beyond it by exp(-pi z / sqrt(1 - z^2)) of that, after half of
+        a swing of w sqrt(1 - z^2), with w^2 = K / m and z = B / (2 sqrt(K m))."""
+        force_n, ticks = 0.15, 8000
+        hand = RecordedHand(np.zeros((ticks, 3)), np.tile([0.0, 0.0, 1.0], (ticks, 1)), np.zeros((ticks, 3)), np.zeros(ticks, bool),
+                            np.zeros(ticks, np.uint8))
+        for name, grip in GRIPS.items():
+            pushed = _SteadyForce(force_n)
+            felt = assisted_hand.play(pushed, hand, grip)
+            kg, n_per_m, n_s_per_m = 0.045 + grip.mass_kg, 1e3 * grip.stiffness_n_per_mm, 1e3 * grip.damping_n_s_per_mm
+            damping = n_s_per_m / (2.0 * math.sqrt(n_per_m * kg))
+            slower = math.sqrt(1.0 - damping**2)
+            rest_mm = force_n / grip.stiffness_n_per_mm
+            beyond_mm = rest_mm * math.exp(-math.pi * damping / slower)
+            way_mm = np.array(pushed.hand_mm)[:, 0]
+            peak = int(np.argmax(way_mm > 0.999 * way_mm.max()))
+            with self.subTest(name):
+                self.assertAlmostEqual(way_mm[-1] / rest_mm, 1.0, delta=0.01)
+                self.assertAlmostEqual(way_mm.max() / (rest_mm + beyond_mm), 1.0, delta=0.02)
+                self.assertAlmostEqual(0.001 * peak / (math.pi / (math.sqrt(n_per_m / kg) * slower)), 1.0, delta=0.05)
+                self.assertAlmostEqual(felt.energy_to_hand_mj / (force_n * way_mm.max()), 1.0, delta=0.01)
 
     def test_waits_for_its_tool(self):
         self.assertEqual([assisted_hand._pace(apart) for apart in (0.0, 1.0, 2.0, 3.0, 9.0)], [1.0, 1.0, 0.5, 0.05, 0.05])
@@ -134,6 +189,29 @@ class SessionTest(unittest.TestCase):
             self.assertIn("[[fixture]]", om.Recording(file).info()["scene_toml"])
             again = om.repeat(file)
             self.assertTrue(again.is_equal, again.line)
+
+    def test_a_region_holds_off_a_head_of_any_shape_by_the_reports_own_measure(self):
+        off = "fixture=[{name='off', kind='forbidden', tissue='pulp', distance_mm=1, stiffness_n_per_mm=20, max_force_n=6}]"
+        axis = np.array([math.sin(0.5), 0.0, math.cos(0.5)])
+        height_mm = np.interp(np.arange(2500), (0, 300, 2000, 2500), (6.5, 4.5, -0.5, -0.5))
+        hand_mm = np.column_stack([np.full(2500, 0.5), np.full(2500, 0.2), height_mm])
+
+        def held(shape, *fixture):
+            """How near it came, mm, and the fixture's force at the end, N."""
+            case = tooth().with_(burr="1 mm", set=[f"burrs.1 mm.shape={shape}", "burrs.1 mm.length_mm=3", *fixture])
+            with tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder) / "held.pcap"
+                with om.Session(case, start_mm=hand_mm[0], start_axis=axis, record=file) as session:
+                    session.rollout(hand_mm, pedals=True)
+                    force_n = float(np.linalg.norm(session.now.fixture_force_n))
+                return om.Recording(file).metrics()["structure_nearest_mm_of"]["pulp"], force_n
+
+        self.assertLess(held("cylinder")[0], 0.4)
+        for shape in ("cylinder", "cone", "pear"):
+            nearest_mm, force_n = held(shape, off)
+            self.assertGreater(force_n, 0.5)
+            # F on 20 N/mm that come in over 0.5 mm: sqrt(2 F 0.5 / 20) in, less up to 0.26 mm by which the blend of its balls holds it off.
+            self.assertAlmostEqual(nearest_mm, 1.0 - math.sqrt(force_n / 20.0) + 0.1, delta=0.16, msg=f"{shape}, {force_n}")
 
     def test_a_step_says_the_fixtures_force(self):
         changes = ["fixture=[{name = 'gently', kind = 'slow', tissue = 'pulp', distance_mm = 3, spindle_share = 0.5},"

@@ -15,11 +15,12 @@ import pandas as pd
 
 from osteomill import Case, Recording, Session, _studies
 from osteomill.studies.assisted_hand import GRIPS, RecordedHand, inline_tables, play, read_fixtures, with_stiffness
-from osteomill.studies.options import existing_file, listed, number_within, one_of
+from osteomill.studies.options import existing_file, listed, number_above_zero, number_within, one_of
 from osteomill.studies.study_run import StudyRun
 
 NAME = "assist"
 HELP = "recorded hands once more, with and without a virtual fixture: damage, time, force"
+WRITES = ("*.csv", "*.json", "*.svg", "assist.html")
 
 # Column, as people are told of it, its unit.
 OUTCOMES = (("structure_mm3", "milled of protected structures", "mm³"), ("structure_touches", "touches of them", ""),
@@ -37,6 +38,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--grips", type=listed(one_of(*GRIPS)), default=list(GRIPS), metavar="GRIP,...",
                         help=f"of {', '.join(GRIPS)} (default: all)")
     parser.add_argument("--case", metavar="NAME|DIR", help="that was recorded (default: the built-in one that the recordings name)")
+    parser.add_argument("--burr", metavar="NAME", help="of the case's burrs, in place of those that were recorded")
+    parser.add_argument("--rpm", type=number_above_zero, help="of the spindle (default: the burr's own)")
 
 
 def measure(asked: dict[str, Any]) -> dict[str, Any]:
@@ -45,11 +48,11 @@ def measure(asked: dict[str, Any]) -> dict[str, Any]:
     if asked["grip"] is None:
         return _damage(recording, recording.metrics()) | {"time_s": recording.metrics()["time_s"]}
     hand = RecordedHand.of(recording)
-    case = _case(asked["case"] or recording.info()["case"], tuple(asked["set"]))
+    case = _case(asked["case"] or recording.info()["case"], asked["burr"], asked["rpm"], tuple(asked["set"]))
     with tempfile.TemporaryDirectory(prefix="osteomill-assist-") as folder:
         file = pathlib.Path(folder, "played.pcap")
         with Session(case, start_mm=hand.hand_mm[0], start_axis=hand.axis[0], record=file) as session:
-            felt = play(session, hand, GRIPS[asked["grip"]])
+            felt = play(session, hand, GRIPS[asked["grip"]], burr=None if asked["burr"] is None else case.start_burr)
         played = Recording(file)
         _require_same_bone(recording, played)
         return _damage(played, played.metrics()) | {
@@ -59,8 +62,8 @@ def measure(asked: dict[str, Any]) -> dict[str, Any]:
 
 
 @functools.lru_cache(4)
-def _case(name: str, changes: tuple[str, ...]) -> Case:
-    return Case(name, set=list(changes))
+def _case(name: str, burr: str | None, rpm: float | None, changes: tuple[str, ...]) -> Case:
+    return Case(name, burr=burr, rpm=rpm, set=list(changes))
 
 
 def _require_same_bone(recording: Recording, played: Recording) -> None:
@@ -84,7 +87,7 @@ def cases_of(options: argparse.Namespace) -> list[dict[str, Any]]:
     fixtures = read_fixtures(options.fixture)
     made: list[dict[str, Any]] = []
     for file in recordings_in([options.recordings]):
-        shared = {"recording": str(file), "case": options.case}
+        shared = {"recording": str(file), "case": options.case, "burr": options.burr, "rpm": options.rpm}
         made.append(shared | {"grip": None, "fixture": RECORDED, "stiffness_n_per_mm": None, "set": []})
         for grip in options.grips:
             made.append(shared | {"grip": grip, "fixture": WITHOUT, "stiffness_n_per_mm": None, "set": []})
@@ -140,18 +143,25 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
     trainees = {case["recording"]: _studies.read_session(case["recording"])["trainee"] for case in cases if case["grip"] is None}
     table = table_of(cases, outcomes, trainees)
     effects = effects_of(table)
-    from osteomill.studies import assist_charts
+    from osteomill.studies import assist_charts, assist_page
 
+    drawn = {"assist": assist_charts.outcomes(table), "effects": assist_charts.effects(effects)}
     study.table("assist", table)
     study.table("effects", effects)
-    study.chart("assist", assist_charts.outcomes(table))
-    study.chart("effects", assist_charts.effects(effects))
+    for name, figure in drawn.items():
+        study.chart(name, figure)
+    study.text("assist.html", assist_page.page(table, effects, drawn, options.fixture.read_text(), _tools_text(options)))
     for _, row in effects.iterrows():
         if row["outcome"] == "structure_mm3":
             interval = "" if pd.isna(row["low"]) else f" ({row['low']:.3g} to {row['high']:.3g})"
             study.say(f"{row['grip']} grip{_stiffness_text(row['stiffness_n_per_mm'])}: milled of protected structures {row['mean_without']:.3g} -> "
                       f"{row['mean_with']:.3g} mm3, {row['difference']:+.3g}{interval}, {row['trainees']} trainees")
-    study.say(f"assist and effects: tables (CSV) and charts (SVG) are in {study.out}")
+    study.say(f"assist and effects: tables (CSV), charts (SVG) and a page with both (assist.html) are in {study.out}")
+
+
+def _tools_text(options: argparse.Namespace) -> str:
+    """In place of what was recorded; empty: nothing is."""
+    return ", ".join([*([f"burr {options.burr}"] if options.burr else []), *([f"{options.rpm:g} rpm"] if options.rpm else [])])
 
 
 def _stiffness_text(n_per_mm: Any) -> str:

@@ -38,7 +38,7 @@ def outcomes(table: pd.DataFrame) -> Figure:
         if key in recorded and recorded[key].notna().any():
             axes.axhline(float(recorded.groupby("trainee")[key].mean().mean()), color=charts.GREY, linestyle="--")
         # Rounding is no energy.
-        axes.set(ylabel=_labelled(text, unit), ylim=(0.0, max(LEAST_SHOWN, axes.get_ylim()[1])))
+        axes.set(ylabel=_labelled(text, unit), ylim=(0.0, 1.05 * max(LEAST_SHOWN, axes.get_ylim()[1])))
     panels[0].legend()
     return figure
 
@@ -61,6 +61,7 @@ def effects(table: pd.DataFrame) -> Figure:
                 axes.plot([row["low"], row["high"]], [place, place], color=charts.BLUE, linewidth=2.0)
             axes.plot([row["difference"]], [place], marker="o", color=charts.BLUE)
         axes.axvline(0.0, color=charts.GREY, linewidth=1.0)
+        axes.set_xlim(min(axes.get_xlim()[0], -LEAST_SHOWN), max(axes.get_xlim()[1], LEAST_SHOWN))
         axes.set_yticks(range(len(names)), names)
         axes.set(xlabel=_labelled(text, unit), ylim=(len(names) - 0.5, -0.5))
     return figure

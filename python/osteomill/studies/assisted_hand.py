@@ -69,8 +69,8 @@ class Felt:
     force_off_s: float  # a fault had turned the force off
 
 
-def play(session: Session, hand: RecordedHand, grip: Grip) -> Felt:
-    """Moves a session that begins where the hand does."""
+def play(session: Session, hand: RecordedHand, grip: Grip, burr: int | None = None) -> Felt:
+    """Moves a session that begins where the hand does; `burr`: in place of those that were recorded."""
     mass = 1e-3 * (ARM_KG + grip.mass_kg)  # N s^2/mm
     dt = TICK_S / SUBSTEPS
     last = len(hand.hand_mm) - 1
@@ -95,7 +95,7 @@ def play(session: Session, hand: RecordedHand, grip: Grip) -> Felt:
         most_given = max(most_given, given)
         axis = _between(hand.axis, recorded)
         row = int(recorded)
-        step = session.step(hand_mm=at, axis=axis / np.linalg.norm(axis), pedal=bool(hand.pedal[row]), burr=int(hand.burr[row]))
+        step = session.step(hand_mm=at, axis=axis / np.linalg.norm(axis), pedal=bool(hand.pedal[row]), burr=int(hand.burr[row]) if burr is None else burr)
         force = step.force_n
         peak = max(peak, float(np.sqrt(force @ force)))
         force_off += step.fault != ""

@@ -26,6 +26,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                         help="so many plates of cortical, cancellous and cortical bone, drawn at random (10)")
     parser.add_argument("--case", metavar="NAME|DIR", help="a case that is built in, or the folder of one, in the place of plates")
     parser.add_argument("--recording", type=existing_file, metavar="FILE", help="the path of a recording of --case, in the place of generated ones")
+    parser.add_argument("--trajectory", type=existing_file, metavar="FILE.csv", help="a path over --case, as of haptic_server --trajectory, likewise")
     parser.add_argument("--burr", metavar="NAME", help="of the case's burrs, a ball (4 mm where there is one)")
     parser.add_argument("--rpm", type=number_above_zero, help="of the spindle (the burr's own)")
     parser.add_argument("--randoms", type=whole_within(0, 1000), metavar="N", help="random dives in each bone (2)")
@@ -38,17 +39,20 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def motions_asked(options: argparse.Namespace) -> list[Motion]:
     """UsageError for options that do not go together."""
-    if options.recording and not options.case:
-        raise UsageError("--recording requires --case, the case that was recorded")
+    given = next((name for name in ("recording", "trajectory") if getattr(options, name)), None)
+    if options.recording and options.trajectory:
+        raise UsageError("--recording excludes --trajectory")
+    if given and not options.case:
+        raise UsageError(f"--{given} requires --case, the case that " + ("was recorded" if given == "recording" else "it is of"))
     for name in ("plates", "randoms", "quick"):
-        if options.recording and getattr(options, name) not in (None, False):
-            raise UsageError(f"--recording excludes --{name}")
+        if given and getattr(options, name) not in (None, False):
+            raise UsageError(f"--{given} excludes --{name}")
     if options.case and options.plates:
         raise UsageError("--plates excludes --case")
     shared = {key: value for key in ("burr", "rpm") if (value := getattr(options, key)) is not None}
-    if options.recording:
-        motions: list[Motion] = [shared | {"number": 0, "seed": options.seed, "case": options.case, "kind": "recording",
-                                           "recording": str(options.recording)}]
+    if given:
+        motions: list[Motion] = [shared | {"number": 0, "seed": options.seed, "case": options.case, "kind": given,
+                                           given: str(getattr(options, given))}]
     else:
         bones = [{"case": options.case}] if options.case else [
             {"plate": number} for number in range(options.plates or (5 if options.quick else 10))]

@@ -1,4 +1,4 @@
-"""Bones and paths of the study `states`: layered plates, and motions over them, over a case, or of a recording.
+"""Bones and paths of the study `states`: layered plates, and motions over them, over a case, of a recording, or of a table.
 
 A motion is a dict that JSON can say, so that it is worked out anywhere: which bone, which path, which seed. The published motions
 (doi 10.1186/s40001-023-01154-y): a 4 mm burr that leans by 45 degrees at 0.5 mm/s, slots 0.5, 1 and 1.5 mm deep.
@@ -132,6 +132,8 @@ def path_of(motion: Motion, case: Case) -> Path:
     """ValueError in one line where the motion finds no bone."""
     if "recording" in motion:
         return recorded_path(pathlib.Path(motion["recording"]), case)
+    if "trajectory" in motion:
+        return trajectory_path(pathlib.Path(motion["trajectory"]), case)
     rng = np.random.default_rng([motion["seed"], 4, motion["number"]])
     up, start = case.start_axis, np.zeros(3) if "plate" in motion else case.start_mm
     across = np.linalg.svd(up[None])[2][1:]  # two directions across it
@@ -200,3 +202,28 @@ def recorded_path(file: pathlib.Path, case: Case) -> Path:
     if len(burrs) != 1:
         raise ValueError(f"{file}: has {len(burrs)} burrs in use: a motion is of one")
     return Path(ticks["burr_mm"], ticks["axis"], np.asarray(ticks["spindle_on"], bool), int(burrs[0]))
+
+
+def trajectory_path(file: pathlib.Path, case: Case) -> Path:
+    """Of a table of waypoints (docs/scenes.md), straight from one to the next; its pedal is the spindle. RuntimeError in one line for one that
+    haptic_server would refuse, ValueError for several burrs or less than two milliseconds."""
+    import pandas as pd
+
+    case.with_(trajectory=file)  # refuses what is no trajectory of this case
+    table = pd.read_csv(file, comment="#")
+    burrs = table["burr"].unique() if "burr" in table else np.array([case.start_burr])
+    if len(burrs) != 1:
+        raise ValueError(f"{file}: has {len(burrs)} burrs in use: a motion is of one")
+    at_s = table["t_s"].to_numpy(float)
+    time_s = at_s[0] + 0.001 * np.arange(math.floor(1000.0 * (at_s[-1] - at_s[0]) + 1e-6) + 1)
+    if len(time_s) < 2:
+        raise ValueError(f"{file}: a path lasts at least a millisecond")
+    axes = table[["axis_x", "axis_y", "axis_z"]].to_numpy(float)
+    axes = _between(time_s, at_s, axes / np.linalg.norm(axes, axis=1)[:, None])
+    pedal = table["pedal"].to_numpy(bool)[np.searchsorted(at_s, time_s + 1e-9, "right") - 1]
+    return Path(_between(time_s, at_s, table[["x_mm", "y_mm", "z_mm"]].to_numpy(float)),
+                axes / np.linalg.norm(axes, axis=1)[:, None], pedal, int(burrs[0]))
+
+
+def _between(time_s: Array, at_s: Array, rows: Array) -> Array:
+    return np.stack([np.interp(time_s, at_s, column) for column in rows.T], axis=1)
