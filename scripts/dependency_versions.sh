@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# The version of each library and tool that the project is built with, in Debian's suites, as a table of Markdown.
+# The version of each library and tool that the project is built and tested with, in Debian's suites, as a table of Markdown.
 #   scripts/dependency_versions.sh SUITE...      such as: bookworm trixie
 # Reads the suites' package lists from OSTEOMILL_MIRROR (http://deb.debian.org/debian); installs nothing and needs no root.
 set -euo pipefail
 [ $# -gt 0 ] || { sed -n '2,/^set/{/^#/p}' "$0" >&2; exit 2; }
 cd "$(dirname "$0")/.."
-mapfile -t packages < <(printf '%s\n' g++ cmake python3; grep '^python3-' scripts/packages.txt | grep -v '^python3-dev$'; grep -e '-dev$' scripts/packages.txt | grep -v '^python3-')
+mapfile -t packages < <(grep -hv '^#' scripts/packages.txt scripts/test_packages.txt)
 
 apt=$(mktemp -d)
 trap 'rm -rf "$apt"' EXIT

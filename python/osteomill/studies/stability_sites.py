@@ -18,7 +18,7 @@ from osteomill.studies.study_run import StudyRun
 
 Case = dict[str, Any]
 
-#: 
+# Each number's name, its bar, and its bar at a breakthrough.
 BARS = {
     "energy_over_rigid_mj": ("energy over a rigid burr's, mJ", 5.0, 5.0),
     "stuck_ms": ("force while nothing is cut, ms", 50.0, 50.0),
