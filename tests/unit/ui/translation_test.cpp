@@ -200,7 +200,7 @@ std::set<std::string> server_words() {
                 const std::string text = literal_at(source, at);
                 words.insert({text, with_plain_places(text)});
             }
-    // What is wrong with a recording, behind the place in it.
+    // Faults of a recording, behind the place in it.
     const std::string in_recording = ", packet {} at byte {}: ";
     words.insert(in_recording + "{}");
     for (const char* folder : {"common/recording", "common/wire"})
