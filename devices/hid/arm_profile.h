@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "simulation/device/measured_arm.h"
+
 namespace osteomill {
 
 /// Which USB device it is.
@@ -58,8 +60,9 @@ struct ArmProfile {
     double max_stiffness_n_per_m = 0.0;
     double max_current_a = 0.0;
     SwitchUse switch_use = SwitchUse::pedal;
-    std::optional<StylusEncoders> stylus;  ///< none: the spindle's direction is fixed
-    glm::dvec3 fixed_axis{0.0, 0.0, 1.0};  ///< unit, device space; the axis in that case
+    std::optional<StylusEncoders> stylus;   ///< none: the spindle's direction is fixed
+    glm::dvec3 fixed_axis{0.0, 0.0, 1.0};   ///< unit, device space; the axis in that case
+    std::optional<MeasuredArm> measured{};  ///< what was measured on this very arm
 };
 
 }  // namespace osteomill

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include "common/scene/toml_reader.h"
 #include "common/scene/toml_text.h"
 #include "devices/hid/shipped_profiles.h"
+#include "devices/measured/measured_profile.h"
 
 namespace osteomill {
 
@@ -138,6 +140,7 @@ ArmProfile parse_arm_profile(std::string_view toml, const std::string& name) {
     TomlReader reader(root, name, "the profile");
     ArmProfile profile;
     profile.name = required(reader, "name", reader.text("name"));
+    if (auto measured = reader.table("measured")) profile.measured = read_measured(*std::move(measured));
     if (auto usb = reader.table("usb")) profile.usb = read_usb(*std::move(usb));
     read_arm(required(reader, "arm", reader.table("arm")), profile);
     std::vector<TomlReader> joints = reader.tables("joints");
@@ -158,18 +161,23 @@ std::vector<std::string> shipped_profile_names() {
     return names;
 }
 
-ArmProfile load_arm_profile(const std::string& name_or_file) {
-    for (const ShippedProfile& shipped : shipped_profiles()) {
-        if (shipped.name == name_or_file)
-            return parse_arm_profile(shipped.toml, fmt::format("devices/{}.toml", shipped.name));
-    }
+std::string arm_profile_text(const std::string& name_or_file) {
+    for (const ShippedProfile& shipped : shipped_profiles())
+        if (shipped.name == name_or_file) return std::string(shipped.toml);
     if (std::filesystem::path(name_or_file).extension() != ".toml") {
         const auto meant = nearest_name(name_or_file, shipped_profile_names());
         throw std::runtime_error(fmt::format(
             "there is no profile '{}'; {}choose one of {}, or name a .toml file", name_or_file,
             meant ? fmt::format("did you mean {}? ", *meant) : "", fmt::join(shipped_profile_names(), ", ")));
     }
-    return parse_arm_profile(read_toml_text(name_or_file, "a device profile"), name_or_file);
+    return read_toml_text(name_or_file, "a device profile");
+}
+
+ArmProfile load_arm_profile(const std::string& name_or_file) {
+    const bool is_shipped = std::ranges::any_of(
+        shipped_profiles(), [&](const ShippedProfile& shipped) { return shipped.name == name_or_file; });
+    return parse_arm_profile(arm_profile_text(name_or_file),
+                             is_shipped ? fmt::format("devices/{}.toml", name_or_file) : name_or_file);
 }
 
 }  // namespace osteomill

@@ -17,6 +17,9 @@ ArmProfile parse_arm_profile(std::string_view toml, const std::string& name);
 /// The profiles that are built in, from devices/*.toml.
 std::vector<std::string> shipped_profile_names();
 
+/// The text of one; as load_arm_profile finds it.
+std::string arm_profile_text(const std::string& name_or_file);
+
 /// A shipped profile by its name, or a file by its path (which ends in .toml). Throws SceneError, or
 /// std::runtime_error if there is neither, naming the shipped ones.
 ArmProfile load_arm_profile(const std::string& name_or_file);

@@ -19,6 +19,7 @@
 #include "haptic_server/monitoring/metrics_page.h"
 #include "haptic_server/monitoring/metrics_text.h"
 #include "haptic_server/program/end_places.h"
+#include "haptic_server/program/measuring.h"
 #include "haptic_server/program/report_folder.h"
 #include "haptic_server/program/resident_memory.h"
 #include "haptic_server/program/status_line.h"
@@ -148,6 +149,10 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
     }
     if (options.checks_machine) return check(options, output);
     if (options.logs_json) output.err->use_json();
+    if (options.measures_into) {
+        require_place_for(options.measures_into);
+        return run_measuring(options, stop_flag(), output);
+    }
     const auto began = std::chrono::steady_clock::now();
     if (options.outputs.report) prepare_report_folder(*options.outputs.report);
     for (const auto& file : {options.outputs.save_bone, options.outputs.json, options.outputs.json_histograms,

@@ -14,6 +14,7 @@
 #include "common/files/distinct_files.h"
 #include "haptic_server/program/report_folder.h"
 #include "haptic_server/program/typed_server_options.h"
+#include "haptic_server/session/measured_device.h"
 #include "haptic_server/session/session_defaults.h"
 #include "imaging/case/case_folder.h"
 
@@ -120,6 +121,7 @@ std::vector<NamedFile> files_of(const ServerOptions& options, const AccessOption
     add("--log-milling-csv", options.logs.milling, true);
     if (!outputs.report) add("--record", options.record, true);
     add("--save-bone", outputs.save_bone, true);
+    add(save_profile_flag, options.measures_into, true);
     if (outputs.save_bone)
         for (const char* const ending : mesh_ending_list)
             add("--save-bone (a surface)",
@@ -148,6 +150,29 @@ void require_host_names(const TypedServerOptions& typed) {
             throw std::invalid_argument(fmt::format(
                 "--metrics-host: '{}' is no host name; take one without port and path, such as monitor.lab",
                 name));
+}
+
+/// The profile to write; nothing if no arm is measured.
+std::optional<std::filesystem::path> measured_profile(const TypedServerOptions& typed,
+                                                      const DeviceEntry& device) {
+    if (!typed.measures_arm && !typed.save_profile.empty())
+        throw std::invalid_argument(fmt::format("{} is of no use without --measure-arm", save_profile_flag));
+    if (!typed.measures_arm) return std::nullopt;
+    if (!device.is_arm)
+        throw std::invalid_argument(fmt::format(
+            "--measure-arm: --device {} is no arm; take hid, bridge, haply or simulated", device.name));
+    if (typed.grip == rails_name)
+        throw std::invalid_argument(fmt::format(
+            "--measure-arm: a prescribed hand (--grip {}) feels no force; take light or firm", rails_name));
+    if (typed.options.scene.trajectory)
+        throw std::invalid_argument(
+            "--measure-arm: the hand holds the arm at one place; leave --trajectory out");
+    const std::filesystem::path file =
+        typed.save_profile.empty() ? usual_measured_profile : typed.save_profile;
+    if (file.extension() != ".toml")
+        throw std::invalid_argument(
+            fmt::format("{}: '{}' must end in .toml", save_profile_flag, file.string()));
+    return file;
 }
 
 ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& access) {
@@ -206,6 +231,7 @@ ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& acce
         throw std::invalid_argument(
             fmt::format("--save-bone: '{}' must end in .nrrd", outputs.save_bone->string()));
     }
+    options.measures_into = measured_profile(typed, device);
     if (outputs.json) outputs.json_histograms = histograms_beside(*outputs.json);
     options.files = files_of(options, access);
     require_distinct(options.files);

@@ -36,6 +36,8 @@ struct ServerOptions {
     std::string trainee;
     std::string case_name;        ///< for people; empty: the scene is of no case
     bool checks_machine = false;  ///< checks, and does nothing else
+    /// Measures the arm into that profile, and does nothing else.
+    std::optional<std::filesystem::path> measures_into{};
 };
 
 using CommandLine = ParseResult<ServerOptions>;

@@ -11,6 +11,7 @@
 #include "common/scene/phantom_names.h"
 #include "common/scene/session_control.h"
 #include "common/words/translation.h"
+#include "haptic_server/session/measured_device.h"
 #include "haptic_server/session/session_defaults.h"
 #include "simulation/coupling/couplings.h"
 
@@ -168,6 +169,14 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
            "Write the milling force of every milling step; with --force-model milling-instants at 10 kHz, "
            "the force within the tooth period")
         ->type_name("FILE");
+    app.add_flag(
+        "--measure-arm", typed.measures_arm,
+        "Measure the arm of --device with a hand on it: encoder step, noise, delay, moving mass, friction "
+        "and the stiffest calm spring; write its profile, and end (docs/hardware.md)");
+    app.add_option(save_profile_flag, typed.save_profile,
+                   fmt::format("With --measure-arm: where the profile goes, for --device-profile ({})",
+                               usual_measured_profile))
+        ->type_name("FILE.toml");
     app.add_flag(
         "--check", to.checks_machine,
         "Look whether the machine is ready for a session with these options, say for all that is not "

@@ -25,6 +25,8 @@ struct TypedServerOptions {
     std::string listen;
     std::string metrics;
     std::string record_rate_hz = "1000";
+    bool measures_arm = false;
+    std::string save_profile;
 };
 
 /// Declares the options with their help and ranges; parsing fills in `typed`, which outlives `app`.

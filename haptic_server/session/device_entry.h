@@ -33,6 +33,8 @@ struct DeviceParts {
     std::optional<glm::dvec3> home_mm{};
     /// The device's place on the patient, overriding the scene: for a device that knows it.
     std::optional<DeviceMapping> mapping{};
+    double delay_s = 0.001;  ///< from a reading to its force, as far as the driver knows
+    std::string profile{};   ///< the text of the arm's profile; empty: the arm says itself what it is
 
     bool is_finished() const { return simulated != nullptr && simulated->is_finished(); }
 };
@@ -44,6 +46,7 @@ struct DeviceContext {
     const std::atomic<bool>& stop;  ///< ends a wait for an arm
     /// Called with messages for people while an arm is awaited.
     std::function<void(const std::string&)> say = [](const std::string&) {};
+    bool as_stated = false;  ///< without the spring of a measured profile: it is about to be measured
 };
 
 /// Throws std::runtime_error in one line.
@@ -62,7 +65,8 @@ struct DeviceOption {
     const char* flag;
     const char* type_name;
     std::string help;
-    bool names_file = false;  ///< which is read, so nothing may be written over it
+    bool names_file = false;          ///< which is read, so nothing may be written over it
+    const char* is_replaced_by = "";  ///< but what that option writes
 };
 
 /// The typed options of a device, by flag; options that were not typed are absent.
@@ -97,6 +101,7 @@ struct DeviceEntry {
     const char* coupling = nullptr;
     bool is_simulated = false;  ///< may run on the virtual clock, and follows a trajectory
     bool is_moved_by_client = false;
+    bool is_arm = false;  ///< it gives a force, and what it is may be measured
     /// Throws std::invalid_argument in one line for options that make no sense.
     std::function<PrepareDevice(const TypedOptions&)> checked{};
 };

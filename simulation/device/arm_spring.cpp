@@ -53,12 +53,25 @@ double edge_n_per_mm(double mass_kg, double damping_n_s_per_mm, int ticks_late) 
     return low;
 }
 
-ArmSpring with_damper(const ArmFigures& arm, double damping_n_s_per_mm) {
+}  // namespace
+
+double stiffest_wall_n_per_mm(double mass_kg, double damping_n_s_per_mm, double delay_ms) {
+    if (!(mass_kg > 1e-4) || !std::isfinite(mass_kg)) return 0.0;
+    const double whole_ms = std::floor(delay_ms);
+    const double part = delay_ms - whole_ms;
+    const auto ticks = static_cast<int>(whole_ms);
+    const double before = edge_n_per_mm(mass_kg, damping_n_s_per_mm, ticks);
+    const double after = part > 0.0 ? edge_n_per_mm(mass_kg, damping_n_s_per_mm, ticks + 1) : before;
+    if (before == 0.0 || after == 0.0) return 0.0;
+    return 1.0 / ((1.0 - part) / before + part / after);  // compliance grows evenly with the delay
+}
+
+ArmSpring spring_beside(const ArmFigures& arm, double damping_n_s_per_mm) {
     using S = ArmSpring;
     constexpr double t = S::tick_s;
     ArmSpring spring{.stiffness_n_per_mm = arm.claimed_n_per_mm,
                      .damping_n_s_per_mm = damping_n_s_per_mm,
-                     .limited_by = "all that the arm claims to render"};
+                     .limited_by = arm.claimed_by};
     const auto limit = [&spring](double n_per_mm, const char* by) {
         if (n_per_mm >= spring.stiffness_n_per_mm) return;
         spring.stiffness_n_per_mm = n_per_mm;
@@ -79,23 +92,10 @@ ArmSpring with_damper(const ArmFigures& arm, double damping_n_s_per_mm) {
     return spring;
 }
 
-}  // namespace
-
-double stiffest_wall_n_per_mm(double mass_kg, double damping_n_s_per_mm, double delay_ms) {
-    if (!(mass_kg > 1e-4) || !std::isfinite(mass_kg)) return 0.0;
-    const double whole_ms = std::floor(delay_ms);
-    const double part = delay_ms - whole_ms;
-    const auto ticks = static_cast<int>(whole_ms);
-    const double before = edge_n_per_mm(mass_kg, damping_n_s_per_mm, ticks);
-    const double after = part > 0.0 ? edge_n_per_mm(mass_kg, damping_n_s_per_mm, ticks + 1) : before;
-    if (before == 0.0 || after == 0.0) return 0.0;
-    return 1.0 / ((1.0 - part) / before + part / after);  // compliance grows evenly with the delay
-}
-
 ArmSpring stiffest_spring(const ArmFigures& arm) {
     ArmSpring best{.stiffness_n_per_mm = 0.0};
     for (const double damping : dampings_n_s_per_mm) {
-        const ArmSpring spring = with_damper(arm, damping);
+        const ArmSpring spring = spring_beside(arm, damping);
         if (spring.stiffness_n_per_mm > worth * best.stiffness_n_per_mm) best = spring;
         if (best.stiffness_n_per_mm >= arm.claimed_n_per_mm) break;
     }

@@ -29,6 +29,7 @@ inline constexpr double longest_delay_s = 0.003;
 /// An arm's figures, in device space.
 struct ArmFigures {
     double claimed_n_per_mm = 1.5;
+    const char* claimed_by = "all that the arm claims to render";
     double mass_kg = 0.045;
     double position_resolution_mm = 0.0;  ///< 0: none to speak of
     std::optional<double> friction_n{};   ///< Coulomb's; not given: not known
@@ -57,7 +58,9 @@ struct ArmSpring {
 /// of so many ms (0 or more; interpolated between whole ones); 0: none.
 double stiffest_wall_n_per_mm(double mass_kg, double damping_n_s_per_mm, double delay_ms);
 
-/// Not real-time safe.
+/// The least of the limits with that damper. Not real-time safe, as all below.
+ArmSpring spring_beside(const ArmFigures& arm, double damping_n_s_per_mm);
+
 ArmSpring stiffest_spring(const ArmFigures& arm);
 
 /// With that spring in place of the claimed one.

@@ -9,6 +9,7 @@
 #include "devices/bridge/bridge_arm.h"
 #include "haptic_server/session/device_table.h"
 #include "haptic_server/session/devices/awaited_arm.h"
+#include "haptic_server/session/measured_device.h"
 #include "simulation/loop/thread_priority.h"
 
 namespace osteomill {
@@ -52,6 +53,7 @@ DeviceParts make_bridge_arm(const BridgeAddress& address, const omb_key& key, co
         limits.max_stiffness_n_per_mm));
     DeviceParts parts;
     parts.home_mm = arm->workspace_middle_mm();
+    parts.delay_s = arm->round_trip_s();
     parts.device = std::move(arm);
     return parts;
 }
@@ -62,9 +64,10 @@ PrepareDevice checked_bridge(const TypedOptions& typed) {
     if (!key_file && !is_local(address))
         throw std::invalid_argument(
             "--bridge: an arm on another machine needs --bridge-key, so that nobody else moves the tool");
-    return [address, key_file]() -> MakeDevice {
-        return [address, key = key_file ? read_key(*key_file) : omb_key{}](const DeviceContext& context) {
-            return make_bridge_arm(address, key, context);
+    return [address, key_file, load = typed_measured_profile(typed)]() -> MakeDevice {
+        return [address, key = key_file ? read_key(*key_file) : omb_key{},
+                profile = load()](const DeviceContext& context) {
+            return with_measured(make_bridge_arm(address, key, context), profile, context);
         };
     };
 }
@@ -82,7 +85,9 @@ DeviceEntry bridge_entry() {
                         {.flag = key_flag,
                          .type_name = "FILE",
                          .help = "A secret of 32 bytes or more that the arm's side has, too; needed for one "
-                                 "on another machine"}},
+                                 "on another machine"},
+                        measured_profile_option()},
+            .is_arm = true,
             .checked = checked_bridge};
 }
 

@@ -5,6 +5,7 @@
 #include "haptic_server/session/device_table.h"
 #include "haptic_server/session/devices/awaited_arm.h"
 #include "haptic_server/session/devices/own_machine.h"
+#include "haptic_server/session/measured_device.h"
 #include "simulation/loop/thread_priority.h"
 
 namespace osteomill {
@@ -30,6 +31,7 @@ DeviceParts make_haply_arm(const ListenAddress& service, const DeviceContext& co
                     1000.0 * arm->delay_s(), arm->limits().max_stiffness_n_per_mm));
     DeviceParts parts;
     parts.home_mm = arm->workspace_middle_mm();
+    parts.delay_s = arm->delay_s();
     parts.device = std::move(arm);
     return parts;
 }
@@ -37,7 +39,11 @@ DeviceParts make_haply_arm(const ListenAddress& service, const DeviceContext& co
 PrepareDevice checked_haply(const TypedOptions& typed) {
     const ListenAddress service = typed.parsed(service_flag, usual_service, parse_listen_address);
     require_own_machine(service_flag, "Haply's service does not say who it is", service, usual_service.port);
-    return at_once([service](const DeviceContext& context) { return make_haply_arm(service, context); });
+    return [service, load = typed_measured_profile(typed)]() -> MakeDevice {
+        return [service, profile = load()](const DeviceContext& context) {
+            return with_measured(make_haply_arm(service, context), profile, context);
+        };
+    };
 }
 
 }  // namespace
@@ -48,7 +54,9 @@ DeviceEntry haply_entry() {
             .options = {{.flag = service_flag,
                          .type_name = "ADDRESS:PORT",
                          .help = fmt::format("Where Haply's service listens, on this machine ({})",
-                                             to_text(usual_service))}},
+                                             to_text(usual_service))},
+                        measured_profile_option()},
+            .is_arm = true,
             .checked = checked_haply};
 }
 

@@ -4,6 +4,7 @@
 #include "devices/simulated/hand_model.h"
 #include "devices/simulated/trajectory.h"
 #include "haptic_server/session/device_table.h"
+#include "haptic_server/session/measured_device.h"
 #include "haptic_server/session/recorded_arm.h"
 
 namespace osteomill {
@@ -34,10 +35,15 @@ DeviceParts simulated_hand(const Scene& scene, std::optional<Grip> grip, const A
 DeviceEntry simulated_entry() {
     return {.name = "simulated",
             .text = "a hand that follows a trajectory",
+            .options = {measured_profile_option()},
             .is_simulated = true,
-            .checked = [](const TypedOptions&) {
-                return at_once(
-                    [](const DeviceContext& context) { return simulated_hand(context.scene, context.grip); });
+            .is_arm = true,
+            .checked = [](const TypedOptions& typed) {
+                return PrepareDevice([load = typed_measured_profile(typed)]() -> MakeDevice {
+                    return [profile = load()](const DeviceContext& context) {
+                        return with_measured(simulated_hand(context.scene, context.grip), profile, context);
+                    };
+                });
             }};
 }
 
