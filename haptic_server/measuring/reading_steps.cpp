@@ -57,7 +57,7 @@ double encoder_step_mm(std::span<const MeasuredTick> ticks) {
         if (is_alone) alone_mm.push_back(changes_mm[static_cast<std::size_t>(i)]);
     }
     if (alone_mm.size() >= least_changes) {
-        const double step_mm = quantile(alone_mm, 0.6);
+        const double step_mm = quantile(alone_mm, 0.4);
         return step_mm > most_unlike * quantile(std::move(alone_mm), 0.1) ? 0.0 : step_mm;
     }
     double step_mm = 0.0;
