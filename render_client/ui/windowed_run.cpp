@@ -271,9 +271,7 @@ class Drawing {
                 glm::dvec2(view_motion()),
             session_.size_px());
         for (const Action action : actions_of(input_.pressed_keys(), situation()))
-            if (action == Action::end && shows_start_page() && start_->page.tour_card)
-                start_->page.tour_card.reset();
-            else if (!has_keyboard() || action == Action::end)
+            if ((!has_keyboard() || action == Action::end) && !(action == Action::end && steps_back()))
                 commands_.take(action);
         if (session_.view().click_places && ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
             !ImGui::GetIO().WantCaptureMouse)
@@ -322,6 +320,21 @@ class Drawing {
     }
 
     bool shows_start_page() const { return start_ && start_->is_due(session_.link().status); }
+
+    /// Leaves what is over the picture, or comes back to the page that was hidden: before the window ends.
+    bool steps_back() {
+        ViewSettings& view = session_.view();
+        if (view.question != SessionQuestion::none) return false;
+        if (shows_start_page() && start_->page.tour_card)
+            start_->page.tour_card.reset();
+        else if (view.help_shown)
+            view.help_shown = false;
+        else if (start_ && start_->is_hidden(session_.link().status))
+            start_->page.is_hidden = false;
+        else
+            return false;
+        return true;
+    }
 
     Situation situation() const {
         if (shows_start_page()) return Situation::starting;

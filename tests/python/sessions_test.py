@@ -203,6 +203,12 @@ class StatisticsTest(unittest.TestCase):
         low = cases_of(of_trainees("a", [0.5, 90.0, 1.0], attempts=2))[0]
         self.assertEqual(learning_curves(low)["time_s"].axes[0].get_ylim()[0], 0.0)
 
+    def test_an_attempt_is_a_whole_number_and_the_highest_marker_is_whole_though_there_is_one_attempt(self):
+        axes = learning_curves(cases_of(of_trainees("a", [97.0, 98.0, 100.0]))[0])["time_s"].axes[0]
+        low, high = axes.get_xlim()
+        self.assertEqual([at for at in axes.get_xticks() if low <= at <= high], [1.0])
+        self.assertGreater(axes.get_ylim()[1], 103.0)
+
     def test_ranks_are_exact_with_ties_and_without(self):
         without = statistics.compare_ranks([1.0, 4.0, 6.0], [2.0, 3.0, 9.0, 10.0])
         exact = scipy.stats.mannwhitneyu([1.0, 4.0, 6.0], [2.0, 3.0, 9.0, 10.0], method="exact")

@@ -75,7 +75,7 @@ const std::vector<KeyBinding>& table() {
          Action::move_bone,
          "B, then drag, B",
          "turn the bone under the tool (shift: move it)"},
-        {session, live, {GLFW_KEY_U}, Action::undo, "U", "undo the last stroke, also the one under way"},
+        {session, live, {GLFW_KEY_U}, Action::undo, "U", "undo the last stroke, of a long one 3 s"},
         {session, live, {GLFW_KEY_R}, Action::redo, "R", "redo it"},
         {session, live, {GLFW_KEY_H}, Action::hold, "H", "pause: force and spindle off; go on"},
         {session, live, {GLFW_KEY_M}, Action::mark, "M", "mark this moment, with a note"},
@@ -121,7 +121,7 @@ const std::vector<KeyBinding>& table() {
         {panels, always, {GLFW_KEY_F12}, Action::details, "F12", "figures of picture, link and solver"},
         {panels, always, {GLFW_KEY_P}, Action::screenshot, "P", "write this picture as PNG"},
         {panels, always, {GLFW_KEY_O}, Action::export_frames, "O", "write every frame as PNG: begin, end"},
-        {panels, always, {GLFW_KEY_ESCAPE}, Action::end, "ESC", "end; asks first where a session goes on"},
+        {panels, always, {GLFW_KEY_ESCAPE}, Action::end, "ESC", "back; then end, asking first in a session"},
     };
     return bindings;
 }
@@ -179,7 +179,7 @@ std::vector<HelpLine> help_lines(Situation situation) {
                  {"Open a recording ...", "see a session again, in a window of its own"},
                  {"Compare all sessions", "learning curves of the sessions that were kept here"},
                  {"Tour", "what the window is for, on the three cards that a new user sees"},
-                 {"Hide this", "look at the bone of the last session until the next begins"},
+                 {"Hide this", "look at the bone of the last session; ESC: back"},
                  {"", "Mouse and keys of a session: F1, once it runs."}};
     std::optional<Topic> topic;
     for (const KeyBinding& binding : table()) {

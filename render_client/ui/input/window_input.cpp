@@ -12,7 +12,11 @@ std::vector<int> WindowInput::pressed_keys() const {
 
 void WindowInput::append(const WindowInput& later) {
     const WindowInput before = std::exchange(*this, later);
-    for (std::size_t i = 0; i < buttons; ++i) went_down[i] = went_down[i] || before.went_down[i];
+    for (std::size_t i = 0; i < buttons; ++i) {
+        went_down[i] = went_down[i] || before.went_down[i];
+        if (!pressed_at[i]) pressed_at[i] = before.pressed_at[i];
+        if (!released_at[i]) released_at[i] = before.released_at[i];
+    }
     presses.insert(presses.begin(), before.presses.begin(), before.presses.end());
     typed.insert(typed.begin(), before.typed.begin(), before.typed.end());
     wheel += before.wheel;
@@ -21,6 +25,8 @@ void WindowInput::append(const WindowInput& later) {
 
 void WindowInput::forget_events() {
     went_down = {};
+    pressed_at = {};
+    released_at = {};
     presses.clear();
     typed.clear();
     wheel = glm::dvec2(0.0);

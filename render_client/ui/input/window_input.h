@@ -6,6 +6,7 @@
 #include <bitset>
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 namespace osteomill {
@@ -38,10 +39,12 @@ struct WindowInput {
 
     // Since it was last taken.
     std::array<bool, buttons> went_down{};  ///< though it may be up again
-    std::vector<KeyPress> presses{};        ///< though the key may be up again
-    std::vector<char32_t> typed{};          ///< characters, as the keyboard's layout makes them
-    glm::dvec2 wheel{0.0};                  ///< notches
-    bool has_news = false;                  ///< anything happened, or part of the window has to be shown anew
+    /// Where it last went down, and up: the cursor may be elsewhere by now.
+    std::array<std::optional<glm::dvec2>, buttons> pressed_at{}, released_at{};
+    std::vector<KeyPress> presses{};  ///< though the key may be up again
+    std::vector<char32_t> typed{};    ///< characters, as the keyboard's layout makes them
+    glm::dvec2 wheel{0.0};            ///< notches
+    bool has_news = false;            ///< anything happened, or part of the window has to be shown anew
 
     /// Pixels of the picture in a unit of the window.
     glm::dvec2 px_per_unit() const { return glm::dvec2(framebuffer_size_px) / size; }

@@ -24,6 +24,10 @@ class CardPictures {
     std::map<std::string, std::optional<gl::Texture2D>> held_;  // by its name for --case
 };
 
+/// Height at which each card of the page shows its whole text, for cards of that width; at most twelve
+/// letters' heights.
+float case_card_height(const StartPage& page, float width);
+
 /// Draws the card of page.cases()[index]. A click, or Return, chooses it; another starts it. Needs an ImGui
 /// window to be open.
 void draw_case_card(StartPage& page, CardPictures& pictures, std::size_t index, const ImVec2& size);

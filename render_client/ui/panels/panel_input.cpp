@@ -100,16 +100,27 @@ std::optional<KeyPress> PanelInput::next_press(const WindowInput& input) {
     return press;
 }
 
+void PanelInput::feed_button(WindowInput::Button button, const WindowInput& input, ImGuiIO& io) {
+    Button& passed_on = buttons_[button];
+    if (input.pressed_at[button]) passed_on.pressed_at = input.pressed_at[button];
+    if (input.released_at[button]) passed_on.released_at = input.released_at[button];
+    const bool was_down = passed_on.is_down;
+    const bool is_down = io.MouseDown[button] =
+        passed_on.next(input.went_down[button], input.is_down[button]);
+    if (is_down == was_down) return;
+    const auto where = std::exchange(is_down ? passed_on.pressed_at : passed_on.released_at, std::nullopt);
+    if (!where) return;
+    const glm::vec2 at(*where * input.px_per_unit());
+    io.MousePos = {at.x, at.y};
+}
+
 bool PanelInput::feed(const WindowInput& input, ImGuiIO& io) {
     constexpr float nowhere = -std::numeric_limits<float>::max();
     const glm::vec2 at(input.cursor * input.px_per_unit());
     io.MousePos = input.has_cursor ? ImVec2(at.x, at.y) : ImVec2(nowhere, nowhere);
-    const auto is_held = [&](WindowInput::Button button) {
-        return buttons_[button].next(input.went_down[button], input.is_down[button]);
-    };
-    io.MouseDown[ImGuiMouseButton_Left] = is_held(WindowInput::left);
-    io.MouseDown[ImGuiMouseButton_Right] = is_held(WindowInput::right);
-    io.MouseDown[ImGuiMouseButton_Middle] = is_held(WindowInput::middle);
+    // Dear ImGui counts left, right, middle, as WindowInput does.
+    for (const auto button : {WindowInput::left, WindowInput::right, WindowInput::middle})
+        feed_button(button, input, io);
     io.MouseWheel += static_cast<float>(input.wheel.y);
     io.MouseWheelH += static_cast<float>(input.wheel.x);
     for (const char32_t character : input.typed) io.AddInputCharacter(character);

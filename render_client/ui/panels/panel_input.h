@@ -24,7 +24,8 @@ void give_clipboard(Clipboard& clipboard, ImGuiIO& io);
 
 /// Mouse and keys, frame after frame. A press that is shorter than a frame lasts for one. Each frame presses
 /// one key, in order, with the keys that were held at its time; a key that is pressed again is released
-/// first. So no press is lost or mistaken, however long a frame takes.
+/// first. A button goes down and up where the pointer was at that time. So no press is lost or mistaken,
+/// however long a frame takes.
 class PanelInput {
   public:
     /// Whether presses wait for the frames after the next one.
@@ -34,8 +35,11 @@ class PanelInput {
     struct Button {
         bool is_down = false;
         int waiting = 0;
+        std::optional<glm::dvec2> pressed_at{}, released_at{};  ///< of presses that no frame has seen
         bool next(bool is_pressed, bool is_held);
     };
+    /// Passes a button on; the pointer is then where it went down or up, if it did.
+    void feed_button(WindowInput::Button button, const WindowInput& input, ImGuiIO& io);
     /// The press that the next frame sees, if one is due; keys are up and down by it and by `input`.
     std::optional<KeyPress> next_press(const WindowInput& input);
 

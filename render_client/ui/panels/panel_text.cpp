@@ -4,6 +4,7 @@
 
 #include "common/words/translation.h"
 #include "render_client/ui/panels/fault_remedy.h"
+#include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/panels/structure_text.h"
 #include "render_client/volume/bone_ahead.h"
 
@@ -68,7 +69,11 @@ PanelText session_text(const OverlayContent& content) {
     if (const std::uint64_t bad = content.link.checksum_mismatches + content.link.rejected_frames; bad > 0)
         text.push_back(line(
             Tone::warning, trf("{} bad frames; {} bricks were repaired", bad, content.link.bricks_repaired)));
-    if (!content.view->help_shown) text.push_back(line(Tone::dim, tr("F1 help")));
+    if (content.start != nullptr && content.start->is_hidden(content.link.status))
+        text.push_back(line(Tone::plain, tr("ESC: back to the cases")));
+    // In a film nobody can press it.
+    if (!content.view->help_shown && content.view->playback_shown)
+        text.push_back(line(Tone::dim, tr("F1 help")));
     return text;
 }
 

@@ -7,6 +7,7 @@
 
 #include "common/words/translation.h"
 #include "render_client/ui/panels/input_panel.h"
+#include "render_client/ui/panels/start_panel.h"
 
 namespace osteomill {
 
@@ -92,6 +93,10 @@ void draw_sight_panel(const OverlayContent& content, const PanelPlace& place) {
         if (!text.empty()) ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     if (!has_buttons(content)) return;
+    if (content.start != nullptr) {
+        if (ImGui::Button(tr("Back to the cases"))) content.start->page.is_hidden = false;
+        ImGui::SameLine();
+    }
     if (ImGui::Button(tr("End"))) content.requests->ends_program = true;
 }
 

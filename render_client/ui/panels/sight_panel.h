@@ -20,7 +20,7 @@ struct SightWords {
 SightWords words_of_sight(const OverlayContent& content);
 
 glm::vec2 sight_panel_size(const OverlayContent& content, const glm::vec2& available);
-/// With a button to end while no server has answered.
+/// With buttons to end, and to go back to the page of cases, while no server has answered.
 void draw_sight_panel(const OverlayContent& content, const PanelPlace& place);
 
 }  // namespace osteomill

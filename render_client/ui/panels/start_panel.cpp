@@ -45,8 +45,8 @@ void draw_cases(StartPage& page, StartPicture& pictures) {
     const float room = ImGui::GetContentRegionAvail().x;
     const int columns = room > 44.0f * letter ? 2 : 1;
     const float between = ImGui::GetStyle().ItemSpacing.x;
-    const ImVec2 card{(room - static_cast<float>(columns - 1) * between) / static_cast<float>(columns),
-                      7.6f * letter};
+    const float width = (room - static_cast<float>(columns - 1) * between) / static_cast<float>(columns);
+    const ImVec2 card{width, case_card_height(page, width)};
     for (std::size_t i = 0; i < page.cases().size(); ++i) {
         if (i % static_cast<std::size_t>(columns) != 0) ImGui::SameLine();
         draw_case_card(page, pictures.of_cases, i, card);

@@ -28,14 +28,18 @@ struct StartScreen {
     explicit StartScreen(StartPlaces places) : page(std::move(places)) {}
 
     /// Whether there is nothing else to do: no session, or one that has ended.
-    bool is_due(LinkStatus status) const {
-        const bool has_none = status == LinkStatus::connecting || status == LinkStatus::finished ||
-                              (status == LinkStatus::lost && page.has_served());
-        return has_none && !page.is_hidden;
-    }
+    bool is_due(LinkStatus status) const { return has_no_session(status) && !page.is_hidden; }
+    /// It would be due, had a person not hidden it.
+    bool is_hidden(LinkStatus status) const { return has_no_session(status) && page.is_hidden; }
 
     StartPage page;
     StartPicture picture{};
+
+  private:
+    bool has_no_session(LinkStatus status) const {
+        return status == LinkStatus::connecting || status == LinkStatus::finished ||
+               (status == LinkStatus::lost && (page.has_served() || page.is_making_ready()));
+    }
 };
 
 /// The panel's size: as large as is useful for the page's contents, within `available`.

@@ -145,7 +145,9 @@ void StartPage::start() {
 }
 
 void StartPage::note_end_of_session() {
-    if (is_session_running()) message_ = tr("the session has ended; its report is being written ...");
+    // Until the window is sent to a session that begins, it sees the end of the one before.
+    if (is_session_running() && !is_making_ready())
+        message_ = tr("the session has ended; its report is being written ...");
 }
 
 void StartPage::open_page(const std::filesystem::path& page) {

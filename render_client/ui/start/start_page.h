@@ -74,6 +74,8 @@ class StartPage {
     /// listens on a port of its own.
     std::optional<ListenAddress> take_server() { return std::exchange(server_is_at_, std::nullopt); }
     bool is_session_running() const { return server_ != nullptr && server_->is_running(); }
+    /// A session was started here, and the window has not been sent to it yet.
+    bool is_making_ready() const { return is_session_running() && (!has_address_ || server_is_at_); }
     /// Started a session that has ended.
     bool has_served() const { return !report_folder_.empty() && server_ == nullptr; }
     /// The last session's report, once it is written.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 namespace osteomill {
 
@@ -24,6 +25,7 @@ constexpr double nearest_shown_target_mm = 0.05;
 void ShownTool::take(const ToolState& state) {
     state_ = state;
     age_s_ = 0.0;
+    is_new_ = true;
 }
 
 bool ShownTool::has_turning_burr() const {
@@ -31,7 +33,8 @@ bool ShownTool::has_turning_burr() const {
 }
 
 void ShownTool::turn(double elapsed_s, const SessionInfo* session) {
-    age_s_ += elapsed_s;
+    // A frame that took long makes no state old that came with it.
+    if (!std::exchange(is_new_, false)) age_s_ += elapsed_s;
     if (!has_turning_burr()) return;
     const Burr* burr = session ? session->burr_of(state_->burr) : nullptr;
     const bool clockwise = !burr || burr->sense == SpindleSense::clockwise;

@@ -32,7 +32,8 @@ class ShownTool {
 
   private:
     std::optional<ToolState> state_;
-    double age_s_ = 0.0;  ///< since it came, as far as frames were drawn since
+    double age_s_ = 0.0;   ///< since it came, as far as frames were drawn since
+    bool is_new_ = false;  ///< it came in the frame that is being drawn
     std::optional<ToolPose> shown_pose_;
     double spin_rad_ = 0.0;
 };

@@ -99,8 +99,11 @@ void Window::watch_input() {
         WindowInput& input = input_of(window);
         if (button < 0 || static_cast<std::size_t>(button) >= WindowInput::buttons) return;
         // GLFW counts left, right, middle, as WindowInput does.
-        input.is_down[static_cast<std::size_t>(button)] = action == GLFW_PRESS;
-        if (action == GLFW_PRESS) input.went_down[static_cast<std::size_t>(button)] = true;
+        const auto index = static_cast<std::size_t>(button);
+        const bool goes_down = action == GLFW_PRESS;
+        input.is_down[index] = goes_down;
+        if (goes_down) input.went_down[index] = true;
+        (goes_down ? input.pressed_at : input.released_at)[index] = input.cursor;
     });
     glfwSetScrollCallback(
         window_, [](GLFWwindow* window, double x, double y) { input_of(window).wheel += glm::dvec2(x, y); });

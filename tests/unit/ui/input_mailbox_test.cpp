@@ -11,6 +11,7 @@ TEST(InputMailbox, LosesNothingHoweverSeldomItIsEmptied) {
     InputMailbox mailbox;
     WindowInput click{.cursor = {1.0, 2.0}, .presses = {{65}}, .wheel = {0.0, 1.0}, .has_news = true};
     click.went_down[WindowInput::left] = true;
+    click.pressed_at[WindowInput::left] = click.cursor;
     mailbox.post(click);
     mailbox.post({.cursor = {3.0, 4.0}, .presses = {{66}}, .wheel = {0.0, 0.5}, .has_news = true});
     mailbox.post({.cursor = {3.0, 4.0}});
@@ -18,6 +19,7 @@ TEST(InputMailbox, LosesNothingHoweverSeldomItIsEmptied) {
     const WindowInput taken = mailbox.take();
     EXPECT_EQ(taken.cursor, glm::dvec2(3.0, 4.0));
     EXPECT_TRUE(taken.went_down[WindowInput::left]) << "though it is up again";
+    EXPECT_EQ(taken.pressed_at[WindowInput::left], glm::dvec2(1.0, 2.0)) << "where it was";
     EXPECT_FALSE(taken.is_down[WindowInput::left]);
     EXPECT_THAT(taken.pressed_keys(), ElementsAre(65, 66));
     EXPECT_EQ(taken.wheel.y, 1.5);
@@ -25,6 +27,7 @@ TEST(InputMailbox, LosesNothingHoweverSeldomItIsEmptied) {
 
     const WindowInput again = mailbox.take();
     EXPECT_EQ(again.cursor, glm::dvec2(3.0, 4.0)) << "the state stays";
+    EXPECT_FALSE(again.pressed_at[WindowInput::left]);
     EXPECT_FALSE(again.has_news);
     EXPECT_TRUE(again.presses.empty());
 }

@@ -70,6 +70,26 @@ TEST_F(PanelInputTest, ClickShorterThanAFramePresses) {
     EXPECT_EQ(presses_, 1);
 }
 
+TEST_F(PanelInputTest, ClickCountsWhereItWasThoughThePointerIsElsewhereBeforeTheFrame) {
+    input_.has_cursor = true;
+    input_.cursor = {300.0, 250.0};
+    const glm::dvec2 on_button(button_at_.x + 4.0, button_at_.y + 4.0);
+    input_.went_down[WindowInput::left] = true;
+    input_.pressed_at[WindowInput::left] = input_.released_at[WindowInput::left] = on_button;
+    for (int i = 0; i < 3; ++i) draw();
+    EXPECT_EQ(presses_, 1);
+    EXPECT_EQ(ImGui::GetIO().MousePos.x, 300.0f);
+
+    // It is held for more than a frame, and let go before the pointer moves on.
+    input_.went_down[WindowInput::left] = input_.is_down[WindowInput::left] = true;
+    input_.pressed_at[WindowInput::left] = on_button;
+    draw();
+    input_.is_down[WindowInput::left] = false;
+    input_.released_at[WindowInput::left] = on_button;
+    for (int i = 0; i < 3; ++i) draw();
+    EXPECT_EQ(presses_, 2);
+}
+
 TEST_F(PanelInputTest, ClickInEveryFrameIsAClickEach) {
     click(button_at_);
     for (int i = 0; i < 3; ++i) {

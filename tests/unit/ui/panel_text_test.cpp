@@ -7,6 +7,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// All lines, one after the other.
 std::string plain(const PanelText& text) {
@@ -48,6 +49,12 @@ TEST_F(PanelTexts, SayInAWarningThatAnotherClientHasTheTool) {
     content_.tool->driver = ToolDriver::another;
     EXPECT_TRUE(has_tone(operator_text(content_), Tone::warning));
     EXPECT_THAT(plain(operator_text(content_)), HasSubstr("another client moves the tool"));
+}
+
+TEST_F(PanelTexts, NameNoKeyInAFilm) {
+    EXPECT_THAT(plain(session_text(content_)), HasSubstr("F1"));
+    view_.playback_shown = false;
+    EXPECT_THAT(plain(session_text(content_)), Not(HasSubstr("F1")));
 }
 
 TEST_F(PanelTexts, SayWhereForcesAreNotTheBones) {

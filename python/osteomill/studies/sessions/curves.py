@@ -52,9 +52,10 @@ def _curve_of(case: Case, what: Headline, tr: Words) -> Figure:
     if trend := practice_trend(case.learners().values(what)):
         _add_trend(axes, trend, what, attempts, tr("trend"))
     if what.possible is not Possible.ANY:
-        axes.set_ylim(bottom=0.0)
+        axes.set_ylim(0.0, 1.04 * axes.get_ylim()[1])  # the highest marker whole
     if what.possible is Possible.SHARE:
         axes.set_ylim(top=min(axes.get_ylim()[1], 1.05 * what.scale))
+    axes.set_xlim(0.5, attempts + 0.5)
     _finish(axes, values["trainee"].nunique())
     return figure
 
@@ -78,7 +79,7 @@ def _empty(title: str, y_text: str, tr: Words) -> tuple[Figure, Any]:
     figure = charts.figure(9.5, 3.6)
     axes = figure.subplots()
     axes.set(title=title, xlabel=tr("attempt"), ylabel=y_text)
-    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     return figure, axes
 
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "render_client/ui/panels/start_panel.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -56,6 +57,39 @@ TEST_F(StartPageTest, SendsItsWindowToThePortThatTheServerWasGiven) {
     EXPECT_THAT(arguments, HasSubstr("--language=en")) << "the window's, for the report";
     window.poll();
     EXPECT_FALSE(window.take_server()) << "it is there";
+}
+
+TEST_F(StartPageTest, SaysThatASessionIsMadeReadyThoughTheWindowStillSeesTheEndOfTheOneBefore) {
+    make_program("haptic_server", "while [ ! -e " + (folder_ / "ready").string() +
+                                      " ]; do sleep 0.01; done\necho listening on 127.0.0.1:43210\n"
+                                      "trap 'exit 0' TERM\nwhile :; do sleep 0.01; done");
+    StartPage window = page();
+    window.start();
+    window.note_end_of_session();
+    EXPECT_THAT(window.message(), HasSubstr("is being made ready"));
+    EXPECT_TRUE(window.is_making_ready());
+    std::ofstream(folder_ / "ready") << "x";
+    ASSERT_TRUE(comes_true(window, [&] { return window.take_server().has_value(); })) << window.message();
+    EXPECT_FALSE(window.is_making_ready());
+    window.note_end_of_session();
+    EXPECT_THAT(window.message(), HasSubstr("its report is being written"));
+}
+
+TEST_F(StartPageTest, IsThereAfterASessionWasKilledUntilTheWindowIsSentToTheNext) {
+    make_program("haptic_server", "echo listening on 127.0.0.1:43210\nkill -9 $$");
+    StartScreen screen({folder_.path(), folder_ / "home", {"127.0.0.1", 7010}});
+    screen.page.start();
+    ASSERT_TRUE(comes_true(screen.page, [&] { return screen.page.has_served(); })) << screen.page.message();
+    EXPECT_TRUE(screen.is_due(LinkStatus::lost));
+    screen.page.is_hidden = true;
+    EXPECT_FALSE(screen.is_due(LinkStatus::lost));
+    EXPECT_TRUE(screen.is_hidden(LinkStatus::lost)) << "it can be brought back";
+    EXPECT_FALSE(screen.is_hidden(LinkStatus::live)) << "there is another thing to do";
+
+    make_program("haptic_server", "while :; do sleep 0.01; done");
+    screen.page.start();
+    screen.page.poll();
+    EXPECT_TRUE(screen.is_due(LinkStatus::lost)) << "no session is there to be lost";
 }
 
 TEST_F(StartPageTest, LooksAtAScanOnceAndGoesThroughItsSlices) {

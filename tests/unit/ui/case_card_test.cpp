@@ -1,0 +1,43 @@
+#include "render_client/ui/panels/case_card.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace osteomill::case_card_test {
+namespace {
+
+/// The built-in cases, without anything to draw on.
+class CaseCardTest : public ::testing::Test {
+  protected:
+    CaseCardTest() {
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.DisplaySize = {800.0f, 600.0f};
+        unsigned char* pixels = nullptr;
+        int width = 0, height = 0;
+        io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+        ImGui::NewFrame();
+    }
+    ~CaseCardTest() override {
+        ImGui::EndFrame();
+        ImGui::DestroyContext();
+    }
+    float letters(float width_letters) const {
+        const float letter = ImGui::GetFontSize();
+        return case_card_height(page_, width_letters * letter) / letter;
+    }
+
+    testing::TemporaryFolder folder_;
+    StartPage page_{{folder_.path(), folder_ / "home", {"127.0.0.1", 7010}}};
+};
+
+TEST_F(CaseCardTest, IsAsHighAsTheLongestTextNeeds) {
+    EXPECT_FLOAT_EQ(letters(60.0f), 7.6f) << "the picture's height";
+    EXPECT_GT(letters(20.0f), letters(60.0f));
+    EXPECT_FLOAT_EQ(letters(14.0f), 12.0f) << "a card is no page";
+}
+
+}  // namespace
+}  // namespace osteomill::case_card_test
