@@ -1,4 +1,4 @@
-// What was measured on an arm (haptic_server --measure-arm), as TOML: a table [measured], beside the name of
+// Measurements of an arm (haptic_server --measure-arm), as TOML: a table [measured], beside the name of
 // the arm, or within the profile of an arm over USB (devices/hid/profile_file.h).
 #pragma once
 

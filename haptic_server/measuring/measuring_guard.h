@@ -34,7 +34,7 @@ const char* text_of(MeasuringEnd end);
 class MeasuringGuard {
   public:
     static constexpr double most_force_n = 2.5;
-    /// Of the force that the arm can give for long.
+    /// A share of the force that the arm can give for long.
     static constexpr double share_of_force = 0.8;
     static constexpr double slew_n_per_s = 1000.0;
     static constexpr double most_energy_mj = 15.0;

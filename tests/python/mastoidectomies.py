@@ -54,7 +54,7 @@ def rated(cavity, file):
 
 
 def points_without_force(rating):
-    """Of the items that the finished bone decides alone."""
+    """Points of the items that the finished bone decides alone."""
     return sum(one["points"] for one in rating["items"] if one["is_reached"] and "force" not in one["when"])
 
 

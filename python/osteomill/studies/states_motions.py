@@ -205,7 +205,7 @@ def recorded_path(file: pathlib.Path, case: Case) -> Path:
 
 
 def trajectory_path(file: pathlib.Path, case: Case) -> Path:
-    """Of a table of waypoints (docs/scenes.md), straight from one to the next; its pedal is the spindle. RuntimeError in one line for one that
+    """The path of a table of waypoints (docs/scenes.md), straight from one to the next; its pedal is the spindle. RuntimeError in one line for one that
     haptic_server would refuse, ValueError for several burrs or less than two milliseconds."""
     import pandas as pd
 

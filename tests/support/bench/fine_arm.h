@@ -48,7 +48,7 @@ class FineArm final : public HapticDevice {
         written_n_.reserve(200'000);
     }
 
-    // What a test changes on the way.
+    // Changed by a test on the way.
     bool pedal = true;
     bool is_held = true;  ///< false: the hand has let go of it
     bool is_there = true;
