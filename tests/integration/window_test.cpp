@@ -482,6 +482,9 @@ TEST_F(WindowTest, DrawsOnlyWhatChanges) {
     EXPECT_TRUE(comes_true([&] { return share_of_core(2s) < 0.02; })) << "after the session has ended";
     press("F1");
     EXPECT_TRUE(shows_otherwise_than(turned, 0.1)) << "and still answers";
+    const Picture helped = display_->screen();
+    press("Escape");
+    EXPECT_TRUE(shows_otherwise_than(helped, 0.1)) << "the help goes, the window stays";
     press("Escape");
     EXPECT_EQ(window_->wait(), 0) << window_->err();
 }
