@@ -54,7 +54,8 @@ PacketReader::PacketReader(std::filesystem::path file) : file_(std::move(file)) 
         throw refuse(fmt::format("is no recording, which is a pcap file: {}", why.data()));
     }
     if (const int link_type = pcap_datalink(input_.get()); link_type != DLT_USER0)
-        throw refuse(fmt::format("is a capture of link type {}, not a recording, which has 147 (USER0)", link_type));
+        throw refuse(
+            fmt::format("is a capture of link type {}, not a recording, which has 147 (USER0)", link_type));
 }
 
 std::optional<Packet> PacketReader::next() {
@@ -77,8 +78,9 @@ std::optional<Packet> PacketReader::next() {
     }
     ++next_number_;
     if (header->caplen != header->len)
-        throw RecordingError(where(here) + fmt::format("only {} of its {} bytes were kept; a recording holds them all",
-                                                       header->caplen, header->len));
+        throw RecordingError(where(here) +
+                             fmt::format("only {} of its {} bytes were kept; a recording holds them all",
+                                         header->caplen, header->len));
     if (header->len == 0 || header->len > largest_frame_bytes)
         throw RecordingError(where(here) + "it has " + std::to_string(header->len) + " bytes, not 1 to " +
                              std::to_string(largest_frame_bytes));

@@ -37,7 +37,8 @@ inline std::string tr(const std::string& english) {
 /// or else the text of the file that has {} where this one has names or paths, and the most words besides.
 /// Values keep their order. The English text if there is none.
 std::string tr_filled(const std::string& english);
-/// tr_filled, also of a text that begins with a file's name, which stays: "FILE: is no file", "FILE, packet 3 at byte 9: ...".
+/// tr_filled, also of a text that begins with a file's name, which stays: "FILE: is no file", "FILE, packet 3
+/// at byte 9: ...".
 std::string tr_about_file(const std::string& english);
 /// A tissue's or case's name as a person writes it: files write "Facial_Nerve".
 std::string tissue_words(std::string name);

@@ -1,5 +1,5 @@
-// Mass, damping, stiffness and friction of what moves when an arm pushes a hand along one axis, and how late the
-// force comes.
+// Mass, damping, stiffness and friction of what moves when an arm pushes a hand along one axis, and how late
+// the force comes.
 //
 //     m x'' + b x' + k x + c + F_c sgn(x') = u(t - d)     u the written force, held from tick to tick
 //
@@ -29,8 +29,8 @@ struct PushedMotion {
     double explained = 0.0;    ///< share of the force's variance, 0 to 1
 };
 
-/// The motion in ticks in which the arm pushed along `axis`, 0 to 2, with readings in steps of `step_mm` (0: none
-/// to speak of). Nothing if the arm hardly moved, or moved in another way than it was pushed. Not
+/// The motion in ticks in which the arm pushed along `axis`, 0 to 2, with readings in steps of `step_mm` (0:
+/// none to speak of). Nothing if the arm hardly moved, or moved in another way than it was pushed. Not
 /// real-time safe.
 std::optional<PushedMotion> pushed_motion(std::span<const MeasuredTick> ticks, std::size_t axis,
                                           double step_mm);

@@ -42,8 +42,9 @@ Pose pose_of(const Camera& camera);
 /// The camera's viewpoint; for a pair of eyes, the point between them.
 Viewpoint viewpoint_of(const Camera& camera);
 
-/// Gives a camera that pose and a pinhole's projection; near and far planes stay. Its pivot, for whose depth the scale
-/// bar holds, comes onto the line of sight as deep as it was, or to the near plane if it was not before it.
+/// Gives a camera that pose and a pinhole's projection; near and far planes stay. Its pivot, for whose depth
+/// the scale bar holds, comes onto the line of sight as deep as it was, or to the near plane if it was not
+/// before it.
 void look_through(Camera& camera, const Pinhole& pinhole, const Pose& pose);
 
 /// The camera to draw with: its near and far planes enclose a ball.

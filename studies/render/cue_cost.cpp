@@ -24,10 +24,12 @@ namespace {
 constexpr int rays_a_side = 4;
 constexpr double leap_mm = 1.0;
 
-bool is_of_tool(std::string_view cue) { return cue == "handpiece" || cue == "motion blur"; }
+bool is_of_tool(std::string_view cue) {
+    return cue == "handpiece" || cue == "motion blur";
+}
 
-/// A burr of 5 mm, or the nose of its handpiece, before what the camera looks at; the handpiece points upwards and a
-/// little towards the eye.
+/// A burr of 5 mm, or the nose of its handpiece, before what the camera looks at; the handpiece points
+/// upwards and a little towards the eye.
 DrawnTool tool_with(std::string_view cue, bool is_on, const Camera& camera) {
     constexpr double nose_mm = 40.0;  // above the burr
     DrawnTool tool;

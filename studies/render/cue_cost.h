@@ -15,10 +15,11 @@ namespace osteomill::study {
 
 /// Parts of the picture beside colour and lamps; the last two are the tool's.
 inline constexpr std::array<std::string_view, 8> cue_names{
-    "ambient occlusion", "thin bone", "smooth silhouettes", "wet bone", "grain", "sawn faces", "handpiece", "motion blur"};
+    "ambient occlusion", "thin bone", "smooth silhouettes", "wet bone", "grain",
+    "sawn faces",        "handpiece", "motion blur"};
 
-/// The usual look with that cue or without it, the usual look for one of the tool's; std::invalid_argument for another
-/// name.
+/// The usual look with that cue or without it, the usual look for one of the tool's; std::invalid_argument
+/// for another name.
 SceneAppearance look_with(std::string_view cue, bool is_on);
 
 struct CueCost {
@@ -30,8 +31,8 @@ struct CueCost {
     double changed_pixels = 0.0;  ///< share of the picture
 };
 
-/// Cost over so many pairs, at least one. Frames have the tool in the middle of the picture, half way to the eye and seen
-/// from the side, if the cue is one of its own. Needs a current context.
+/// Cost over so many pairs, at least one. Frames have the tool in the middle of the picture, half way to the
+/// eye and seen from the side, if the cue is one of its own. Needs a current context.
 CueCost cue_cost(std::string_view cue, const BoneTextures& bone, const Camera& camera,
                  const glm::ivec2& size_px, int pairs);
 

@@ -6,8 +6,8 @@
 // shading, can meet a changed brick. Stale tiles are drawn again at once if time allows. Otherwise tiles that
 // show a removed surface are drawn at a lower resolution and upscaled; tiles in which a nearby carve changes
 // only the ambient light stay as they are. Once the camera rests, all become exact piece by piece, as frames
-// can afford it. The pieces are drawn aside, and shown together when none is left: there is no seam between sharp
-// and coarse parts that moves through the picture.
+// can afford it. The pieces are drawn aside, and shown together when none is left: there is no seam between
+// sharp and coarse parts that moves through the picture.
 #pragma once
 
 #include <optional>
@@ -84,10 +84,10 @@ class IncrementalBonePass {
     Upscaler upscaler_;
     DetailControl control_;
     gl::Framebuffer layer_;
-    gl::Framebuffer coarse_;  ///< where stale parts are drawn before they are upscaled
+    gl::Framebuffer coarse_;                ///< where stale parts are drawn before they are upscaled
     std::optional<gl::Framebuffer> aside_;  ///< once parts were refined
     TileMask stale_;
-    TileMask refined_;  ///< of the stale ones, those drawn aside and not shown yet
+    TileMask refined_;               ///< of the stale ones, those drawn aside and not shown yet
     double coarsest_divisor_ = 1.0;  ///< among the stale tiles
     std::size_t next_tile_ = 0;      ///< whose turn it is to be refined
     std::vector<VoxelBox> dirty_;  ///< voxels of the bone's grid, whole blocks: shading reads means over them

@@ -22,9 +22,9 @@ class Silhouettes {
 
     /// A picture to draw the bone into beforehand, bound, its viewport of that size; it may be larger.
     const gl::Framebuffer& begin(const glm::ivec2& size_px);
-    /// Fills a box of the framebuffer `target` with what begin()'s picture shows there, silhouettes within the part of
-    /// it that is `near_bone` smoothed. A border of one pixel round the box must be drawn there, too. The scissor test is
-    /// on. Leaves the target bound, and the scissor somewhere within the box.
+    /// Fills a box of the framebuffer `target` with what begin()'s picture shows there, silhouettes within
+    /// the part of it that is `near_bone` smoothed. A border of one pixel round the box must be drawn there,
+    /// too. The scissor test is on. Leaves the target bound, and the scissor somewhere within the box.
     void draw(const BoneTextures& bone, const Camera& camera, const SceneAppearance& look,
               const RaycastSettings& settings, const glm::ivec2& size_px, GLuint target, const PixelBox& box,
               const PixelBox& near_bone);

@@ -1,6 +1,7 @@
-// A renderer of everything beside the bone: the burr with its shank, the handpiece, the force on the hand as an
-// arrow, the hand's target as a ghost. All are meshes, tested against the bone's depth. The part of the shank that
-// would hide the burr or its surroundings is translucent, and a handpiece that points at the eye is not there.
+// A renderer of everything beside the bone: the burr with its shank, the handpiece, the force on the hand as
+// an arrow, the hand's target as a ghost. All are meshes, tested against the bone's depth. The part of the
+// shank that would hide the burr or its surroundings is translucent, and a handpiece that points at the eye
+// is not there.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -29,8 +30,8 @@ struct DrawnTool {
 /// Pose of the tool's own axes (the shapes of tool_shape.h) in patient LPS, mm.
 glm::dmat4 pose_of(const DrawnTool& tool);
 
-/// Opacity of the handpiece, 0 to 1: it is solid seen from the side, and fades as its axis turns to the eye, from 60
-/// to 30 degrees, for it would hide the whole field. 0 for a tool without one.
+/// Opacity of the handpiece, 0 to 1: it is solid seen from the side, and fades as its axis turns to the eye,
+/// from 60 to 30 degrees, for it would hide the whole field. 0 for a tool without one.
 double handpiece_opacity(const DrawnTool& tool, const Camera& camera);
 
 /// Patient LPS.
@@ -51,8 +52,8 @@ class ToolRenderer {
     /// Draws over the bound framebuffer, whose depth is that of Camera::projection and whose size that of the
     /// mask; marks the tiles that it may have drawn into.
     void draw(const DrawnTool& tool, const Camera& camera, TileMask& covered);
-    /// Draws what is seen through, a part of the shank and a handpiece that fades, over all that is behind it. Call
-    /// after draw(), with the same tool and camera.
+    /// Draws what is seen through, a part of the shank and a handpiece that fades, over all that is behind
+    /// it. Call after draw(), with the same tool and camera.
     void draw_seen_through(const DrawnTool& tool, const Camera& camera, const glm::ivec2& size_px) const;
 
     /// Draws the force, outlined, over everything drawn before: it is information, not a thing.

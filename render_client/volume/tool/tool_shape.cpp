@@ -90,7 +90,9 @@ Triangles lathe(const std::vector<Station>& stations, const ColourRound& colour)
 }
 
 /// Part of the contrast of flutes and marks that is seen.
-double contrast(BurrMotion motion) { return motion == BurrMotion::still ? 1.0 : 0.2; }
+double contrast(BurrMotion motion) {
+    return motion == BurrMotion::still ? 1.0 : 0.2;
+}
 
 /// A smooth shank would not show that it turns: two dark marks do, also while the burr is out of sight.
 ColourRound marked_shank(BurrMotion motion) {
@@ -111,7 +113,9 @@ double groove_depth(const BurrShape& burr, double angle_rad, double winding_rad,
 }
 
 /// Depth of a flute, as a share of the head's radius. At speed the land sweeps over it.
-double flute_depth(BurrMotion motion) { return motion == BurrMotion::still ? 0.14 : 0.0; }
+double flute_depth(BurrMotion motion) {
+    return motion == BurrMotion::still ? 0.14 : 0.0;
+}
 
 /// `share` is that of groove_depth at this place.
 glm::vec3 steel_of(double groove, double share, BurrMotion motion) {
@@ -149,10 +153,10 @@ Triangles fluted_head(const BurrShape& burr, const BurrProfile& profile, BurrMot
         const double groove = groove_depth(burr, angle_rad, winding_rad, share);
         const double cut_mm = flute_depth(motion) * radius * groove;
         const double around = point.radius - cut_mm * point.out;
-        return Vertex{{around * std::cos(angle_rad), around * std::sin(angle_rad),
-                       point.height - cut_mm * point.up},
-                      {},
-                      steel_of(groove, share, motion)};
+        return Vertex{
+            {around * std::cos(angle_rad), around * std::sin(angle_rad), point.height - cut_mm * point.up},
+            {},
+            steel_of(groove, share, motion)};
     });
     smooth_normals(head);
     return head;
@@ -206,7 +210,8 @@ Triangles handpiece(const BurrShape& burr) {
         for (Station& station : stations) station.z += from_mm;
         return lathe(stations, [=](double) { return linear_rgb; });
     };
-    Triangles whole = part({{-0.5, 0.0}, {-0.5, 1.9}, {0.5, 2.4}, {7.0, 2.9}, {8.0, 4.2}, {18.0, 5.6}}, body_steel);
+    Triangles whole =
+        part({{-0.5, 0.0}, {-0.5, 1.9}, {0.5, 2.4}, {7.0, 2.9}, {8.0, 4.2}, {18.0, 5.6}}, body_steel);
     constexpr int ribs = 8;
     constexpr double rib_mm = 2.6;
     double z = 18.0;
@@ -214,7 +219,8 @@ Triangles handpiece(const BurrShape& burr) {
         append(whole, part({{z, 5.6}, {z + 0.4, 6.1}, {z + 1.6, 6.1}, {z + 2.0, 5.6}}, grip_grey));
         append(whole, part({{z + 2.0, 5.6}, {z + rib_mm, 5.6}}, body_steel));
     }
-    append(whole, part({{z, 5.6}, {z + 6.0, 7.0}, {z + 45.0, 8.6}, {z + 52.0, 7.8}, {z + 54.0, 4.0}}, body_steel));
+    append(whole,
+           part({{z, 5.6}, {z + 6.0, 7.0}, {z + 45.0, 8.6}, {z + 52.0, 7.8}, {z + 54.0, 4.0}}, body_steel));
     append(whole, part({{z + 54.0, 4.0}, {z + 66.0, 2.6}, {z + 110.0, 2.6}, {z + 110.0, 0.0}}, grip_grey));
     return whole;
 }

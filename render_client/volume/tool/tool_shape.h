@@ -15,8 +15,8 @@ struct BurrShape {
     bool operator==(const BurrShape&) const = default;
 };
 
-/// At speed, a burr turns many times while the eye, or a camera, takes one picture: flutes and marks are blurred
-/// about the axis. A fifth of their contrast is left, so that it is seen which way the burr turns.
+/// At speed, a burr turns many times while the eye, or a camera, takes one picture: flutes and marks are
+/// blurred about the axis. A fifth of their contrast is left, so that it is seen which way the burr turns.
 enum class BurrMotion { still, at_speed };
 
 /// Fluted head in the burr frame: +z from tip to shank, mm. The flutes are cut into the head, so the outline
@@ -26,8 +26,8 @@ Triangles burr_head(const BurrShape& burr, BurrMotion motion = BurrMotion::still
 /// Tapered neck and cylindrical shank in the same frame. Its lower end is open, within the head.
 Triangles burr_shank(const BurrShape& burr, BurrMotion motion = BurrMotion::still);
 
-/// A straight surgical handpiece from the end of the shank on, in the same frame: nose, ribbed grip, body, cable;
-/// 9 mm about the axis at most. It does not turn with the burr.
+/// A straight surgical handpiece from the end of the shank on, in the same frame: nose, ribbed grip, body,
+/// cable; 9 mm about the axis at most. It does not turn with the burr.
 Triangles handpiece(const BurrShape& burr);
 
 /// An arrow from the origin along +z of length 1 with a shaft and a head.

@@ -106,15 +106,14 @@ TEST(RandomArms, AreFoundAsTheyAre) {
         const double truth = stiffest_calm_n_per_mm(figures, resolution_mm, felt_mm);
         (figures.arm.coulomb_friction_n > 0.0 ? calm : calm_without_friction)
             .push_back(ramp.calm_n_per_mm() / truth);
-        const DeviceLimits given = with_measured_spring(
-            arm.limits(), 0.0,
-            {.calm_n_per_mm = ramp.calm_n_per_mm(),
-             .damping_n_s_per_mm = damping_n_s_per_mm,
-             .step_mm = found_step_mm,
-             .noise_mm = found_noise_mm,
-             .delay_s = 1e-3 * known.delay_ticks,
-             .moving_mass_kg = known.moving_mass_kg,
-             .friction_n = known.friction_n});
+        const DeviceLimits given = with_measured_spring(arm.limits(), 0.0,
+                                                        {.calm_n_per_mm = ramp.calm_n_per_mm(),
+                                                         .damping_n_s_per_mm = damping_n_s_per_mm,
+                                                         .step_mm = found_step_mm,
+                                                         .noise_mm = found_noise_mm,
+                                                         .delay_s = 1e-3 * known.delay_ticks,
+                                                         .moving_mass_kg = known.moving_mass_kg,
+                                                         .friction_n = known.friction_n});
         if (figures.arm.coulomb_friction_n > 0.0) {
             EXPECT_LT(given.max_stiffness_n_per_mm, truth) << i << ": the spring that this arm would get";
         }
@@ -153,7 +152,8 @@ TEST(RandomArms, AreFoundAsTheyAre) {
     EXPECT_LT(quantile(calm, 1.0), 1.5) << "an arm gets two thirds";
     EXPECT_GT(quantile(calm, 0.1), 0.75);
     EXPECT_GT(quantile(calm, 0.0), 0.4);
-    // No real arm is without friction: it hunts about the steps of its encoders, with swings that a hand's sway hides.
+    // No real arm is without friction: it hunts about the steps of its encoders, with swings that a hand's
+    // sway hides.
     EXPECT_GT(quantile(calm_without_friction, 0.0), 0.4);
 }
 

@@ -329,7 +329,8 @@ TEST(Translation, SayWhatIsWrongWithARecordingBehindItsName) {
     EXPECT_EQ(tr_about_file("nothing was milled"), "nichts wurde gefräst");
     EXPECT_EQ(tr_about_file("x.pcap: nothing like that"), "x.pcap: nothing like that");
     speak("en");
-    EXPECT_EQ(tr_about_file("x.pcap: ends before the bone is complete"), "x.pcap: ends before the bone is complete");
+    EXPECT_EQ(tr_about_file("x.pcap: ends before the bone is complete"),
+              "x.pcap: ends before the bone is complete");
 }
 
 TEST(Translation, HaveTheSamePlacesForValues) {

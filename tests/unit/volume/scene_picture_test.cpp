@@ -115,7 +115,8 @@ TEST_F(ScenePictureTest, ShowsAHandpieceFromTheSideAndNoneThatPointsAtTheEye) {
         EXPECT_LE(opacity, opacity_before);
         opacity_before = opacity;
         EXPECT_EQ(with == without, opacity == 0.0) << elevation_rad;
-        EXPECT_EQ(scene.draw(&textures, nullptr, camera).read_back(), bone) << "the next frame has it no more";
+        EXPECT_EQ(scene.draw(&textures, nullptr, camera).read_back(), bone)
+            << "the next frame has it no more";
     }
     EXPECT_EQ(opacity_before, 0.0);
 }

@@ -147,7 +147,8 @@ TEST_F(SpeedOnDemand, TakesACarveIntoPartsThatWereDrawnAside) {
         carve(picture, {0.1 * frames_before, -1.0, 2.6}, 0.6);
         for (int frame = 0; frame < 60; ++frame) picture.draw(&*textures_, nullptr, camera_);
         EXPECT_TRUE(picture.quality().refined);
-        EXPECT_EQ(picture.draw(&*textures_, nullptr, camera_).read_back(), full_picture(camera_)) << frames_before;
+        EXPECT_EQ(picture.draw(&*textures_, nullptr, camera_).read_back(), full_picture(camera_))
+            << frames_before;
     }
 }
 

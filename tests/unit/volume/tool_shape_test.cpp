@@ -71,7 +71,9 @@ TEST(ToolShape, BlursFlutesAndMarksAtSpeedWithinTheSweptOutline) {
         ASSERT_EQ(turning.vertices.size(), still.vertices.size());
         // A vertex of the turning head is as far from the axis as the lands at its height.
         for (std::size_t i = 0; i < still.vertices.size(); ++i) {
-            const auto from_axis = [](const Vertex& vertex) { return glm::length(glm::vec2(vertex.position)); };
+            const auto from_axis = [](const Vertex& vertex) {
+                return glm::length(glm::vec2(vertex.position));
+            };
             EXPECT_GE(from_axis(turning.vertices[i]), from_axis(still.vertices[i]) - 1e-5f) << i;
             EXPECT_LE(glm::length(glm::vec2(turning.vertices[i].position)), 1.5f + 1e-5f) << i;
         }

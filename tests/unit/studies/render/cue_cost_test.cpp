@@ -42,7 +42,8 @@ TEST_F(CueCostTest, IsThatOfACueThatChangesThePicture) {
         // Nothing stands behind this bone, and so near a handpiece would point at the eye.
         EXPECT_EQ(cost.changed_pixels > 0.0, cue != "thin bone" && cue != "handpiece") << cue;
     }
-    EXPECT_GT(cue_cost("handpiece", textures, camera_on({0.0, 0.0, 0.0}, 80.0), {120, 90}, 1).changed_pixels, 0.01);
+    EXPECT_GT(cue_cost("handpiece", textures, camera_on({0.0, 0.0, 0.0}, 80.0), {120, 90}, 1).changed_pixels,
+              0.01);
     EXPECT_THROW(look_with("glitter", true), std::invalid_argument);
 }
 
