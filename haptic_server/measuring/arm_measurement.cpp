@@ -65,8 +65,7 @@ void estimate(const ArmShake& shake, ArmMeasurement& found) {
         if (!axis) {
             found.not_measured.push_back(
                 fmt::format("mass, friction and delay along {}: the arm hardly moved when it was pushed, or "
-                            "not as it was "
-                            "pushed",
+                            "not as it was pushed",
                             "xyz"[k]));
             continue;
         }
@@ -91,8 +90,7 @@ void be_ordinary() noexcept {
 void say_what_to_do(const MeasuringContext& context) {
     context.say(
         "hold the arm as loosely as you ever will, in the middle of its reach and in the air; press the "
-        "pedal "
-        "and hold both still until the end, about 20 s");
+        "pedal and hold both still until the end, about 20 s");
 }
 
 }  // namespace
