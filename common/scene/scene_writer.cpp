@@ -9,6 +9,7 @@
 #include "common/scene/material.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/tissue_tables.h"
+#include "common/scene/toml_text.h"
 
 namespace osteomill {
 
@@ -24,17 +25,7 @@ std::string toml_text(bool value) {
 }
 
 std::string toml_text(std::string_view text) {
-    std::string quoted = "\"";
-    for (const char letter : text) {
-        const auto code = static_cast<unsigned char>(letter);
-        if (code < 0x20 || code == 0x7f)
-            quoted += fmt::format("\\u{:04x}", code);
-        else if (letter == '"' || letter == '\\')
-            quoted += {'\\', letter};
-        else
-            quoted += letter;
-    }
-    return quoted + '"';
+    return toml_quoted(text);
 }
 
 std::string toml_text(const std::string& text) {

@@ -144,4 +144,18 @@ std::string read_toml_text(const std::filesystem::path& path, const char* what) 
     }
 }
 
+std::string toml_quoted(std::string_view text) {
+    std::string quoted = "\"";
+    for (const char letter : text) {
+        const auto code = static_cast<unsigned char>(letter);
+        if (code < 0x20 || code == 0x7f)
+            quoted += fmt::format("\\u{:04x}", code);
+        else if (letter == '"' || letter == '\\')
+            quoted += {'\\', letter};
+        else
+            quoted += letter;
+    }
+    return quoted + '"';
+}
+
 }  // namespace osteomill

@@ -33,4 +33,7 @@ toml::table parse_toml(std::string_view text, const std::string& name);
 /// than most_toml_bytes. `what` names its kind in the message: "a scene file".
 std::string read_toml_text(const std::filesystem::path& path, const char* what);
 
+/// A string as TOML writes it, in quotes; reads back as the same bytes.
+std::string toml_quoted(std::string_view text);
+
 }  // namespace osteomill

@@ -133,6 +133,12 @@ void read_stylus(TomlReader reader, ArmProfile& profile) {
     profile.stylus = stylus;
 }
 
+/// Null: there is none of that name.
+const ShippedProfile* find_shipped(const std::string& name) {
+    const auto found = std::ranges::find(shipped_profiles(), name, &ShippedProfile::name);
+    return found != shipped_profiles().end() ? &*found : nullptr;
+}
+
 }  // namespace
 
 ArmProfile parse_arm_profile(std::string_view toml, const std::string& name) {
@@ -162,8 +168,7 @@ std::vector<std::string> shipped_profile_names() {
 }
 
 std::string arm_profile_text(const std::string& name_or_file) {
-    for (const ShippedProfile& shipped : shipped_profiles())
-        if (shipped.name == name_or_file) return std::string(shipped.toml);
+    if (const ShippedProfile* const shipped = find_shipped(name_or_file)) return std::string(shipped->toml);
     if (std::filesystem::path(name_or_file).extension() != ".toml") {
         const auto meant = nearest_name(name_or_file, shipped_profile_names());
         throw std::runtime_error(fmt::format(
@@ -174,10 +179,9 @@ std::string arm_profile_text(const std::string& name_or_file) {
 }
 
 ArmProfile load_arm_profile(const std::string& name_or_file) {
-    const bool is_shipped = std::ranges::any_of(
-        shipped_profiles(), [&](const ShippedProfile& shipped) { return shipped.name == name_or_file; });
-    return parse_arm_profile(arm_profile_text(name_or_file),
-                             is_shipped ? fmt::format("devices/{}.toml", name_or_file) : name_or_file);
+    return parse_arm_profile(
+        arm_profile_text(name_or_file),
+        find_shipped(name_or_file) ? fmt::format("devices/{}.toml", name_or_file) : name_or_file);
 }
 
 }  // namespace osteomill

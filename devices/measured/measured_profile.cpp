@@ -55,12 +55,7 @@ std::string measured_table(const MeasuredArm& measured) {
 }
 
 std::string measured_profile_text(const MeasuredProfile& profile) {
-    std::string quoted;
-    for (const char letter : profile.arm) {
-        if (letter == '"' || letter == '\\') quoted += '\\';
-        quoted += letter;
-    }
-    return fmt::format("name = \"{}\"\n\n{}", quoted, measured_table(profile.measured));
+    return fmt::format("name = {}\n\n{}", toml_quoted(profile.arm), measured_table(profile.measured));
 }
 
 std::string with_measured_table(std::string_view profile_text, const MeasuredArm& measured) {

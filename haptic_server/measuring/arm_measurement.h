@@ -32,7 +32,7 @@ struct MeasuringContext {
     double delay_s = 0.001;         ///< as far as the arm's driver knows
     bool is_virtual = false;        ///< as fast as it can: for a simulated arm
     const std::atomic<bool>& stop;  ///< ends it with zero force
-    /// Told what goes on, for people; must not wait.
+    /// Gets lines for people about what goes on; must not wait.
     std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 

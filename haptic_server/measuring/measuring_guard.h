@@ -62,7 +62,7 @@ class MeasuringGuard {
 
     bool is_open() const noexcept { return is_open_ && end_ == MeasuringEnd::none; }
     MeasuringEnd end() const noexcept { return end_; }
-    /// The first that is told is kept.
+    /// Ends it for that reason, unless it has ended before.
     void shut(MeasuringEnd why) noexcept {
         if (end_ == MeasuringEnd::none) end_ = why;
     }

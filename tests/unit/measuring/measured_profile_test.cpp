@@ -53,6 +53,9 @@ TEST(MeasuredProfile, IsReadAsItWasWritten) {
     const MeasuredProfile read = load_measured_profile(file.path);
     EXPECT_EQ(read.arm, R"(an "arm")");
     expect_same(read.measured);
+    const std::string odd = R"(of C:\arms, "the left")";
+    EXPECT_EQ(load_measured_profile(File(measured_profile_text({.arm = odd, .measured = measured})).path).arm,
+              odd);
 }
 
 TEST(MeasuredProfile, LeavesOutWhatCouldNotBeMeasured) {
