@@ -36,8 +36,6 @@ RaySpan span_within(const BoneRay& ray, const Grid& grid);
 /// last.
 class BoneSampler {
   public:
-    static constexpr double surface_fraction = 127.5;
-
     explicit BoneSampler(const Bone& bone) : bone_(bone) {}
 
     /// Fraction of any voxel.

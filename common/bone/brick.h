@@ -13,6 +13,8 @@ namespace osteomill {
 
 inline constexpr int brick_edge_voxels = 16;
 inline constexpr std::size_t brick_voxel_count = 4096;
+/// Level of the bone's surface: half of a voxel's 255.
+inline constexpr float surface_fraction = 127.5f;
 
 /// One byte a voxel; x runs fastest, then y, then z.
 using ByteBrick = std::array<std::uint8_t, brick_voxel_count>;

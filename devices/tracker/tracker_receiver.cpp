@@ -16,7 +16,7 @@ namespace osteomill {
 
 namespace {
 
-constexpr int longest_wait_ms = 20;
+constexpr int longest_poll_ms = 20;
 constexpr int between_tries_ms = 200;
 /// A connection that gives no sample for so long is made anew: its other end may be gone without notice.
 constexpr double longest_silence_s = 3.0;
@@ -84,8 +84,8 @@ void TrackerReceiver::run() {
             notice_.store("the tracker's server does not answer: is it running, and on this port?",
                           std::memory_order_relaxed);
         }
-        for (int waited = 0; waited < between_tries_ms && !stops_.load(); waited += longest_wait_ms)
-            std::this_thread::sleep_for(std::chrono::milliseconds(longest_wait_ms));
+        for (int waited = 0; waited < between_tries_ms && !stops_.load(); waited += longest_poll_ms)
+            std::this_thread::sleep_for(std::chrono::milliseconds(longest_poll_ms));
     }
 }
 
@@ -104,7 +104,7 @@ void TrackerReceiver::listen_to(int socket) {
         if (bytes < 0 && has_nothing_yet) {
             if (errno != EINTR) empty_s_ = looked_s;
             pollfd wait{socket, POLLIN, 0};
-            poll(&wait, 1, longest_wait_ms);
+            poll(&wait, 1, longest_poll_ms);
         }
         if (bytes == 0 || (bytes < 0 && !has_nothing_yet)) {
             notice_.store("the tracker's server has closed the connection", std::memory_order_relaxed);

@@ -43,7 +43,7 @@ class View {
         if (view_.is_section) span.from = std::max(span.from, 0.0);
         if (span.is_empty()) return background;
         const glm::dvec3 first = ray.at(span.from + 1e-6);
-        if (view_.is_section && span.from == 0.0 && probe_.between(first) > BoneSampler::surface_fraction)
+        if (view_.is_section && span.from == 0.0 && probe_.between(first) > surface_fraction)
             return 0.92 * tissue_colour(first);
         const auto hit = probe_.first_surface(ray, span, [](double) { return true; });
         return hit ? lit(ray, *hit) : background;

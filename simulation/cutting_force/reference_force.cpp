@@ -13,7 +13,7 @@ namespace osteomill::study {
 
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr double turn_rad = 2.0 * std::numbers::pi;
 
 /// One point of the burr's surface, patient axes.
 struct SurfacePoint {
@@ -126,7 +126,7 @@ glm::dvec3 mean_reference_force_n(const SteadyMotion& motion, const BoneFunction
     const double feed = feed_per_tooth_mm(motion);
     glm::dvec3 sum(0.0);
     for (int j = 0; j < quadrature.psi; ++j) {
-        const double psi = two_pi * (j + 0.5) / quadrature.psi;
+        const double psi = turn_rad * (j + 0.5) / quadrature.psi;
         along_outline(
             motion, frame, bone, quadrature.kappa, [&](double) { return psi; },
             [&](const SurfacePoint& point, double stiffness, double ds_mm) {
@@ -152,7 +152,7 @@ glm::dvec3 instantaneous_reference_force_n(const SteadyMotion& motion, const Bon
         const auto psi_at = [&](double along_mm) {
             const double above_tip_mm = outline.point(glm::dmat3(1.0), along_mm, 0.0).arm_mm.z - tip_mm;
             return motion.burr.sigma() *
-                   (turned_rad - helix_lag_rad_per_mm * above_tip_mm + two_pi * edge / motion.burr.edges);
+                   (turned_rad - helix_lag_rad_per_mm * above_tip_mm + turn_rad * edge / motion.burr.edges);
         };
         along_outline(motion, frame, bone, quadrature.kappa, psi_at,
                       [&](const SurfacePoint& point, double stiffness, double ds_mm) {
@@ -167,7 +167,7 @@ double reference_removal_mm3_per_s(const SteadyMotion& motion, const BoneFunctio
     const glm::dmat3 frame = burr_frame(motion.spindle_axis);
     double sum = 0.0;
     for (int j = 0; j < quadrature.psi; ++j) {
-        const double psi = two_pi * (j + 0.5) / quadrature.psi;
+        const double psi = turn_rad * (j + 0.5) / quadrature.psi;
         along_outline(
             motion, frame, bone, quadrature.kappa, [&](double) { return psi; },
             [&](const SurfacePoint& point, double, double ds_mm) {
@@ -175,7 +175,7 @@ double reference_removal_mm3_per_s(const SteadyMotion& motion, const BoneFunctio
                     ds_mm * point.radius_mm * std::max(0.0, glm::dot(point.normal, motion.velocity_mm_per_s));
             });
     }
-    return sum * two_pi / quadrature.psi;
+    return sum * turn_rad / quadrature.psi;
 }
 
 BoneFunction flat_bone() {

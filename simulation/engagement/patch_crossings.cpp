@@ -17,8 +17,6 @@ namespace {
 /// Places along a patch's normal at which the bone is sampled, from the burr's surface.
 constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::reach_voxels), -0.5f, 0.5f,
                                               static_cast<float>(Engagement::reach_voxels)};
-/// Half of a voxel's 255 levels: the bone's surface.
-constexpr float half = 127.5f;
 
 /// Fractions, 0 to 255, trilinear between the centres of voxels, at eight positions from the bricks' base.
 [[gnu::always_inline]] inline Floats fractions_at(const BrickNeighbourhood& bricks, Floats3 position) {
@@ -82,7 +80,7 @@ struct PatchCrossings::Loops {
         fractions[i] = fractions_at(
             look.bricks,
             {surface.x + offset * outward.x, surface.y + offset * outward.y, surface.z + offset * outward.z});
-        return simd::bits_of(fractions[i] >= half);
+        return simd::bits_of(fractions[i] >= surface_fraction);
     }
 
     /// Finds the crossings of patches `first` to `first` + 7, writes them to `found` and returns their
@@ -115,10 +113,10 @@ struct PatchCrossings::Loops {
         Floats bone_offset = offset;
         Ints is_found{};
         for (std::size_t i = offsets_voxels.size(); i-- > 0;) {
-            const Ints is_in_bone = fractions[i] >= half;
+            const Ints is_in_bone = fractions[i] >= surface_fraction;
             const Floats at = i == 0 ? simd::floats(offsets_voxels[0])
                                      : offsets_voxels[i - 1] + (offsets_voxels[i] - offsets_voxels[i - 1]) *
-                                                                   (half - fractions[i - 1]) /
+                                                                   (surface_fraction - fractions[i - 1]) /
                                                                    (fractions[i] - fractions[i - 1]);
             offset = is_in_bone ? at : offset;
             bone_offset = is_in_bone ? simd::floats(offsets_voxels[i]) : bone_offset;

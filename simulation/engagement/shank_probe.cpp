@@ -13,9 +13,6 @@ namespace osteomill {
 
 namespace {
 
-/// Half of a voxel's 255 levels: the bone's surface.
-constexpr float surface_fraction = 127.5f;
-
 /// Rings for each cone of a profile: one, and one more wherever the heights of a cone's rings are farthest
 /// apart as a ratio.
 std::vector<int> rings_by_cone(const ShankProfile& shank, int rings) {

@@ -8,8 +8,6 @@
 
 namespace osteomill {
 
-inline constexpr float surface_fraction = 127.5f;  ///< of 255
-
 /// Length of a ray from its start in bone (fraction of one half or more) to where it leaves it, voxels; at
 /// most `longest`. `direction` is of unit length. It steps by half a voxel, so a narrower gap may be missed.
 /// Real-time safe.

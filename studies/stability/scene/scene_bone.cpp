@@ -13,7 +13,7 @@
 namespace osteomill::study {
 namespace {
 
-constexpr double margin_mm = 0.5;
+constexpr double spare_mm = 0.5;
 
 /// Every voxel of the box is full. Its faces lie on multiples of the voxel.
 Bone full_block(const glm::dvec3& low_mm, const glm::dvec3& high_mm, double relative_stiffness) {
@@ -29,10 +29,10 @@ Bone full_block(const glm::dvec3& low_mm, const glm::dvec3& high_mm, double rela
 }  // namespace
 
 Bone scene_bone(const ScenePlan& plan, bool has_encoders) {
-    const double beside_mm = plan.burr.radius_mm() + astray_mm + margin_mm;
+    const double beside_mm = plan.burr.radius_mm() + astray_mm + spare_mm;
     const double travel_mm =
         plan.feed_mm_per_s * tick_s * static_cast<double>(plan.timing.guided + plan.timing.released());
-    const double below_mm = plan.depth_mm + astray_mm + margin_mm;
+    const double below_mm = plan.depth_mm + astray_mm + spare_mm;
     const glm::dvec3 low_mm(-beside_mm, -beside_mm, -below_mm);
     const glm::dvec3 high_mm(travel_mm + beside_mm, beside_mm, 0.0);
     Bone block = full_block(low_mm, high_mm, plan.relative_stiffness);

@@ -15,17 +15,17 @@ namespace {
 constexpr double margin_mm = 2.0;
 constexpr double lift_mm = 0.5;
 /// Off the lattice by an odd share of a voxel, as a hand is.
-constexpr glm::dvec3 off_the_lattice_mm(0.031, 0.017, 0.0);
+constexpr glm::dvec3 shift_off_the_lattice_mm(0.031, 0.017, 0.0);
 
 /// A motion from point to point at given speeds.
 class Path {
   public:
-    explicit Path(const glm::dvec3& start_mm) : at_mm_(start_mm + off_the_lattice_mm) {
+    explicit Path(const glm::dvec3& start_mm) : at_mm_(start_mm + shift_off_the_lattice_mm) {
         add(0.0);
         wait(0.2);
     }
     Path& to(const glm::dvec3& to_mm, double speed_mm_per_s) {
-        const glm::dvec3 end_mm = to_mm + off_the_lattice_mm;
+        const glm::dvec3 end_mm = to_mm + shift_off_the_lattice_mm;
         const double takes_s = glm::distance(end_mm, at_mm_) / speed_mm_per_s;
         at_mm_ = end_mm;
         if (takes_s > 0.0) add(takes_s);
@@ -272,7 +272,7 @@ std::vector<Site> tilts_in_holes() {
                     .spindle_rev_per_s = 10'000.0 / 60.0,
                     .shank = {{0.9, 0.4}, {8.0, 0.5}, {10.0, 1.2}, {24.0, 1.2}, {25.0, 6.0}, {80.0, 8.0}}};
     constexpr double depth_mm = 10.5;
-    const glm::dvec3 bottom_mm = glm::dvec3(0.0, 0.0, -depth_mm) + off_the_lattice_mm;
+    const glm::dvec3 bottom_mm = glm::dvec3(0.0, 0.0, -depth_mm) + shift_off_the_lattice_mm;
     const glm::dvec3 in_air_mm = bottom_mm + glm::dvec3(0.0, 0.0, 2.5);
     std::vector<Site> sites;
     for (const double hole_mm : {2.05, 2.1, 2.2, 2.3, 2.4})
@@ -295,7 +295,7 @@ std::vector<Site> tilts_in_holes() {
             add(2.4, bottom_mm, upright);
             add(2.8, in_air_mm, upright);
             const auto block = [=](const glm::dvec3& p) {
-                const glm::dvec3 in_hole_mm = p - off_the_lattice_mm;
+                const glm::dvec3 in_hole_mm = p - shift_off_the_lattice_mm;
                 const double aside_mm = 0.5 * hole_mm - std::hypot(in_hole_mm.x, in_hole_mm.y);
                 return meeting(p.z, std::min(aside_mm, p.z + depth_mm + 1.5));
             };

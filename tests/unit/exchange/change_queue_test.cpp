@@ -11,7 +11,7 @@
 #include "tests/support/block.h"
 #include "tests/support/random_carving.h"
 
-namespace osteomill {
+namespace osteomill::change_queue_test {
 namespace {
 
 Bone small_block() {
@@ -136,4 +136,4 @@ TEST(ChangeQueue, KeepsACopyOnAnotherThreadEqualHoweverSlowItIs) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::change_queue_test

@@ -13,7 +13,7 @@
 #include "tests/support/served_bone.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill {
+namespace osteomill::bone_link_test {
 namespace {
 
 using testing::eventually;
@@ -267,4 +267,4 @@ TEST(BoneLink, SaysThatAHostCannotBeFound) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::bone_link_test

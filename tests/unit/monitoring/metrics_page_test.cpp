@@ -77,7 +77,7 @@ TEST(MetricsPage, TellsNothingUnderANameThatIsNotItsOwn) {
     for (const char* fields : {"Host: evil.example:9464\r\n", "Host: localhost\r\nHost: evil.example\r\n",
                                "host: EVIL.example\x01\r\n"}) {
         const std::string answer = asked_as(fields);
-        EXPECT_THAT(answer, testing::Not(HasSubstr("text\n"))) << fields;
+        EXPECT_THAT(answer, ::testing::Not(HasSubstr("text\n"))) << fields;
         if (std::string(fields).find('\x01') == std::string::npos) {
             EXPECT_THAT(answer, StartsWith("HTTP/1.1 421 Misdirected Request\r\n"));
             EXPECT_THAT(answer, HasSubstr("this page is not of 'evil.example"));

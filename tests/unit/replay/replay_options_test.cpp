@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::replay_options_test {
 namespace {
 
 ReplayCommandLine parse(std::vector<const char*> arguments) {
@@ -57,4 +57,4 @@ TEST(ReplayOptions, SayWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::replay_options_test

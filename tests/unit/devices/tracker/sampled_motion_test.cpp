@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace osteomill {
+namespace osteomill::sampled_motion_test {
 namespace {
 
 constexpr double tick_s = 0.001;
@@ -474,4 +474,4 @@ TEST(SampledMotion, IsFiniteWhateverTheTimesAre) {
 }
 
 }  // namespace
-}  // namespace osteomill
+}  // namespace osteomill::sampled_motion_test
