@@ -91,6 +91,9 @@ class FullRateTest(unittest.TestCase):
             self.assertEqual(len(upload[of]["wall_ms"]), 2)
         self.assertEqual(len(render_full_rate.lines_of_upload("tooth", upload, "any")), 2)
         self.assertNotIn("description", render_full_rate.figures_of(upload))
+        table = render_full_rate.table_of_uploads({"tooth": upload})
+        self.assertEqual(table.groupby("cut")["upload_ms"].count().to_dict(), {"a ball of 5 mm at once": 2, "what the 5 mm burr cuts in a frame": 2})
+        self.assertIn("</svg>", svg_of(render_charts.uploads(table, "made up")))
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ from osteomill.studies.study_run import StudyRun
 
 WRITES = ("calibration.json", "calibration_*.svg", "residuals.csv", "runs.csv", "scene.toml")
 
-#: 
+#: Lists of --design: bounds, and what their numbers are.
 LISTS = {
     "diameters_mm": (0.2, 20.0, "burrs at hand"),
     "feeds_mm_per_s": (0.001, 1000.0, "feeds that can be set"),

@@ -9,7 +9,7 @@ from osteomill.studies import charts
 
 Series = dict[str, pd.DataFrame]  # by FORCE-MODEL_COUPLING
 
-#: 
+#: Couplings: colour, and name in the legend.
 COUPLINGS = {
     "interpolate": (charts.RED, "interpolate, 100 Hz"),
     "sample-estimate-interpolate": (charts.AMBER, "sample-estimate-interpolate, 100 Hz"),

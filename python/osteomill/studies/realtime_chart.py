@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from osteomill.studies import charts
 
-#: 
+#: Rows of the table: colour, and name in the legend.
 WHATS = {
     "wakeup": (charts.BLUE, "wake-up of the haptic loop"),
     "cyclictest": (charts.RED, "wake-up of cyclictest"),

@@ -20,7 +20,7 @@ PHANTOMS = ("tooth", "head")
 FULL_SIZE_PX, SOFTWARE_SIZE_PX = (2560, 1440), (640, 360)
 FULL_FRAMES, SOFTWARE_FRAMES = 600, 8
 UPLOADS = 50
-#: 
+#: Keys of the drawn motions, and their names in table and chart.
 MOTIONS = {"orbit": "orbit", "carve": "carve", "orbit_side_by_side": "orbit side by side", "orbit_both_whole": "orbit quad buffer"}
 
 
@@ -37,7 +37,7 @@ def run(options: argparse.Namespace, study: StudyRun, renderer: str, is_software
     frames = options.frames or (SOFTWARE_FRAMES if is_software else FULL_FRAMES)
     for line in lines_before(renderer, is_software, size_px, frames, bool(options.size_px and options.frames)):
         study.say(line)
-    cases = [{"part": "uploads", "phantom": phantom, "times": frames if is_software else UPLOADS} for phantom in PHANTOMS]
+    cases = [{"part": "uploads", "phantom": phantom, "times": UPLOADS} for phantom in PHANTOMS]
     cases += [{"part": "window", "phantom": phantom, "size_px": size_px, "frames": frames} for phantom in PHANTOMS]
     found = study.sweep(functools.partial(measure, options.gpu, study.out), cases, lambda case: f"{case['phantom']}, {case['part']}")
     uploads, drawn = (dict(zip(PHANTOMS, its)) for its in (found[: len(PHANTOMS)], found[len(PHANTOMS) :]))
@@ -59,10 +59,13 @@ def run(options: argparse.Namespace, study: StudyRun, renderer: str, is_software
         "gl_renderer": renderer, "is_software_renderer": is_software, "size_px": size_px, "frames_of_a_row": frames,
         "bones": {phantom: figures_of(upload) for phantom, upload in uploads.items()}, "rows": table.to_dict("records"),
         "two_eyes_to_one": eyes})
-    from osteomill.studies.render_charts import full_rate
+    from osteomill.studies import render_charts
 
-    study.chart("render_full_rate", full_rate(table, renderer))
-    study.say(f"full_rate.json, full_rate.csv, render_full_rate.svg and pictures (PNG) are in {study.out}")
+    of_uploads = table_of_uploads(uploads)
+    study.table("uploads", of_uploads)
+    study.chart("render_full_rate", render_charts.full_rate(table, renderer))
+    study.chart("render_uploads", render_charts.uploads(of_uploads, renderer))
+    study.say(f"full_rate.json, full_rate.csv, uploads.csv, their charts and pictures (PNG) are in {study.out}")
 
 
 def lines_before(renderer: str, is_software: bool, size_px: list[int], frames: int, is_told: bool) -> list[str]:
@@ -102,6 +105,13 @@ def table_of(drawn: dict[str, Any], size_px: list[int], renderer: str) -> pd.Dat
                          "p99_ms": float(np.percentile(wall, 99)), "gpu_p50_ms": float(np.median(gpu)),
                          "gpu_p99_ms": float(np.percentile(gpu, 99)), "cpu_p50_ms": float(np.median(cpu)), "gl_renderer": renderer})
     return pd.DataFrame(rows)
+
+
+def table_of_uploads(uploads: dict[str, Any]) -> pd.DataFrame:
+    """A row an upload."""
+    kinds = {"upload_of_frame": "what the 5 mm burr cuts in a frame", "upload_of_5_mm_ball": "a ball of 5 mm at once"}
+    return pd.DataFrame([{"bone": phantom, "cut": cut, "upload_ms": ms}
+                         for phantom, upload in uploads.items() for key, cut in kinds.items() for ms in upload[key]["wall_ms"]])
 
 
 def two_eyes_to_one(table: pd.DataFrame, phantom: str) -> dict[str, float]:

@@ -20,7 +20,7 @@ from osteomill.studies.calibration.forces import COEFFICIENTS, Array, regressors
 
 FEWEST_RUNS = 3
 STARTS = 8
-#: 
+#: A smaller difference between logarithms of determinants is none: two designs, mirrored left to right, are equally good.
 EQUAL = 1e-9
 
 

@@ -27,18 +27,18 @@ from osteomill.studies.calibration.forces import AXES, COEFFICIENTS, SLOPES, ZER
 #: factor in the coefficients, and 30 turns 3 % into everything. It is also where Belsley, Kuh and Welsch (1980) begin
 #: to call dependencies strong.
 LARGEST_CONDITION = 30.0
-#: With one feed the law's geometry alone
-#: parts chip forces from edge forces: K_t t and K_te differ by how t falls towards the flanks of the slot, and a fit : could not
-#: check that.
+#: Least ratio of the largest to the smallest feed of a tooth. With one feed only the law's geometry separates chip forces from edge
+#: forces: K_t t and K_te differ by how t falls towards the flanks of the slot, and a fit could not check that.
 LEAST_VARIATION_OF_FEED = 2.0
-#: 
+#: The spreads are not believed if sound runs scatter so much in less than this share of tables.
 IMPROBABLE = 0.05
 TWO_SIDED_95 = 0.975
-#: 
+#: Residual at which soft L1 turns from squares to distances, in spreads: Huber's choice, which costs a twentieth of the
+#: information in a table without outliers.
 LARGE_RESIDUAL = 1.345
-#: 
+#: Information on the scatter in a median of absolute residuals, as a share of that in their squares, for a table without outliers.
 EFFICIENCY_OF_MEDIAN = 0.37
-#: 
+#: A coefficient is named if its part in a dependency is at least this share of the largest part.
 NOTABLE_PART = 0.2
 
 

@@ -24,7 +24,7 @@ FORCES_OF_A_RUN = len(AXES)
 
 SLOPES = [f"drift_{axis}" for axis in AXES]  # N, from the first run that was made to the last
 ZEROS = [f"zero_{axis}" for axis in AXES]  # N, at the first
-#: 
+#: Unknowns that each way of drifting adds.
 DRIFTS: dict[str, list[str]] = {"none": [], "slope": SLOPES, "line": SLOPES + ZEROS}
 
 

@@ -14,7 +14,7 @@ from osteomill.studies.calibration.fit import Fit
 from osteomill.studies.calibration.forces import AXES, COEFFICIENTS, FORCES_OF_A_RUN
 from osteomill.studies.calibration.runs import FORCES, SPREADS
 
-#: 
+#: A run is named if chance would put any run of a table so far off in one table of twenty.
 SURPRISING = 0.05
 
 

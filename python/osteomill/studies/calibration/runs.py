@@ -25,7 +25,7 @@ MAY_BE_MISSING = (GROOVE, "order")
 SENSES = ("clockwise", "counter-clockwise")
 SETTINGS = ["diameter_mm", "edges", "turns", "rpm", "feed_mm_per_s", "depth_mm", "tilt_deg", "tilt_direction_deg"]
 
-#: 
+#: Columns of numbers: the right values in words, and the check of a value.
 NUMBERS: dict[str, tuple[str, Callable[[float], bool]]] = {
     "diameter_mm": ("a number from 0.2 to 20", lambda v: 0.2 <= v <= 20.0),
     "edges": ("a whole number from 1 to 64", lambda v: 1 <= v <= 64 and v == int(v)),
