@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullLocator
 
 from osteomill.studies import charts
 
@@ -82,13 +83,15 @@ def uploads(table: pd.DataFrame, renderer: str) -> Figure:
         ms = table[(table["bone"] == bone) & (table["cut"] == cut)]["upload_ms"].to_numpy()
         axes.plot(ms, place + spread.uniform(-0.15, 0.15, len(ms)), "o", markersize=4, alpha=0.5, color=charts.BLUE)
         axes.plot([np.median(ms)] * 2, [place - 0.3, place + 0.3], color=charts.BLACK, linewidth=2.0)
-        axes.annotate(f"{np.median(ms):.3g}", (np.median(ms), place + 0.32), ha="center", va="bottom", fontsize=10)
+        axes.annotate(f"{np.median(ms):.2g}", (np.median(ms), place + 0.32), ha="center", va="bottom", fontsize=10)
     axes.axvline(GOAL_UPLOAD_MS, color=charts.BLACK, linestyle="--", linewidth=1.2, label="goal on a data-centre GPU")
     axes.set_yticks(range(len(lines)), [f"{bone}: {cut}" for bone, cut in lines])
     axes.set_ylim(-0.6, len(lines) - 0.2)
     axes.set(xscale="log", xlabel="time until OpenGL has finished, ms; the bar is the median",
              title=f"What a carve costs to upload\n{renderer}")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_locator(NullLocator())
     axes.grid(False, axis="y")
     axes.legend(loc="lower right")
     return figure
