@@ -64,7 +64,7 @@ nlohmann::ordered_json measurements(const MillingSessionReport& report, const Bo
     nlohmann::ordered_json json;
     json["scene"] = scene.name;
     json["clock"] = options.clock == ClockKind::real ? "real" : "virtual";
-    json["coupling"] = options.coupling;
+    json["coupling"] = name_of(options.coupling);
     json["milling_rate_hz"] = options.milling_rate_hz;
     json["duration_s"] = report.duration_s;
     json["ticks"] = report.haptic.ticks;

@@ -28,17 +28,15 @@ std::optional<ListenAddress> listen_address(const TypedServerOptions& typed) {
     return parse_listen_address(typed.listen);
 }
 
-std::string checked_coupling(const TypedServerOptions& typed, const DeviceEntry& device) {
+CouplingChoice coupling_of(const TypedServerOptions& typed, const DeviceEntry& device) {
     const std::string& force_model = typed.options.session.force_model;
     const bool has_cutting_law = find_force_model(force_model).has_cutting_law;
-    if (typed.coupling.empty()) return usual_coupling(has_cutting_law, device);
-    if (find_coupling(typed.coupling).needs_cutting_law && !has_cutting_law) {
-        throw std::invalid_argument(
-            fmt::format("--coupling {}: solves the cutting law, and --force-model {} has none; take "
-                        "--coupling {}",
-                        typed.coupling, force_model, usual_coupling(has_cutting_law, device)));
-    }
-    return typed.coupling;
+    if (!typed.coupling) return usual_coupling(has_cutting_law, device);
+    const CouplingChoice choice =
+        said_of_option("--coupling", [&] { return coupling_named(*typed.coupling); });
+    const std::string both = fmt::format("--coupling {}, --force-model {}", *typed.coupling, force_model);
+    said_of_option(both.c_str(), [&] { require_cutting_law(choice, has_cutting_law); });
+    return choice;
 }
 
 SceneChanges scene_changes(const TypedServerOptions& typed) {
@@ -203,7 +201,7 @@ ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& acce
     if (!options.grip && !device.is_simulated)
         throw std::invalid_argument(fmt::format("--grip {}: goes with --device simulated", rails_name));
     options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
-    options.session.coupling = checked_coupling(typed, device);
+    options.session.coupling = coupling_of(typed, device);
     require_cutting_law_to_vibrate(options.session);
     options.session.milling_rate_hz =
         typed.milling_rate_hz > 0.0

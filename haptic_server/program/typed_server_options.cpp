@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <stdexcept>
 
 #include "common/program/command_line.h"
 #include "common/program/option_checks.h"
@@ -13,24 +12,10 @@
 #include "common/words/translation.h"
 #include "haptic_server/session/measured_device.h"
 #include "haptic_server/session/session_defaults.h"
-#include "simulation/coupling/couplings.h"
 
 namespace osteomill {
 
 namespace {
-
-CLI::Validator a_coupling() {
-    return CLI::Validator(
-        [](std::string& value) {
-            try {
-                (void)find_coupling(value);
-                return std::string();
-            } catch (const std::invalid_argument& error) {
-                return std::string(error.what());
-            }
-        },
-        "");
-}
 
 /// A line for each.
 std::string force_model_help() {
@@ -43,10 +28,10 @@ std::string force_model_help() {
 std::string coupling_help() {
     std::string text = fmt::format(
         "What stands between the model and the hand ({}; {} with a force model that has no cutting law",
-        usual_coupling(true, devices().front()), usual_coupling(false, devices().front()));
+        name_of(usual_coupling(true, devices().front())), name_of(usual_coupling(false, devices().front())));
     for (const DeviceEntry& device : devices())
-        if (device.coupling != nullptr)
-            text += fmt::format("; {} with --device {}", device.coupling, device.name);
+        if (device.coupling)
+            text += fmt::format("; {} with --device {}", entry_of(*device.coupling).name, device.name);
     text += "):";
     for (const CouplingEntry& coupling : couplings())
         text += fmt::format("\n  {}: {}", coupling.name, coupling.text);
@@ -88,7 +73,7 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
     app.add_option("--trajectory", to.scene.trajectory,
                    "What the simulated hand follows, instead of the scene's")
         ->type_name("FILE.csv");
-    app.add_option("--coupling", typed.coupling, coupling_help())->check(a_coupling())->type_name("NAME");
+    app.add_option("--coupling", typed.coupling, coupling_help())->type_name("NAME");
     app.add_option("--force-model", to.session.force_model, force_model_help())
         ->check(one_of(force_model_names()))
         ->capture_default_str();

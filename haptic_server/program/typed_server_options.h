@@ -1,6 +1,7 @@
 // Options of haptic_server as typed, before they are checked against each other (server_options.h).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct TypedServerOptions {
     std::string burr;
     DeviceOptions device;
     std::string grip = "firm";
-    std::string coupling;
+    std::optional<std::string> coupling;
     double milling_rate_hz = 0.0;
     std::string clock = "real";
     std::string listen;

@@ -70,11 +70,19 @@ Scene scene_of(const SessionInfo& session) {
     }
 }
 
+CouplingChoice coupling_of(const SessionInfo& session) {
+    try {
+        return coupling_named(setting(session, "coupling"));
+    } catch (const std::invalid_argument& error) {
+        throw NotRepeatable(error.what());
+    }
+}
+
 MillingSessionOptions options_of(const SessionInfo& session) {
-    const std::string coupling = setting(session, "coupling");
-    if ((coupling == "damper" || coupling.ends_with("+damper")) &&
-        setting(session, "device") != "prescribed" && setting(session, "grip") != rails_name)
-        throw NotRepeatable("its coupling " + coupling +
+    const CouplingChoice coupling = coupling_of(session);
+    if (coupling.addition == CouplingAddition::damper && setting(session, "device") != "prescribed" &&
+        setting(session, "grip") != rails_name)
+        throw NotRepeatable("its coupling " + name_of(coupling) +
                             " takes the arm's own velocity, which is not recorded");
     MillingSessionOptions options{.clock = ClockKind::virtual_time,
                                   .milling_rate_hz = number_of(session, "milling_rate_hz"),

@@ -17,6 +17,7 @@
 #include "devices/hid/hid_transport.h"
 #include "devices/simulated/hand_model.h"
 #include "devices/simulated/simulated_device.h"
+#include "simulation/coupling/couplings.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/exchange/operator_channel.h"
 
@@ -97,8 +98,8 @@ struct DeviceEntry {
     const char* name;
     const char* text;  ///< for --help: the mover of the tool
     std::vector<DeviceOption> options{};
-    /// The coupling that suits it, unless the command line names one; null: the force model's.
-    const char* coupling = nullptr;
+    /// The coupling that suits it, unless the command line names one; nothing: the force model's.
+    std::optional<CouplingKind> coupling{};
     bool is_simulated = false;  ///< may run on the virtual clock, and follows a trajectory
     bool is_moved_by_client = false;
     bool is_arm = false;  ///< it gives a force, and what it is may be measured

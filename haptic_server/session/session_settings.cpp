@@ -35,7 +35,7 @@ nlohmann::ordered_json session_settings(const MillingSessionOptions& milling, co
         {"commit", built_from_commit()},
         {"scene", scene.name},
         {"force_model", milling.force_model},
-        {"coupling", milling.coupling},
+        {"coupling", name_of(milling.coupling)},
         {"device", hand.device},
         {"grip", name_of(hand.grip)},
         {"burr", burr.name},

@@ -73,11 +73,11 @@ SharedSession make_session(const std::shared_ptr<LoadedCase>& loaded, const std:
                         "Recording.to_hdf5 makes HDF5 of it",
                         one_line(record->string())));
     SteppedOptions options{.grip = grip_of(hand),
-                           .coupling = coupling.value_or(""),
                            .milling_rate_hz = milling_rate_hz,
                            .vibration = vibration,
                            .arm = arm,
                            .record = record};
+    if (coupling) options.coupling = coupling_named(*coupling);
     if (force_model) options.force_model = *force_model;
     if (!start_mm.is_none() || !start_axis.is_none()) {
         options.start = loaded->settings().start_pose;
@@ -217,8 +217,8 @@ go to a thread of its own. A copy of a session that is recorded is not. Fault: t
                                [](const SharedSession& session) {
                                    return std::const_pointer_cast<LoadedCase>(session->shared_case());
                                })
-        .def_property_readonly("coupling",
-                               [](const SharedSession& session) { return session->settings().coupling; })
+        .def_property_readonly(
+            "coupling", [](const SharedSession& session) { return name_of(session->settings().coupling); })
         .def_property_readonly("force_model",
                                [](const SharedSession& session) { return session->settings().force_model; })
         .def_property_readonly(

@@ -29,14 +29,12 @@ double power_w(double torque_n_mm, const Burr& burr) {
 
 MillingSessionOptions milling_options(const SteppedOptions& options) {
     MillingSessionOptions milling{.clock = ClockKind::virtual_time,
-                                  .coupling = options.coupling,
                                   .force_model = options.force_model,
                                   .vibration = options.vibration,
                                   // The caller that steps it ends it, even if its trajectory has no end.
                                   .duration_s = std::numeric_limits<double>::max()};
-    if (milling.coupling.empty())
-        milling.coupling =
-            usual_coupling(find_force_model(options.force_model).has_cutting_law, devices().front());
+    milling.coupling = options.coupling.value_or(
+        usual_coupling(find_force_model(options.force_model).has_cutting_law, devices().front()));
     milling.milling_rate_hz =
         options.milling_rate_hz.value_or(usual_milling_rate_hz(milling.coupling, milling.force_model));
     return milling;
@@ -129,8 +127,8 @@ void SteppedSession::begin() {
         parts = simulated_hand(scene.scene, *options_.grip, options_.arm.value_or(ArmModel{}));
         run_.simulated = parts.simulated;
     } else {
-        auto prescribed = std::make_unique<PrescribedDevice>(
-            run_.hand, scene.scene.device, limits_at_prescribed_hand(options_.arm));
+        auto prescribed = std::make_unique<PrescribedDevice>(run_.hand, scene.scene.device,
+                                                             limits_at_prescribed_hand(options_.arm));
         run_.prescribed = prescribed.get();
         parts.device = std::move(prescribed);
     }

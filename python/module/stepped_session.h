@@ -29,7 +29,7 @@ namespace osteomill::python {
 
 struct SteppedOptions {
     std::optional<Grip> grip{};  ///< of the simulated hand; nothing: the hand is at prescribed poses
-    std::string coupling{};      ///< empty: the usual one
+    std::optional<CouplingChoice> coupling{};  ///< nothing: the usual one
     std::string force_model = force_model_names().front();
     std::optional<double> milling_rate_hz{};  ///< nothing: the usual one
     bool vibration = false;

@@ -71,7 +71,7 @@ std::vector<double> spindle_speeds(const std::vector<Burr>& burrs) {
 
 /// All of them where they may be switched, else those that are on.
 FixtureSet fixtures_to_hold(const Scene& scene, const MillingSessionOptions& options) {
-    const bool may_be_switched = options.can_be_controlled && find_coupling(options.coupling).takes_fixtures;
+    const bool may_be_switched = options.can_be_controlled && entry_of(options.coupling.kind).takes_fixtures;
     return may_be_switched ? fixture_bit(scene.fixtures.size()) - 1 : fixtures_on(scene.fixtures);
 }
 

@@ -42,7 +42,7 @@ inline constexpr double most_milling_rate_hz = 10'000.0;
 struct MillingSessionOptions {
     ClockKind clock = ClockKind::real;
     double milling_rate_hz = 1000.0;
-    std::string coupling = coupling_names().front();
+    CouplingChoice coupling{};
     std::string force_model =
         force_model_names().front();  ///< one without a cutting law: not with "implicit"
     bool vibration = false;           ///< the handpiece vibrates; only with a cutting law

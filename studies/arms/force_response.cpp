@@ -76,7 +76,7 @@ ForceResponse respond(const std::string& coupling_name, double stiffness_n_per_m
     MillingModel rigid(bone, {burr}, {});
     CouplingOptions options;
     options.device.max_stiffness_n_per_mm = stiffness_n_per_mm;
-    const auto coupling = make_coupling(coupling_name, options);
+    const auto coupling = make_coupling(coupling_named(coupling_name), options);
     ForgottenChanges changes;
     const auto latest = std::make_unique<MillingResult>();
     const auto rigid_latest = std::make_unique<MillingResult>();

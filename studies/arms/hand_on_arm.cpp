@@ -49,7 +49,7 @@ std::vector<glm::dvec3> forces_of(const Scene& scene, const Bone& bone, const Ha
     MillingSession session(scene, bone, device,
                            {.clock = ClockKind::virtual_time,
                             .milling_rate_hz = choice.milling_rate_hz,
-                            .coupling = choice.coupling,
+                            .coupling = coupling_named(choice.coupling),
                             .force_model = choice.force_model,
                             .duration_s = choice.longest_s});
     std::atomic<bool> is_over{false};

@@ -59,7 +59,7 @@ SlideEnd PolishingSlide::run(const PolishingSetup& setup, const std::filesystem:
     MillingSession session(scene_, cube_, device,
                            {.clock = ClockKind::virtual_time,
                             .milling_rate_hz = setup.milling_rate_hz,
-                            .coupling = setup.coupling,
+                            .coupling = coupling_named(setup.coupling),
                             .force_model = setup.force_model,
                             .duration_s = longest_s},
                            &force_log);

@@ -235,8 +235,9 @@ void TickWithFixture(benchmark::State& state) {
     for (Tried& one : all) {
         scene.fixtures = one.fixtures;
         for (Fixture& fixture : scene.fixtures) fixture.tissue = "nerve";
-        one.coupling = make_coupling("implicit", {.device = in_patient_space(DeviceLimits(), ArmScale()),
-                                                  .fixtures = make_fixtures(scene, nerve, 1.5)});
+        one.coupling =
+            make_coupling({CouplingKind::implicit}, {.device = in_patient_space(DeviceLimits(), ArmScale()),
+                                                     .fixtures = make_fixtures(scene, nerve, 1.5)});
     }
     // A tick is short beside a reading of the clock: so many are timed at once.
     constexpr int ticks = 100;

@@ -81,7 +81,7 @@ DeviceEntry tracker_entry() {
                                  "that place the tracker on the patient",
                          .names_file = true}},
             // A hand that feels no force is not held: the burr is where it is.
-            .coupling = "hold",
+            .coupling = CouplingKind::hold,
             .checked = checked_tracker};
 }
 

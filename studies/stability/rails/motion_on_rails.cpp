@@ -50,7 +50,7 @@ OnRails run_on_rails(const SteadyCase& c, const std::string& coupling_name) {
                           .high_mm = glm::max(start_mm, end_mm) + margin_mm,
                           .up = c.up};
     MillingModel model(voxelised(block, voxel_mm), {c.burr}, {});
-    const auto coupling = make_coupling(coupling_name, CouplingOptions{});
+    const auto coupling = make_coupling(coupling_named(coupling_name), {});
     ForgottenChanges changes;
     const auto latest = std::make_unique<MillingResult>();
     const auto mill = [&](const ToolPose& pose, bool spindle_on, double now_s) {

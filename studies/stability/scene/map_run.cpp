@@ -53,7 +53,7 @@ RunRecord run_session(const MapCase& c, const ScenePlan& plan, const Bone& bone,
     MillingSession session(scene_of(plan), bone, device,
                            {.clock = ClockKind::virtual_time,
                             .milling_rate_hz = c.milling_rate_hz,
-                            .coupling = c.method,
+                            .coupling = coupling_named(c.method),
                             .force_model = "milling",
                             .duration_s = tick_s * static_cast<double>(ticks)});
     RunRecord run;

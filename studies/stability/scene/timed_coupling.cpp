@@ -19,7 +19,7 @@ std::vector<double> coupling_tick_us(const std::string& method, int ticks) {
     MillingModel model(voxelised({.low_mm = {-4.0, -4.0, -3.0}, .high_mm = {travel_mm + 4.0, 4.0, 0.0}}, 0.1),
                        {burr}, {});
     const auto coupling = make_coupling(
-        method,
+        coupling_named(method),
         {.device = in_patient_space(limits_of(ArmModel{}), ArmScale(1.0)), .milling_period_s = tick_s});
     ForgottenChanges changes;
     const auto result = std::make_unique<MillingResult>();  // too large for a stack

@@ -96,7 +96,7 @@ SiteRun run_site(const Site& site, const SiteHand& hand) {
     scene.start_pose = site.motion.front().pose;
     MillingSession session(scene, bone, device,
                            {.clock = ClockKind::virtual_time,
-                            .coupling = hand.method,
+                            .coupling = coupling_named(hand.method),
                             .duration_s = most_patience * site.motion.back().time_s});
     std::atomic<bool> stop{false};
     device.on_tick([&](std::vector<SiteTick>& record) {

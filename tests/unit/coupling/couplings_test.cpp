@@ -8,26 +8,38 @@ namespace osteomill::couplings_test {
 namespace {
 
 TEST(Coupling, EveryNameMakesOneAndTheDefaultIsImplicit) {
-    EXPECT_EQ(coupling_names().front(), "implicit");
-    for (const std::string& name : coupling_names()) EXPECT_NE(make_coupling(name, {}), nullptr);
+    EXPECT_EQ(couplings().front().choice, CouplingChoice());
+    EXPECT_EQ(couplings().front().name, "implicit");
+    for (const CouplingEntry& coupling : couplings()) {
+        EXPECT_EQ(coupling_named(coupling.name), coupling.choice) << coupling.name;
+        EXPECT_NE(make_coupling(coupling.choice, {}), nullptr) << coupling.name;
+    }
 }
 
 TEST(Coupling, ADirectOneTakesADamperOrPassivity) {
     for (const char* base : {"hold", "interpolate", "sample-estimate-hold", "corrected-sample-estimate-hold",
                              "sample-estimate-interpolate"})
         for (const char* addition : {"+damper", "+passivity"})
-            EXPECT_NE(make_coupling(std::string(base) + addition, {}), nullptr);
+            EXPECT_NE(make_coupling(coupling_named(std::string(base) + addition), {}), nullptr);
+}
+
+TEST(Coupling, IsReadAgainFromItsName) {
+    for (const char* name : {"implicit", "hold", "interpolate+damper", "sample-estimate-hold+passivity"})
+        EXPECT_EQ(name_of(coupling_named(name)), name);
+    EXPECT_EQ(name_of(coupling_named("damper")), "hold+damper");
+    EXPECT_EQ(name_of(coupling_named("passivity")), "hold+passivity");
 }
 
 TEST(Coupling, AnUnknownNameIsRefusedInOneLineWithTheChoices) {
     for (const char* name : {"glue", "", "hold+", "+damper", "hold+glue", "implicit+damper", "damper+damper",
                              "hold+damper+passivity", "Hold"}) {
         try {
-            (void)make_coupling(name, {});
+            (void)coupling_named(name);
             FAIL() << "took " << name;
         } catch (const std::invalid_argument& error) {
             const std::string what = error.what();
-            for (const std::string& known : coupling_names()) EXPECT_NE(what.find(known), std::string::npos);
+            for (const CouplingEntry& known : couplings())
+                EXPECT_NE(what.find(known.name), std::string::npos);
             EXPECT_NE(what.find("+passivity"), std::string::npos);
             EXPECT_EQ(what.find('\n'), std::string::npos);
         }
@@ -36,17 +48,17 @@ TEST(Coupling, AnUnknownNameIsRefusedInOneLineWithTheChoices) {
 
 TEST(Coupling, IsInterpolatedWhereItsForceIsALine) {
     for (const char* name : {"interpolate", "sample-estimate-interpolate", "interpolate+damper"})
-        EXPECT_TRUE(find_coupling(name).is_interpolated) << name;
+        EXPECT_TRUE(entry_of(coupling_named(name).kind).is_interpolated) << name;
     for (const char* name : {"implicit", "hold", "sample-estimate-hold+passivity", "virtual-coupling"})
-        EXPECT_FALSE(find_coupling(name).is_interpolated) << name;
+        EXPECT_FALSE(entry_of(coupling_named(name).kind).is_interpolated) << name;
 }
 
 TEST(Coupling, ThatSolvesTheCuttingLawIsRefusedWhereThereIsNone) {
-    EXPECT_THROW((void)make_coupling("implicit", {.device = {}, .model_holds_wall = true}),
+    EXPECT_THROW((void)make_coupling({CouplingKind::implicit}, {.device = {}, .model_holds_wall = true}),
                  std::invalid_argument);
     for (const CouplingEntry& coupling : couplings()) {
         if (coupling.needs_cutting_law) continue;
-        EXPECT_NE(make_coupling(coupling.name, {.device = {}, .model_holds_wall = true}), nullptr);
+        EXPECT_NE(make_coupling(coupling.choice, {.device = {}, .model_holds_wall = true}), nullptr);
     }
 }
 

@@ -19,7 +19,7 @@ constexpr double tick_s = 0.001;
 class Cut {
   public:
     Cut(const std::string& coupling, double resistance_n_s_per_m)
-        : coupling_(make_coupling(coupling, {.device = {.max_stiffness_n_per_mm = 1.5}})) {
+        : coupling_(make_coupling(coupling_named(coupling), {.device = {.max_stiffness_n_per_mm = 1.5}})) {
         result_->step = 1;
         result_->spindle_on = true;
         result_->engagement.count = 1;

@@ -23,10 +23,10 @@ class WallOnBench {
   public:
     WallOnBench(const std::string& coupling, const Wall& wall)
         : wall_(wall),
-          coupling_(
-              make_coupling(coupling, {.device = {.max_stiffness_n_per_mm = 1e-3 * wall.stiffness_n_per_m,
-                                                  .position_resolution_mm = 1e3 * wall.resolution_m},
-                                       .milling_period_s = tick_s * wall.ticks_per_step})) {
+          coupling_(make_coupling(coupling_named(coupling),
+                                  {.device = {.max_stiffness_n_per_mm = 1e-3 * wall.stiffness_n_per_m,
+                                              .position_resolution_mm = 1e3 * wall.resolution_m},
+                                   .milling_period_s = tick_s * wall.ticks_per_step})) {
         result_->engagement.count = 1;
         result_->engagement.patches[0] = {
             .normal = {1.0, 0.0, 0.0}, .gap_mm = 1e3 * wall.at_m, .area_mm2 = 1e4};

@@ -39,11 +39,12 @@ struct Rig {
         const Burr& used, const std::shared_ptr<const Fixtures>& fixtures)
         : model(make_force_model(force_model, testing::make_block({-4.0, -4.0, -3.2}, {4.0, 4.0, 0.0}, 0.1),
                                  {used}, {})),
-          coupling(make_coupling(
-              coupling_name, {.device = in_patient_space(device.limits(), ArmScale()),
-                              .milling_period_s = 0.001,
-                              .model_holds_wall = !osteomill::find_force_model(force_model).has_cutting_law,
-                              .fixtures = fixtures})),
+          coupling(
+              make_coupling(coupling_named(coupling_name),
+                            {.device = in_patient_space(device.limits(), ArmScale()),
+                             .milling_period_s = 0.001,
+                             .model_holds_wall = !osteomill::find_force_model(force_model).has_cutting_law,
+                             .fixtures = fixtures})),
           vibration({used}, {.max_force_n = 3.3, .max_slew_n_per_s = ForceGuard::slew_n_per_s}),
           haptic({device, *coupling, *results, commands, tool, status, &log, &vibration, &gate},
                  {.spindle_rev_per_s = {used.spindle_rev_per_s},
@@ -108,7 +109,7 @@ TEST(RealTimeCode, AllocatesNothingWithAHeadThatIsNoBallAndTilts) {
                                            {2.0, {{3.0, 0.0, 0.2}, {0.0, 0.6, 0.8}}, false, std::nullopt}}),
                                DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
         expect_no_allocation(
-            model, coupling_names().front(), device, [] {}, pear);
+            model, "implicit", device, [] {}, pear);
     }
 }
 
@@ -116,9 +117,9 @@ TEST(RealTimeCode, AllocatesNothingWithASimulatedHand) {
     // Every model under the default coupling or its replacement, every coupling on the default model.
     std::vector<std::pair<std::string, std::string>> pairs;
     for (const ForceModelEntry& model : force_models())
-        pairs.emplace_back(model.name, model.has_cutting_law ? coupling_names().front() : "interpolate");
-    for (const std::string& coupling : coupling_names())
-        pairs.emplace_back(force_model_names().front(), coupling);
+        pairs.emplace_back(model.name, model.has_cutting_law ? "implicit" : "interpolate");
+    for (const CouplingEntry& coupling : couplings())
+        pairs.emplace_back(force_model_names().front(), coupling.name);
     for (const auto& [model, coupling] : pairs) {
         SimulatedDevice device(Trajectory({{0.0, start, true, std::nullopt},
                                            {0.15, {{-2.7, 0.0, 0.4}, {0.0, 0.0, 1.0}}, true, std::nullopt},
@@ -163,7 +164,7 @@ TEST(RealTimeCode, AllocatesNothingWithAShankThatTouches) {
                                        {1.5, {{1.5, 0.0, -0.3}, ahead}, false, std::nullopt},
                                        {2.0, {{3.0, 0.0, -0.3}, ahead}, false, std::nullopt}}),
                            DeviceMapping{}, ArmModel{}, hand_model(Grip::firm));
-    EXPECT_GT(expect_no_allocation(force_model_names().front(), coupling_names().front(), device), 100);
+    EXPECT_GT(expect_no_allocation(force_model_names().front(), "implicit", device), 100);
 }
 
 TEST(RealTimeCode, AllocatesNothingWithAnOperator) {
@@ -177,7 +178,7 @@ TEST(RealTimeCode, AllocatesNothingWithAnOperator) {
                         .heard = std::chrono::steady_clock::now()};
         input.publish();
     };
-    expect_no_allocation(force_model_names().front(), coupling_names().front(), device, say_again);
+    expect_no_allocation(force_model_names().front(), "implicit", device, say_again);
 }
 
 TEST(RealTimeCode, AllocatesNothingWhileItPlaysATrackersSamples) {

@@ -86,8 +86,9 @@ Felt run(const std::string& coupling, double scale, const std::vector<Way>& ways
     NotingArm arm(ways, pedal, scene);
     const auto session = std::make_unique<MillingSession>(
         scene, testing::make_block({-8.0, -4.0, -3.2}, {8.0, 4.0, 0.0}, 0.1), arm,
-        MillingSessionOptions{
-            .clock = ClockKind::virtual_time, .coupling = coupling, .duration_s = ways.back().time_s});
+        MillingSessionOptions{.clock = ClockKind::virtual_time,
+                              .coupling = coupling_named(coupling),
+                              .duration_s = ways.back().time_s});
     const std::atomic<bool> never{false};
     session->run(never);
     return {session->report(), arm.largest_jump_n, arm.trace};

@@ -66,7 +66,7 @@ void drill_tooth(NotingArm& arm, const Scene& scene) {
     MillingSession session(
         scene,
         bone_from_hu(std::get<HuSlices>(make_phantom("tooth")), phantom_threshold_hu, stiffness_of(scene)),
-        arm, {.clock = ClockKind::virtual_time, .coupling = "implicit"});
+        arm, {.clock = ClockKind::virtual_time, .coupling = {CouplingKind::implicit}});
     std::atomic<bool> is_over{false};
     session.run(is_over, [&](const ToolState&) {
         if (arm.is_finished()) is_over.store(true);

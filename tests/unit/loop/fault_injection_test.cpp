@@ -26,7 +26,8 @@ constexpr double most_jump_n = 0.3;
 class PressedHand {
   public:
     explicit PressedHand(const std::string& method)
-        : coupling_(make_coupling(method, {.device = in_patient_space(device.limits(), ArmScale())})) {
+        : coupling_(make_coupling(coupling_named(method),
+                                  {.device = in_patient_space(device.limits(), ArmScale())})) {
         device.script = [](double t_s) {
             return DeviceState{.position_mm = {0.0, 0.0, std::max(-0.8, 0.1 - 4.0 * t_s)}};
         };

@@ -76,7 +76,7 @@ TEST(MillingSession, ACopyGoesOnToTheBit) {
             const Scene scene = block_scene();
             SimulatedDevice device = simulated(scene);
             MillingSessionOptions options = virtual_options(4.0);
-            options.coupling = coupling;
+            options.coupling = coupling_named(coupling);
             options.vibration = true;
             Bone bone = block();
             if (shares_bone) bone.share();
@@ -115,7 +115,7 @@ TEST(MillingSession, MillsWithEveryForceModel) {
     for (const ForceModelEntry& model : force_models()) {
         MillingSessionOptions options = virtual_options(3.0);
         options.force_model = model.name;
-        if (!model.has_cutting_law) options.coupling = "interpolate";
+        if (!model.has_cutting_law) options.coupling = {CouplingKind::interpolate};
         const MillingSessionReport report = run(options);
         EXPECT_GT(report.removed_mm3[0], 0.3) << model.name;
         EXPECT_GT(report.peak_force_n, 0.02) << model.name;
@@ -158,7 +158,7 @@ TEST(MillingSession, IsPushedOutOfBoneByEveryModelThatHoldsTheWall) {
         };
         MillingSessionOptions options = virtual_options(0.5);
         options.force_model = model.name;
-        options.coupling = "interpolate";
+        options.coupling = {CouplingKind::interpolate};
         const auto session = std::make_unique<MillingSession>(block_scene(), block(), device, options);
         const std::atomic<bool> never{false};
         session->run(never);
@@ -171,7 +171,7 @@ TEST(MillingSession, RefusesToSolveACuttingLawThatAForceModelHasNot) {
     testing::ScriptedDevice device;
     MillingSessionOptions options = virtual_options(1.0);
     options.force_model = "agus";
-    options.coupling = "implicit";
+    options.coupling = {CouplingKind::implicit};
     EXPECT_THROW(MillingSession(block_scene(), block(), device, options), std::invalid_argument);
 }
 

@@ -70,7 +70,7 @@ TEST_P(SunkBurr, IsFeltAgainOnlyWhenItHasBeenLiftedOutAndNeverPullsDeeper) {
     const auto session =
         std::make_unique<MillingSession>(scene, block, device,
                                          MillingSessionOptions{.clock = ClockKind::virtual_time,
-                                                               .coupling = sunk.coupling,
+                                                               .coupling = coupling_named(sunk.coupling),
                                                                .force_model = sunk.force_model,
                                                                .duration_s = 1.6});
     session->run(std::atomic<bool>{false});
@@ -91,10 +91,10 @@ TEST_P(SunkBurr, IsFeltAgainOnlyWhenItHasBeenLiftedOutAndNeverPullsDeeper) {
 std::vector<SunkCase> sunk_cases() {
     std::vector<SunkCase> cases{{"ALittle", 0.3}, {"HalfTheBurr", 1.2}};
     constexpr double buried_mm = 2.9;
-    for (const std::string& coupling : coupling_names()) {
-        std::string name = "Buried_" + coupling;
+    for (const CouplingEntry& coupling : couplings()) {
+        std::string name = "Buried_" + coupling.name;
         std::erase(name, '-');
-        cases.push_back({name, buried_mm, coupling});
+        cases.push_back({name, buried_mm, coupling.name});
     }
     for (const ForceModelEntry& model : force_models()) {
         if (model.has_cutting_law) continue;

@@ -43,7 +43,7 @@ MillingSessionReport pressed(const Scene& scene, const std::string& force_model,
                            ArmModel{}, hand_model(Grip::firm));
     MillingSessionOptions options{.clock = ClockKind::virtual_time, .duration_s = 4.0};
     options.force_model = force_model;
-    options.coupling = coupling;
+    options.coupling = coupling_named(coupling);
     const auto session = std::make_unique<MillingSession>(scene, bone_on_implant(), device, options);
     const std::atomic<bool> never{false};
     session->run(never);

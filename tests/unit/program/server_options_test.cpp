@@ -35,7 +35,7 @@ TEST(ServerOptions, NeedNoneToServeTheToothOnThisMachine) {
     EXPECT_FALSE(options.scene.name);
     EXPECT_STREQ(options.device.entry->name, "simulated");
     EXPECT_EQ(options.session.clock, ClockKind::real);
-    EXPECT_EQ(options.session.coupling, "implicit");
+    EXPECT_EQ(name_of(options.session.coupling), "implicit");
     EXPECT_TRUE(std::isinf(options.session.duration_s));
     ASSERT_TRUE(options.listen.has_value());
     EXPECT_EQ(options.listen->address, "127.0.0.1");
@@ -82,10 +82,10 @@ TEST(ServerOptions, PutTheBurrOfATrackedHandWhereTheHandIs) {
     };
     const ServerOptions options = *parse(tracked).options;
     EXPECT_STREQ(options.device.entry->name, "tracker");
-    EXPECT_EQ(options.session.coupling, "hold");
+    EXPECT_EQ(name_of(options.session.coupling), "hold");
     EXPECT_EQ(options.session.milling_rate_hz, 1000.0);
-    EXPECT_EQ(parse(with({"--coupling", "implicit"})).options->session.coupling, "implicit");
-    EXPECT_EQ(parse(with({"--force-model", "morris"})).options->session.coupling, "hold");
+    EXPECT_EQ(name_of(parse(with({"--coupling", "implicit"})).options->session.coupling), "implicit");
+    EXPECT_EQ(name_of(parse(with({"--force-model", "morris"})).options->session.coupling), "hold");
     EXPECT_EQ(error_of(with({"--tracker", "[::1]:20000"})), "no error");
     EXPECT_THAT(error_of(with({"--tracker", "10.0.0.7:18944"})),
                 HasSubstr("ssh -L 18944:localhost:18944 10.0.0.7"));
@@ -98,7 +98,7 @@ TEST(ServerOptions, PutTheBurrOfATrackedHandWhereTheHandIs) {
 TEST(ServerOptions, LookForHaplysServiceOnThisMachine) {
     const ServerOptions usual = *parse({"--device", "haply"}).options;
     EXPECT_STREQ(usual.device.entry->name, "haply");
-    EXPECT_EQ(usual.session.coupling, "implicit");
+    EXPECT_EQ(name_of(usual.session.coupling), "implicit");
     EXPECT_EQ(error_of({"--device", "haply", "--haply", "[::1]:10002"}), "no error");
     EXPECT_THAT(error_of({"--device", "haply", "--haply", "10.0.0.7:10001"}),
                 HasSubstr("ssh -L 10001:localhost:10001 10.0.0.7"));
@@ -130,19 +130,21 @@ TEST(ServerOptions, CoupleAForceModelThatHasNoCuttingLawByInterpolatingAtTheHapt
     for (const char* model : {"point-spring", "petersik", "morris", "agus"}) {
         const MillingSessionOptions session = parse({"--force-model", model}).options->session;
         EXPECT_EQ(session.force_model, model);
-        EXPECT_EQ(session.coupling, "interpolate") << model;
+        EXPECT_EQ(name_of(session.coupling), "interpolate") << model;
         EXPECT_EQ(session.milling_rate_hz, 1000.0) << "a wall needs what there is";
-        EXPECT_EQ(parse({"--force-model", model, "--coupling", "interpolate"}).options->session.coupling,
-                  "interpolate");
+        EXPECT_EQ(
+            name_of(parse({"--force-model", model, "--coupling", "interpolate"}).options->session.coupling),
+            "interpolate");
         EXPECT_THAT(error_of({"--force-model", model, "--coupling", "implicit"}),
                     AllOf(HasSubstr("--coupling implicit"), HasSubstr(model), HasSubstr("interpolate"),
                           Not(HasSubstr("\n"))));
     }
-    EXPECT_EQ(parse({"--force-model", "milling-bins"}).options->session.coupling, "implicit");
+    EXPECT_EQ(name_of(parse({"--force-model", "milling-bins"}).options->session.coupling), "implicit");
 }
 
 TEST(ServerOptions, TakeACouplingWithADamper) {
-    EXPECT_EQ(parse({"--coupling", "interpolate+damper"}).options->session.coupling, "interpolate+damper");
+    EXPECT_EQ(name_of(parse({"--coupling", "interpolate+damper"}).options->session.coupling),
+              "interpolate+damper");
     EXPECT_THAT(error_of({"--coupling", "implicit+damper"}), HasSubstr("+damper or +passivity"));
 }
 
