@@ -8,7 +8,6 @@
 
 #include "analysis/report/smoothness.h"
 #include "common/scene/stroke_span.h"
-#include "common/scene/undo_slice.h"
 #include "common/statistics/percentile.h"
 
 namespace osteomill {

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "common/recording/packet_reader.h"
-#include "common/recording/packet_time.h"
 #include "common/recording/recorded_time.h"
 #include "common/wire/sealed_frame.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "common/recording/packet_time.h"
+#include "common/recording/recorded_time.h"
 #include "common/wire/sealed_frame.h"
 
 namespace osteomill {

@@ -14,7 +14,7 @@ enum class SessionAction : std::uint8_t {
     mark,     ///< this moment, with a note
     pause,    ///< force and spindle off
     resume,   ///< the force comes back once the burr is clear of bone
-    undo,     ///< the last slice of a stroke (undo_slice.h); one under way ends with it
+    undo,     ///< the last slice of a stroke (stroke_span.h); one under way ends with it
     redo,     ///< the slice undone last
     reset,    ///< undoes all slices; each can be redone
     save,     ///< the bone as it is, or its surface

@@ -10,7 +10,6 @@
 
 #include "common/scene/bounded_line.h"
 #include "common/scene/burr.h"
-#include "common/scene/cut_state.h"
 #include "common/scene/fixture_set.h"
 #include "common/scene/solve_counts.h"
 
@@ -23,6 +22,19 @@ enum class ToolDriver {
     you,
     another,      ///< whose lease has not run out: input is ignored
     others_only,  ///< this client may only watch, its input is ignored; another may hold the tool
+};
+
+/// State of the cut of a burr's edges, in few numbers: the force within the tooth period, for the sound of
+/// the cut. The felt force does not depend on it.
+struct CutState {
+    double force_n = 0.0;  ///< of the bone on the burr, mean over the last tooth periods
+    /// Amplitude of that force's first harmonic of the tooth period; 0 if the force model has no edges.
+    double tooth_ripple_n = 0.0;
+    double relative_stiffness = 1.0;  ///< of the bone in front of the edges; 1: cortical bone
+    /// Speed of the spindle under the load. Nothing if the scene has no motor.
+    std::optional<double> loaded_rpm{};
+
+    bool operator==(const CutState&) const = default;
 };
 
 /// Positions and forces in patient LPS. On the wire it is the message of the same name.

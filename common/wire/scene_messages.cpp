@@ -9,9 +9,7 @@
 #include "common/bone/finite.h"
 #include "common/bone/patient_space.h"
 #include "common/text/plain_text.h"
-#include "common/wire/fixture_message.h"
-#include "common/wire/plan_message.h"
-#include "common/wire/rating_message.h"
+#include "common/wire/plan_messages.h"
 #include "common/wire/vec3.h"
 
 namespace osteomill {

@@ -3,11 +3,40 @@
 #include <utility>
 
 #include "common/text/plain_text.h"
+#include "common/wire/control_messages.h"
 #include "common/wire/packed_changes.h"
 #include "common/wire/scene_messages.h"
-#include "common/wire/state_message.h"
+#include "common/wire/structure_messages.h"
+#include "common/wire/viewpoint_message.h"
 
 namespace osteomill {
+
+namespace {
+
+/// A state, without the changes of the bone. Refuses as tool_from, control_events_from,
+/// structure_distances_from and viewpoint_from do, for so many burrs and tissues.
+std::variant<SessionState, WireError> session_state_from(const v2::StateFrame& message,
+                                                         std::size_t burr_count, std::size_t tissue_count) {
+    auto tool = tool_from(message.tool(), burr_count);
+    if (auto* error = std::get_if<WireError>(&tool)) return std::move(*error);
+    auto events = control_events_from(message.events());
+    if (auto* error = std::get_if<WireError>(&events)) return std::move(*error);
+    auto distances = structure_distances_from(message.distances(), tissue_count);
+    if (auto* error = std::get_if<WireError>(&distances)) return std::move(*error);
+    std::optional<Viewpoint> view;
+    if (message.has_view()) {
+        auto looked = viewpoint_from(message.view());
+        if (auto* error = std::get_if<WireError>(&looked)) return std::move(*error);
+        view = std::get<Viewpoint>(looked);
+    }
+    return SessionState{.tool = std::get<ToolState>(std::move(tool)),
+                        .events = std::get<std::vector<ControlEvent>>(std::move(events)),
+                        .status = session_status_from(message.status()),
+                        .distances = std::get<std::vector<StructureDistance>>(std::move(distances)),
+                        .view = view};
+}
+
+}  // namespace
 
 std::variant<SessionEvent, WireError> SessionReceiver::take(v2::ServerFrame frame) {
     const bool follows_gap = stage_ != Stage::hello && frame.sequence() != last_sequence_ + 1;

@@ -21,7 +21,6 @@
 #include "common/scene/session_control.h"
 #include "common/scene/stroke_span.h"
 #include "common/scene/tool_state.h"
-#include "common/scene/undo_slice.h"
 #include "common/wire/bone_replica.h"
 #include "haptic_server/streaming/stroke_journal.h"
 #include "simulation/exchange/change_queue.h"

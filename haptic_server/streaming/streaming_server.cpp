@@ -5,6 +5,7 @@
 #include <atomic>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/address.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -13,6 +14,7 @@
 #include <future>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -24,7 +26,6 @@
 #include "common/wire/structure_messages.h"
 #include "haptic_server/streaming/connected_clients.h"
 #include "haptic_server/streaming/handshakes.h"
-#include "haptic_server/streaming/listener.h"
 #include "haptic_server/streaming/session_recorder.h"
 
 namespace osteomill {
@@ -57,6 +58,30 @@ void require_fits_frame(const v2::Hello& hello) {
         throw std::invalid_argument("the scene's names take " + std::to_string(frame.ByteSizeLong()) +
                                     " bytes, more than the " + std::to_string(largest_frame_bytes) +
                                     " of a frame; shorten its burrs' and tissues' names");
+}
+
+/// The socket on which clients are awaited, bound and listening. Throws std::runtime_error, in one line, if
+/// the address is none, cannot be had, or would serve other machines in the clear without being asked to.
+tcp::acceptor listen(asio::io_context& io, const StreamingOptions& options) {
+    const std::string where = options.address + ":" + std::to_string(options.port);
+    error_code error;
+    const asio::ip::address address = asio::ip::make_address(options.address, error);
+    if (error)
+        throw std::runtime_error("cannot listen on " + where + ": \"" + options.address +
+                                 "\" is no IP address; 127.0.0.1 or ::1 would be");
+    if (!address.is_loopback() && !options.tls && !options.insecure_network)
+        throw std::runtime_error("cannot listen on " + where +
+                                 ": without TLS only this machine is served; use 127.0.0.1 or ::1");
+    if (!address.is_loopback() && !options.tls)
+        spdlog::warn("{} is served without TLS: anybody who reaches it sees everything and may drill", where);
+    tcp::acceptor acceptor(io);
+    const tcp::endpoint endpoint(address, options.port);
+    acceptor.open(endpoint.protocol(), error);
+    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) acceptor.bind(endpoint, error);
+    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error) throw std::runtime_error("cannot listen on " + where + ": " + error.message());
+    return acceptor;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Journal of the bone removed by each stroke, for any number of undos and redos.
 //
-// The owner decides where a stroke ends, for undo (common/scene/undo_slice.h). For each changed brick the
+// The owner decides where a stroke ends, for undo (common/scene/stroke_span.h). For each changed brick the
 // journal keeps the mask of its voxels and, compressed, their fractions before: no second copy of the bone.
 // An undone stroke keeps the fractions after it instead, for redo.
 #pragma once

@@ -1,6 +1,8 @@
 // An image file's header, taken apart: how the image lies in the patient, and where its values lie.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -9,9 +11,23 @@
 
 #include "imaging/formats/source_image.h"
 #include "imaging/formats/voxel_data.h"
-#include "imaging/formats/voxel_layout.h"
 
 namespace osteomill {
+
+enum class VoxelType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+
+inline std::uint64_t bytes_of(VoxelType type) {
+    constexpr std::array<std::uint64_t, 10> bytes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+    return bytes[static_cast<std::size_t>(type)];
+}
+
+/// Meaning of the bytes of a voxel.
+struct VoxelLayout {
+    VoxelType type = VoxelType::int16;
+    bool big_endian = false;
+    double slope = 1.0;  ///< value = slope * stored + intercept
+    double intercept = 0.0;
+};
 
 struct ImageHeader {
     SourceImage image{};     ///< its notes list the assumptions

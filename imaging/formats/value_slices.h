@@ -1,9 +1,9 @@
 // The values of an image from the bytes of its files, slice by slice: no more than a slice is held.
 #pragma once
 
+#include "imaging/formats/image_file.h"
 #include "imaging/formats/opened_image.h"
 #include "imaging/formats/voxel_data.h"
-#include "imaging/formats/voxel_layout.h"
 
 namespace osteomill {
 

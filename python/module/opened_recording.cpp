@@ -1,6 +1,6 @@
 #include "python/module/opened_recording.h"
 
-#include "python/module/vector_column.h"
+#include "python/module/tick_columns.h"
 
 namespace osteomill::python {
 

@@ -2,7 +2,6 @@
 
 #include <string_view>
 
-#include "python/module/vector_column.h"
 #include "simulation/safety/fault.h"
 
 namespace osteomill::python {

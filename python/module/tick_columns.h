@@ -3,11 +3,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "python/module/stepped_session.h"
 
 namespace osteomill::python {
+
+/// Adds a vector to a column of vectors: three values a row.
+inline void push(std::vector<double>& column, const glm::dvec3& v) {
+    column.insert(column.end(), {v.x, v.y, v.z});
+}
 
 class TickColumns {
   public:

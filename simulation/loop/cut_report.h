@@ -16,8 +16,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/scene/cut_state.h"
 #include "common/scene/motor.h"
+#include "common/scene/tool_state.h"
 #include "common/scene/turning_burrs.h"
 #include "simulation/exchange/milling_step.h"
 

@@ -1,9 +1,13 @@
 // A terminal that stands still, a pipe that nobody reads, a log on a full disk: none of them keeps a burr
 // turning, costs a bone or keeps a program from ending. The real programs.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stdlib.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -12,6 +16,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -24,7 +29,6 @@
 #include "tests/support/held_pedal.h"
 #include "tests/support/logged_removal.h"
 #include "tests/support/milling_motion.h"
-#include "tests/support/stopped_terminal.h"
 #include "tests/support/unread_pipe.h"
 
 namespace osteomill::testing {
@@ -36,6 +40,38 @@ using Clock = std::chrono::steady_clock;
 using Command = std::vector<std::string>;
 
 constexpr double between_frames_s = 0.034;
+
+/// A terminal that Ctrl-S stops: who writes to it then waits until Ctrl-Q.
+class StoppedTerminal {
+  public:
+    StoppedTerminal() : keyboard_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+        if (keyboard_ >= 0 && ::grantpt(keyboard_) == 0 && ::unlockpt(keyboard_) == 0)
+            screen_ = ::open(::ptsname(keyboard_), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        if (screen_ < 0) throw std::system_error(errno, std::generic_category(), "pseudo-terminal");
+    }
+    ~StoppedTerminal() {
+        ::close(screen_);
+        hang_up();
+    }
+    StoppedTerminal(const StoppedTerminal&) = delete;
+    StoppedTerminal& operator=(const StoppedTerminal&) = delete;
+
+    /// For the program that writes to it.
+    int screen() const { return screen_; }
+    void stop() const { type('\x13'); }
+    void go_on() const { type('\x11'); }
+    /// Its window is closed.
+    void hang_up() {
+        if (keyboard_ >= 0) ::close(keyboard_);
+        keyboard_ = -1;
+    }
+
+  private:
+    void type(char key) const { [[maybe_unused]] const auto ignored = ::write(keyboard_, &key, 1); }
+
+    int keyboard_;
+    int screen_ = -1;
+};
 
 /// The output that a program logs to, and the way it is held up.
 class Output {

@@ -4,8 +4,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,7 +18,10 @@
 #include <thread>
 #include <vector>
 
+#include "common/wire/frame.h"
+#include "common/wire/protocol_version.h"
 #include "haptic_server/program/resident_memory.h"
+#include "osteomill/v2/session.pb.h"
 #include "render_client/link/bone_link.h"
 #include "studies/bridge/private_network.h"
 #include "tests/support/block_file.h"
@@ -22,7 +30,6 @@
 #include "tests/support/folder_test.h"
 #include "tests/support/link_proxy.h"
 #include "tests/support/milling_motion.h"
-#include "tests/support/stranger.h"
 
 namespace osteomill::testing {
 namespace {
@@ -32,6 +39,33 @@ using ::testing::HasSubstr;
 
 using Command = std::vector<std::string>;
 using Links = std::vector<std::unique_ptr<BoneLink>>;
+
+/// A stranger that connects to a server's port: a scan, or a program that stands still.
+class Stranger {
+  public:
+    explicit Stranger(std::uint16_t port) : Stranger("127.0.0.1", port) {}
+    Stranger(const std::string& address, std::uint16_t port) {
+        boost::system::error_code ignored;  // who is turned away has been there all the same
+        socket_.connect({boost::asio::ip::make_address(address), port}, ignored);
+    }
+    void say(const std::string& bytes) {
+        boost::system::error_code ignored;
+        boost::asio::write(socket_, boost::asio::buffer(bytes), ignored);
+    }
+    /// Sends a client's greeting; never reads the answer.
+    void greet() {
+        v2::ClientFrame frame;
+        frame.set_sequence(1);
+        frame.mutable_hello()->set_protocol_major(protocol_major);
+        std::string bytes;
+        append_frame(frame, bytes);
+        say(bytes);
+    }
+
+  private:
+    boost::asio::io_context io_;
+    boost::asio::ip::tcp::socket socket_{io_};
+};
 
 class LinkFaults : public FolderTest {
   protected:

@@ -1,14 +1,19 @@
 #include "imaging/formats/picture_stack.h"
 
 #include <gmock/gmock.h>
+#include <png.h>
+#include <tiffio.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <stdexcept>
+#include <vector>
 
 #include "imaging/formats/picture_file.h"
 #include "imaging/formats/picture_order.h"
 #include "imaging/imaging_error.h"
 #include "imaging/segmentation/segmentation.h"
-#include "tests/support/picture_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/whole_image.h"
 
@@ -19,6 +24,48 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 const glm::dvec3 spacing_mm(0.2, 0.3, 0.4);
+
+/// `format`: PNG_FORMAT_RGBA or PNG_FORMAT_GRAY, of 8 bits.
+void write_png_picture(const std::filesystem::path& path, int width, int height, std::uint32_t format,
+                       const std::vector<std::uint8_t>& bytes) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = format;
+    if (png_image_write_to_file(&image, path.c_str(), 0, bytes.data(), 0, nullptr) == 0)
+        throw std::runtime_error("cannot write " + path.string());
+}
+
+struct TiffTags {
+    int orientation = ORIENTATION_TOPLEFT;
+    int photometric = PHOTOMETRIC_MINISBLACK;
+    const char* description = "";
+};
+
+/// Grey, a page for each, `bits` of 8 or 16.
+template <typename Sample>
+void write_tiff_pages(const std::filesystem::path& path, int width, int height,
+                      const std::vector<std::vector<Sample>>& pages, const TiffTags& tags = {}) {
+    TIFF* tiff = TIFFOpen(path.c_str(), "w");
+    if (tiff == nullptr) throw std::runtime_error("cannot write " + path.string());
+    for (const std::vector<Sample>& page : pages) {
+        TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
+        TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
+        TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, int{8 * sizeof(Sample)});
+        TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
+        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, tags.photometric);
+        TIFFSetField(tiff, TIFFTAG_ORIENTATION, tags.orientation);
+        if (*tags.description != '\0') TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, tags.description);
+        TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_LZW);
+        TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 3);
+        for (int y = 0; y < height; ++y)
+            TIFFWriteScanline(tiff, const_cast<Sample*>(&page[static_cast<std::size_t>(y * width)]),
+                              static_cast<std::uint32_t>(y), 0);
+        TIFFWriteDirectory(tiff);
+    }
+    TIFFClose(tiff);
+}
 
 class PictureStackFolder : public ::testing::Test {
   protected:
@@ -36,8 +83,8 @@ class PictureStackFolder : public ::testing::Test {
 
 TEST_F(PictureStackFolder, IsInTheOrderOfTheNumbersInItsNames) {
     for (const std::uint8_t number : std::vector<std::uint8_t>{9, 10, 100, 1})
-        testing::write_png_picture(folder_ / ("plane" + std::to_string(number) + ".png"), 2, 2,
-                                   PNG_FORMAT_GRAY, {number, 0, 0, 255});
+        write_png_picture(folder_ / ("plane" + std::to_string(number) + ".png"), 2, 2, PNG_FORMAT_GRAY,
+                          {number, 0, 0, 255});
     std::ofstream(folder_ / "about.txt") << "no picture";
     const OpenedImage stack = open_picture_stack(folder_.path(), spacing_mm);
     EXPECT_FALSE(stack.is_coloured);
@@ -82,10 +129,9 @@ TEST(PictureOrder, IsThatOfNumbersAndSaysWhereOneIsMissing) {
 }
 
 TEST_F(PictureStackFolder, OfTiffHasAllLevelsAndAllPages) {
-    testing::write_tiff_pages<std::uint16_t>(folder_ / "a1.tif", 3, 4,
-                                             {std::vector<std::uint16_t>(12, 65535)});
-    testing::write_tiff_pages<std::uint16_t>(
-        folder_ / "a2.TIFF", 3, 4, {std::vector<std::uint16_t>(12, 300), std::vector<std::uint16_t>(12, 7)});
+    write_tiff_pages<std::uint16_t>(folder_ / "a1.tif", 3, 4, {std::vector<std::uint16_t>(12, 65535)});
+    write_tiff_pages<std::uint16_t>(folder_ / "a2.TIFF", 3, 4,
+                                    {std::vector<std::uint16_t>(12, 300), std::vector<std::uint16_t>(12, 7)});
     const std::vector<float> all = values();
     ASSERT_EQ(all.size(), 36U);
     EXPECT_THAT((std::vector<float>{all[11], all[12], all[35]}), ElementsAre(65535.0F, 300.0F, 7.0F));
@@ -95,7 +141,7 @@ TEST_F(PictureStackFolder, OfTiffHasAllLevelsAndAllPages) {
 TEST_F(PictureStackFolder, OfTiffFindsAPageFromTheOneBeforeAndFromAnyOther) {
     std::vector<std::vector<std::uint8_t>> pages;
     for (std::uint8_t page = 0; page < 200; ++page) pages.emplace_back(4, page);
-    testing::write_tiff_pages<std::uint8_t>(folder_ / "a.tif", 2, 2, pages);
+    write_tiff_pages<std::uint8_t>(folder_ / "a.tif", 2, 2, pages);
     TiffPages tiff(folder_ / "a.tif");
     ASSERT_EQ(tiff.count(), 200);
     for (const int page : {0, 1, 2, 2, 150, 151, 7, 199, 0})
@@ -105,13 +151,13 @@ TEST_F(PictureStackFolder, OfTiffFindsAPageFromTheOneBeforeAndFromAnyOther) {
 
 TEST_F(PictureStackFolder, OfTiffIsAsItsTagsSay) {
     const std::vector<std::vector<std::uint16_t>> pages(2, {1, 2, 3, 4});
-    const auto first_page = [&](const testing::TiffTags& tags, ImagePurpose purpose = ImagePurpose::scan) {
-        testing::write_tiff_pages<std::uint16_t>(folder_ / "a.tif", 2, 2, pages, tags);
+    const auto first_page = [&](const TiffTags& tags, ImagePurpose purpose = ImagePurpose::scan) {
+        write_tiff_pages<std::uint16_t>(folder_ / "a.tif", 2, 2, pages, tags);
         std::vector<float> all = values_of(open_picture_stack(folder_ / "a.tif", spacing_mm, purpose));
         all.resize(4);
         return all;
     };
-    const auto refused = [&](const testing::TiffTags& tags) -> std::string {
+    const auto refused = [&](const TiffTags& tags) -> std::string {
         try {
             (void)first_page(tags);
         } catch (const ImagingError& error) {
@@ -131,12 +177,12 @@ TEST_F(PictureStackFolder, OfTiffIsAsItsTagsSay) {
     EXPECT_THAT(refused({.description = "<OME><Pixels SizeC=\"2\" SizeZ=\"1\"></OME>"}), "accepted")
         << "an axis by another name";
     std::filesystem::remove(folder_ / "a.tif");
-    testing::write_tiff_pages<std::uint16_t>(
-        folder_ / "b.tif", 2, 2, std::vector<std::vector<std::uint16_t>>(4, {1, 2, 3, 4}),
-        {.description = "ImageJ=1.53t\nimages=4\nchannels=2\nslices=2\n"});
+    write_tiff_pages<std::uint16_t>(folder_ / "b.tif", 2, 2,
+                                    std::vector<std::vector<std::uint16_t>>(4, {1, 2, 3, 4}),
+                                    {.description = "ImageJ=1.53t\nimages=4\nchannels=2\nslices=2\n"});
     EXPECT_THAT(refusal(), HasSubstr("its 4 pages are of 2 channels"));
-    testing::write_tiff_pages<std::uint16_t>(folder_ / "b.tif", 2, 2, {{1, 2, 3, 4}},
-                                             {.description = "ImageJ=1.53t\nimages=4\nslices=4\n"});
+    write_tiff_pages<std::uint16_t>(folder_ / "b.tif", 2, 2, {{1, 2, 3, 4}},
+                                    {.description = "ImageJ=1.53t\nimages=4\nslices=4\n"});
     EXPECT_THAT(refusal(), HasSubstr("says that it holds 4 slices and has one page"));
 }
 
@@ -144,7 +190,7 @@ TEST_F(PictureStackFolder, OfColoursIsALabelMap) {
     // Bone, the facial nerve, black, and red that is not seen.
     const std::vector<std::uint8_t> rgba{255, 249, 219, 255, 244, 214, 49, 255, 0, 0, 0, 255, 255, 0, 0, 0};
     for (const char* name : {"s0.png", "s1.png"})
-        testing::write_png_picture(folder_ / name, 2, 2, PNG_FORMAT_RGBA, rgba);
+        write_png_picture(folder_ / name, 2, 2, PNG_FORMAT_RGBA, rgba);
     Segmentation read = read_segmentation(folder_.path(), spacing_mm);
     ASSERT_EQ(read.segments.size(), 2U);
     EXPECT_EQ(read.segments[0].name, "#f4d631");
@@ -161,13 +207,13 @@ TEST_F(PictureStackFolder, IsRefusedInOneLineWhereItIsNone) {
     EXPECT_THAT(refusal(), HasSubstr("is no stack of pictures"));
     EXPECT_THROW(open_picture_stack(folder_.path(), std::nullopt), ImagingError);
     const std::vector<std::uint8_t> grey(16, 5);
-    testing::write_png_picture(folder_ / "1.png", 4, 4, PNG_FORMAT_GRAY, grey);
+    write_png_picture(folder_ / "1.png", 4, 4, PNG_FORMAT_GRAY, grey);
     EXPECT_THAT(refusal(), HasSubstr("is no stack of pictures"));
-    testing::write_png_picture(folder_ / "2.png", 2, 8, PNG_FORMAT_GRAY, grey);
+    write_png_picture(folder_ / "2.png", 2, 8, PNG_FORMAT_GRAY, grey);
     EXPECT_THAT(refusal(), HasSubstr("2.png: is of 2 x 8 pixels, grey; the first of its stack is of 4 x 4"));
     std::ofstream(folder_ / "2.png", std::ios::binary) << "no PNG at all";
     EXPECT_THAT(refusal(), HasSubstr("2.png: cannot be read as PNG"));
-    testing::write_png_picture(folder_ / "2.png", 4, 4, PNG_FORMAT_GRAY, grey);
+    write_png_picture(folder_ / "2.png", 4, 4, PNG_FORMAT_GRAY, grey);
     std::filesystem::resize_file(folder_ / "2.png", std::filesystem::file_size(folder_ / "2.png") - 20);
     EXPECT_THAT(refusal(), HasSubstr("2.png: cannot be read as PNG"));
     std::ofstream(folder_ / "2.png", std::ios::trunc).close();
@@ -178,12 +224,12 @@ TEST_F(PictureStackFolder, IsRefusedInOneLineWhereItIsNone) {
 
 TEST_F(PictureStackFolder, IsNoneWhereAPictureLiesBesideAScan) {
     EXPECT_FALSE(is_picture_folder(folder_.path(), true));
-    testing::write_png_picture(folder_ / "1.png", 1, 1, PNG_FORMAT_GRAY, {0});
+    write_png_picture(folder_ / "1.png", 1, 1, PNG_FORMAT_GRAY, {0});
     EXPECT_TRUE(is_picture_folder(folder_.path(), false));
     for (const char* name : {"Thumbs.db", ".DS_Store", "._1.png"})
         std::ofstream(folder_ / name) << "of the desktop";
     EXPECT_TRUE(is_picture_folder(folder_.path(), false));
-    testing::write_png_picture(folder_ / "2.png", 1, 1, PNG_FORMAT_GRAY, {0});
+    write_png_picture(folder_ / "2.png", 1, 1, PNG_FORMAT_GRAY, {0});
     std::ofstream(folder_ / "scan.log") << "of the scanner";
     EXPECT_TRUE(is_picture_folder(folder_.path(), false)) << "most are pictures";
     std::ofstream(folder_ / "IM0001") << "DICM";
