@@ -120,7 +120,7 @@ void say_what_to_know(const MillingSessionOptions& options, const Scene& scene) 
 void run(SessionAssembly& assembly, EndPlaces& places, const std::atomic<bool>& stop, LineStream& err) {
     StatusLine status(err, err.is_terminal());
     const auto say_what_is_wrong = [&] {
-        for (const std::string& line : places.look(assembly.source()))
+        for (const std::string& line : places.check(assembly.source()))
             if (assembly.shown() != nullptr)
                 assembly.shown()->tell(line);
             else
@@ -132,7 +132,7 @@ void run(SessionAssembly& assembly, EndPlaces& places, const std::atomic<bool>& 
         status.show(tool, StatusLine::Clock::now(),
                     shows_progress ? std::optional(assembly.done(tool.time_s)) : std::nullopt);
         status.show_notice(tool, assembly.device().notice());
-        if (places.look_is_due()) say_what_is_wrong();
+        if (places.check_is_due()) say_what_is_wrong();
     });
     status.finish();
     say_what_is_wrong();

@@ -71,9 +71,9 @@ OutputFiles EndPlaces::now() const {
     return files;
 }
 
-std::vector<std::string> EndPlaces::look(const BoneSource& source) {
-    constexpr std::chrono::milliseconds between_looks{500};
-    next_look_ = std::chrono::steady_clock::now() + between_looks;
+std::vector<std::string> EndPlaces::check(const BoneSource& source) {
+    constexpr std::chrono::milliseconds between_checks{500};
+    next_check_ = std::chrono::steady_clock::now() + between_checks;
     std::vector<std::string> lines;
     for (std::optional<OutputPlace>* const place : {&save_bone_, &json_, &histograms_})
         if (std::string line = *place ? (*place)->news() : ""; !line.empty())

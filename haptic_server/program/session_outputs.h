@@ -36,17 +36,17 @@ class EndPlaces {
     OutputFiles now() const;
 
     /// Twice a second.
-    bool look_is_due() const { return std::chrono::steady_clock::now() >= next_look_; }
+    bool check_is_due() const { return std::chrono::steady_clock::now() >= next_check_; }
     /// A line for each thing that has gone wrong since the last call: a folder is gone, or the bone's file
     /// has changed since it was loaded.
-    std::vector<std::string> look(const BoneSource& source);
+    std::vector<std::string> check(const BoneSource& source);
 
   private:
     OutputFiles files_;
     std::optional<OutputPlace> save_bone_{};
     std::optional<OutputPlace> json_{};
     std::optional<OutputPlace> histograms_{};
-    std::chrono::steady_clock::time_point next_look_{};
+    std::chrono::steady_clock::time_point next_check_{};
     bool source_is_lost_ = false;
 };
 

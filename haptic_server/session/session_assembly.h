@@ -16,7 +16,7 @@
 #include "haptic_server/session/session_logs.h"
 #include "haptic_server/session/session_scene.h"
 #include "haptic_server/session/shown_session.h"
-#include "simulation/exchange/sample_tee.h"
+#include "simulation/exchange/sample_log.h"
 #include "simulation/loop/milling_session.h"
 
 namespace osteomill {
@@ -82,7 +82,7 @@ class SessionAssembly {
     MillingSessionOptions options_;
     SessionLogs logs_;
     std::optional<SampleQueue<TickSample>> recorded_ticks_;
-    SampleTee<TickSample> tick_logs_;
+    SampleLogs<TickSample> tick_logs_;
     std::unique_ptr<MillingSession> session_;
     std::optional<ShownSession> shown_;
 };

@@ -49,8 +49,8 @@ class AnsweredStates {
         std::uint64_t number = 0;
         Time true_until;
     };
-    /// Older states are dropped, and count as too old: a ClientFeed makes that many in a tenth of a second at
-    /// most.
+    /// Older states are dropped, and count as too old: a OutgoingFrames makes that many in a tenth of a
+    /// second at most.
     static constexpr std::size_t most_kept = 1024;
 
     std::deque<State> states_;  // ascending; those that are too old go, but for the last

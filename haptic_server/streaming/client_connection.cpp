@@ -19,8 +19,8 @@ using boost::system::error_code;
 namespace {
 
 /// The bytes that the system may hold for one client on top of the frame under way. By default it grows to
-/// megabytes, seconds of frames: a slow client would see old news and ClientFeed would never learn that it is
-/// slow. Enough for 60 MB/s at a round trip of 4 ms.
+/// megabytes, seconds of frames: a slow client would see old news and OutgoingFrames would never learn that
+/// it is slow. Enough for 60 MB/s at a round trip of 4 ms.
 constexpr int send_buffer_bytes = 256 * 1024;
 
 /// The part of that which may wait behind the bytes in flight. So over a slow link a frame is made late
@@ -41,8 +41,8 @@ bool is_tls_greeting(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-ClientConnection::ClientConnection(std::shared_ptr<Stream> stream, ClientFeed feed)
-    : stream_(std::move(stream)), feed_(std::move(feed)), peer_(stream_->peer()) {}
+ClientConnection::ClientConnection(std::shared_ptr<Stream> stream, OutgoingFrames outgoing)
+    : stream_(std::move(stream)), outgoing_(std::move(outgoing)), peer_(stream_->peer()) {}
 
 void ClientConnection::start(Callbacks callbacks) {
     callbacks_ = std::move(callbacks);
@@ -63,21 +63,22 @@ void ClientConnection::serve() {
 }
 
 void ClientConnection::show(SessionState state, bool with_checksum) {
-    feed_.request_state(std::move(state), with_checksum);
-    if (feed_.has_sent_all()) answers_.still_true(std::chrono::steady_clock::now());
+    outgoing_.request_state(std::move(state), with_checksum);
+    if (outgoing_.has_sent_all()) answers_.still_true(std::chrono::steady_clock::now());
     pump();
 }
 
 void ClientConnection::pump() {
     if (is_closed_ || is_writing_ || (has_said_hello_ && !is_served_)) return;
     has_said_hello_ = true;
-    const std::uint64_t sent = feed_.newest_state();
-    std::optional<std::string> frame = feed_.next(pace_.most_bytes());
-    if (feed_.newest_state() != sent) answers_.sent(feed_.newest_state(), std::chrono::steady_clock::now());
+    const std::uint64_t sent = outgoing_.newest_state();
+    std::optional<std::string> frame = outgoing_.next(pace_.most_bytes());
+    if (outgoing_.newest_state() != sent)
+        answers_.sent(outgoing_.newest_state(), std::chrono::steady_clock::now());
     if (!frame) {
         // The client closes when it has read goodbye. Closing first could reset the connection and destroy
         // data that it has not read yet.
-        if (feed_.is_finished()) stream_->end_writing();
+        if (outgoing_.is_finished()) stream_->end_writing();
         return;
     }
     is_writing_ = true;
@@ -98,7 +99,7 @@ void ClientConnection::pump() {
 
 std::chrono::steady_clock::duration ClientConnection::has_had_end(std::chrono::steady_clock::time_point now) {
     int on_its_way = 1;
-    const bool is_all_there = feed_.is_finished() && !is_writing_ &&
+    const bool is_all_there = outgoing_.is_finished() && !is_writing_ &&
                               ioctl(stream_->socket().native_handle(), SIOCOUTQ, &on_its_way) == 0 &&
                               on_its_way == 0;
     if (!is_all_there) return {};

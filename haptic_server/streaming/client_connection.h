@@ -1,4 +1,4 @@
-// One client's connection: writes the frames of its ClientFeed, one at a time, and reads the client's
+// One client's connection: writes the frames of its OutgoingFrames, one at a time, and reads the client's
 // messages.
 #pragma once
 
@@ -12,7 +12,7 @@
 #include "common/net/stream.h"
 #include "common/wire/frame.h"
 #include "haptic_server/streaming/answered_states.h"
-#include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/outgoing_frames.h"
 
 namespace osteomill {
 
@@ -33,17 +33,17 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
     };
 
     /// The stream's handshake is over.
-    ClientConnection(std::shared_ptr<Stream> stream, ClientFeed feed);
+    ClientConnection(std::shared_ptr<Stream> stream, OutgoingFrames outgoing);
 
     /// Reads, and writes the first frame, the hello; the rest after serve().
     void start(Callbacks callbacks);
-    /// Writes all frames of the ClientFeed from now on.
+    /// Writes all frames of the OutgoingFrames from now on.
     void serve();
-    ClientFeed& feed() { return feed_; }
+    OutgoingFrames& outgoing() { return outgoing_; }
     AnsweredStates& answers() { return answers_; }
-    /// Requests a state frame (ClientFeed::request_state) and writes it, as pump() does.
+    /// Requests a state frame (OutgoingFrames::request_state) and writes it, as pump() does.
     void show(SessionState state, bool with_checksum);
-    /// Writes the next frame, unless one is under way; call after the ClientFeed has got something new.
+    /// Writes the next frame, unless one is under way; call after the OutgoingFrames has got something new.
     void pump();
     /// How long the client's machine has had all of the end, by its acknowledgements; zero before. Called
     /// again and again.
@@ -60,7 +60,7 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
     void take(std::span<const std::uint8_t> arrived);
 
     std::shared_ptr<Stream> stream_;
-    ClientFeed feed_;
+    OutgoingFrames outgoing_;
     AnsweredStates answers_;
     Callbacks callbacks_;
     std::string peer_;

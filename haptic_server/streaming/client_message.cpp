@@ -22,11 +22,11 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v2::Cli
                                                                    const MessagingClient& client,
                                                                    ToolLease::Time now) {
     if (frame.has_compare_bone()) {
-        if (auto error = client.feed.compare(frame.compare_bone())) return *std::move(error);
+        if (auto error = client.outgoing.compare(frame.compare_bone())) return *std::move(error);
         return std::nullopt;
     }
     if (frame.has_ct_request()) {
-        client.feed.ask_for_ct();
+        client.outgoing.ask_for_ct();
         return std::nullopt;
     }
     if (frame.has_viewpoint()) {
@@ -45,7 +45,7 @@ std::variant<std::optional<Answer>, WireError> take_client_message(const v2::Cli
             const ControlEvent refused{.action = request.action,
                                        .text = "this client may not control the session, or another does",
                                        .is_refused = true};
-            client.feed.tell(refused);
+            client.outgoing.tell(refused);
         }
         return std::nullopt;
     }

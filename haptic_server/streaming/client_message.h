@@ -9,7 +9,7 @@
 #include "common/scene/viewpoint.h"
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/answered_states.h"
-#include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/outgoing_frames.h"
 #include "haptic_server/streaming/tool_lease.h"
 #include "osteomill/v2/session.pb.h"
 
@@ -18,7 +18,7 @@ namespace osteomill {
 /// A client, as far as its messages reach.
 struct MessagingClient {
     ToolLease::ClientId id = 0;
-    ClientFeed& feed;            ///< may have something to say afterwards
+    OutgoingFrames& outgoing;    ///< may have something to say afterwards
     AnsweredStates& answers;     ///< for the states that the client has been sent
     ToolLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
     std::size_t burr_count = 0;  ///< the session's burrs
@@ -38,8 +38,8 @@ std::optional<WireError> check_greeting(const v2::ClientFrame& frame);
 /// passed on; a client without the right to it gets a refusal. An invalid message returns an error, which
 /// drops the client, and changes nothing: no body, numbers that are not finite, a viewpoint that
 /// viewpoint_from refuses, a burr that does not exist, an answer to a state that was not sent, a comparison
-/// that ClientFeed refuses. Otherwise returns the outcome of an operator's input if it is new: different from
-/// the one before, or the first that is not fresh.
+/// that OutgoingFrames refuses. Otherwise returns the outcome of an operator's input if it is new: different
+/// from the one before, or the first that is not fresh.
 std::variant<std::optional<Answer>, WireError> take_client_message(const v2::ClientFrame& frame,
                                                                    const MessagingClient& client,
                                                                    ToolLease::Time now);

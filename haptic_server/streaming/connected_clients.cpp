@@ -29,7 +29,7 @@ std::int64_t unix_time_ns() {
 
 ConnectedClients::ConnectedClients(const StreamingOptions& options, const v2::Hello& hello,
                                    const std::vector<v2::StructureBricks>& structures,
-                                   const BoneReplica& mirror, FeedPackers& packers,
+                                   const BoneReplica& mirror, FramePackers& packers,
                                    OperatorChannel* operator_channel,
                                    std::function<void(const SessionControl&)> control)
     : options_(options),
@@ -54,7 +54,7 @@ void ConnectedClients::admit(std::shared_ptr<Stream> stream) {
     boost::system::error_code ignored;  // one who has gone already leaves as soon as it is read
     const Origin origin = origin_of(stream->socket().remote_endpoint(ignored).address());
     const auto connection = std::make_shared<ClientConnection>(
-        std::move(stream), ClientFeed(hello_for(may_operate), mirror_, packers_, structures_));
+        std::move(stream), OutgoingFrames(hello_for(may_operate), mirror_, packers_, structures_));
     connections_.emplace(id, connection);
     if (const auto oldest = unidentified_.next_to_go())
         connections_.at(*oldest)->close("gave way to others: it had not said hello", false);
@@ -77,13 +77,13 @@ void ConnectedClients::look_after(Time now) {
 }
 
 void ConnectedClients::note(std::span<const BrickChange> changes) {
-    for (const auto& [id, connection] : connections_) connection->feed().note(changes);
+    for (const auto& [id, connection] : connections_) connection->outgoing().note(changes);
 }
 
 void ConnectedClients::show_ct(const std::function<std::shared_ptr<const CtVolume>()>& ct) {
     for (const auto& [id, connection] : connections_) {
-        if (!hello_.has_ct() || !connection->feed().wants_ct()) continue;
-        if (auto volume = ct()) connection->feed().give_ct(std::move(volume));
+        if (!hello_.has_ct() || !connection->outgoing().wants_ct()) continue;
+        if (auto volume = ct()) connection->outgoing().give_ct(std::move(volume));
     }
 }
 
@@ -119,8 +119,8 @@ void ConnectedClients::say_goodbye(const SessionState& state, const std::string&
             connection->close("had not said hello when the session ended", false);
             continue;
         }
-        connection->feed().request_state(state_for(id, state, now), true);
-        connection->feed().finish(reason);
+        connection->outgoing().request_state(state_for(id, state, now), true);
+        connection->outgoing().finish(reason);
         connection->pump();
     }
 }
@@ -180,7 +180,7 @@ std::optional<WireError> ConnectedClients::take(Id id, const v2::ClientFrame& fr
     const bool shows_view = frame.has_viewpoint() && hello_.records_view() && !watchers_.contains(id);
     auto taken = take_client_message(frame,
                                      {.id = id,
-                                      .feed = connection->feed(),
+                                      .outgoing = connection->outgoing(),
                                       .answers = connection->answers(),
                                       .lease = may_operate ? &*tool_lease_ : nullptr,
                                       .burr_count = static_cast<std::size_t>(hello_.burrs_size()),

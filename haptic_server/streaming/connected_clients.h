@@ -38,7 +38,7 @@ class ConnectedClients {
     /// from clients with that right, if the hello accepts them. All references outlive this.
     ConnectedClients(const StreamingOptions& options, const v2::Hello& hello,
                      const std::vector<v2::StructureBricks>& structures, const BoneReplica& mirror,
-                     FeedPackers& packers, OperatorChannel* operator_channel,
+                     FramePackers& packers, OperatorChannel* operator_channel,
                      std::function<void(const SessionControl&)> control);
 
     /// One whose handshake is over.
@@ -94,7 +94,7 @@ class ConnectedClients {
     const v2::Hello& hello_;
     const std::vector<v2::StructureBricks>& structures_;
     const BoneReplica& mirror_;
-    FeedPackers& packers_;
+    FramePackers& packers_;
     std::optional<ToolLease> tool_lease_;
     ControlLease control_lease_;  // where there is no tool lease
     std::function<void(const SessionControl&)> control_;

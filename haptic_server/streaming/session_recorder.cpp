@@ -34,7 +34,7 @@ SessionRecorder::SessionRecorder(const RecordTo& to, v2::Hello hello, const Bone
                                  std::span<const v2::StructureBricks> structures)
     : began_(to.began),
       ticks_(to.ticks),
-      feed_(of_recording(std::move(hello), to), mirror, packers_, structures),
+      outgoing_(of_recording(std::move(hello), to), mirror, packers_, structures),
       writer_(
           to.file,
           [this, tell = to.tell](RecordingNews news, const std::string& line) {
@@ -63,7 +63,7 @@ void SessionRecorder::begin(SessionState& state, Wait wait) {
 }
 
 bool SessionRecorder::says_more(const SessionState& state) const {
-    if (!last_ || !feed_.has_sent_all() || feed_.has_waiting() || has_untaken_ticks()) return true;
+    if (!last_ || !outgoing_.has_sent_all() || outgoing_.has_waiting() || has_untaken_ticks()) return true;
     return state.tool.time_s != last_->tool.time_s || state.tool.removed_mm3 != last_->tool.removed_mm3 ||
            !state.events.empty() || state.status != last_->status || state.distances != last_->distances;
 }
@@ -75,44 +75,44 @@ void SessionRecorder::record(SessionState state, bool may_wait) {
     last_ = state;
     // A checksum costs its eight bytes. With one, each state is news, and whichever is the last proves the
     // bone.
-    feed_.request_state(std::move(state), true);
+    outgoing_.request_state(std::move(state), true);
     hand_over(wait);
 }
 
 void SessionRecorder::finish(SessionState state, const std::string& reason) {
     begin(state, Wait::a_moment);
     for (; has_untaken_ticks() && writer_.has_room(); take_ticks(Wait::a_moment)) {
-        feed_.request_state(state, true);
+        outgoing_.request_state(state, true);
         state.events.clear();
         hand_over(Wait::a_moment);
     }
     const bool has_said_all = !says_more(state);
-    if (!has_said_all) feed_.request_state(std::move(state), true);
-    feed_.finish(reason, has_said_all);
+    if (!has_said_all) outgoing_.request_state(std::move(state), true);
+    outgoing_.finish(reason, has_said_all);
     hand_over(Wait::a_moment);
-    if (feed_.is_finished()) writer_.commit();
+    if (outgoing_.is_finished()) writer_.commit();
     writer_.close();
 }
 
 RecordingReport SessionRecorder::report() const {
     RecordingReport report = writer_.report();
-    const bool lacks_end = report.error.empty() && feed_.finish_requested() && !feed_.is_finished();
+    const bool lacks_end = report.error.empty() && outgoing_.finish_requested() && !outgoing_.is_finished();
     if (lacks_end) report.error = report.file.string() + ": lacks the end: the disk was full until then";
     if (ticks_ != nullptr) report.missed_ticks = ticks_->dropped();
     return report;
 }
 
 void SessionRecorder::take_ticks(Wait wait) {
-    if (ticks_ == nullptr || feed_.waiting_ticks() >= most_ticks_of_message) return;
+    if (ticks_ == nullptr || outgoing_.waiting_ticks() >= most_ticks_of_message) return;
     wait_for_room(wait);
     if (!writer_.has_room()) return;
     if (missed_ticks_ > 0) {
-        if (feed_.waiting_ticks() > 0) return;
-        feed_.note_missed_ticks(std::exchange(missed_ticks_, 0));
+        if (outgoing_.waiting_ticks() > 0) return;
+        outgoing_.note_missed_ticks(std::exchange(missed_ticks_, 0));
     }
     // Dropped ticks found the queue full, so they come behind all that are in it.
     const std::uint64_t dropped = ticks_->dropped();
-    ticks_->consume_all([this](const TickSample& tick) { feed_.note_tick(tick); });
+    ticks_->consume_all([this](const TickSample& tick) { outgoing_.note_tick(tick); });
     missed_ticks_ = dropped - std::exchange(dropped_ticks_, dropped);
 }
 
@@ -134,12 +134,12 @@ void SessionRecorder::hand_over(Wait wait) {
     for (;;) {
         wait_for_room(wait);
         if (!writer_.has_room()) return;
-        const std::uint64_t newest = feed_.newest_state();
-        const std::optional<std::string> frame = feed_.next();
+        const std::uint64_t newest = outgoing_.newest_state();
+        const std::optional<std::string> frame = outgoing_.next();
         if (!frame) return;
         Stamp stamp = std::max(stamp_of(time_s_), stamp_);
         // Rows of a table have times of their own: rows that do not fit one state come a moment later.
-        if (feed_.newest_state() != newest) {
+        if (outgoing_.newest_state() != newest) {
             if (newest > 0 && stamp <= stamp_) stamp = stamp_ + least_between_states;
             stamp_ = stamp;
         }

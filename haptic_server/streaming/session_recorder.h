@@ -1,6 +1,6 @@
 // Recorder of a session, which acts as one more client: a client's frames go into a file.
 //
-// It uses a ClientFeed like any client, so on a slow disk changes are merged and sent later, and the
+// It uses a OutgoingFrames like any client, so on a slow disk changes are merged and sent later, and the
 // streaming thread never waits. A full disk acts like a slow one: the session goes on, and once there is
 // space the next frame contains all changes since. Poses of that time are missing, bone is not. Ticks wait in
 // their queue until it is full; lost ticks are counted.
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "common/recording/recording_writer.h"
-#include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/outgoing_frames.h"
 #include "haptic_server/streaming/streaming_options.h"
 
 namespace osteomill {
@@ -26,8 +26,8 @@ class SessionRecorder {
     SessionRecorder(const RecordTo& to, v2::Hello hello, const BoneReplica& mirror,
                     std::span<const v2::StructureBricks> structures = {});
 
-    /// These work as for a client: see ClientFeed.
-    void note(std::span<const BrickChange> changes) { feed_.note(changes); }
+    /// These work as for a client: see OutgoingFrames.
+    void note(std::span<const BrickChange> changes) { outgoing_.note(changes); }
     /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Nothing if it says no
     /// more than the one before, of the same time.
     void record(SessionState state, bool may_wait);
@@ -55,8 +55,8 @@ class SessionRecorder {
     std::atomic<bool> is_under_way_{false};
     // The recorder has packers of its own: the recording ends on another thread while clients are still sent
     // the end.
-    FeedPackers packers_{};
-    ClientFeed feed_;
+    FramePackers packers_{};
+    OutgoingFrames outgoing_;
     RecordingWriter writer_;
     double time_s_ = 0.0;
     std::optional<SessionState> last_;  // that was handed over

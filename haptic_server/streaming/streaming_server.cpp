@@ -259,7 +259,7 @@ class StreamingServer::Impl {
     const v2::Hello hello_;
     const std::vector<v2::StructureBricks> structures_;
     BoneReplica mirror_;
-    FeedPackers packers_;
+    FramePackers packers_;
     StreamSource& source_;
     SessionState state_;
     std::optional<SessionRecorder> recorder_;

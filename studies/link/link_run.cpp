@@ -16,7 +16,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
-#include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/outgoing_frames.h"
 #include "simulation/carving/carve.h"
 
 namespace osteomill::study {
@@ -126,7 +126,7 @@ class Server {
     Server(const Bone& bone, const Burr& burr, const LinkChoice& choice)
         : bone_(bone),
           mirror_(bone),
-          feed_(to_message(SessionInfo{.scene_name = "link", .burrs = {burr}}), mirror_, packers_),
+          outgoing_(to_message(SessionInfo{.scene_name = "link", .burrs = {burr}}), mirror_, packers_),
           content_(choice.content),
           radius_mm_(0.5 * burr.diameter_mm) {}
 
@@ -146,18 +146,18 @@ class Server {
         std::vector<BrickChange> changes = mirror_.take_changes();
         if (content_ == LinkContent::bricks)
             for (BrickChange& change : changes) change.voxels.set_all();
-        if (content_ != LinkContent::poses) feed_.note(changes);
-        feed_.request_state({.tool = tool}, with_checksum && content_ != LinkContent::poses);
+        if (content_ != LinkContent::poses) outgoing_.note(changes);
+        outgoing_.request_state({.tool = tool}, with_checksum && content_ != LinkContent::poses);
     }
-    ClientFeed& feed() { return feed_; }
+    OutgoingFrames& outgoing() { return outgoing_; }
     const Bone& bone() const { return bone_; }
 
   private:
     Bone bone_;
     std::map<BrickIndex, VoxelMask> waiting_{};  // for the next frame
     BoneReplica mirror_;
-    FeedPackers packers_;
-    ClientFeed feed_;
+    FramePackers packers_;
+    OutgoingFrames outgoing_;
     LinkContent content_;
     double radius_mm_;
 };
@@ -201,7 +201,7 @@ class LinkRun {
           frame_rate_hz_(choice.frame_rate_hz) {
         tool_.spindle_axis = axis;
         tool_.spindle_on = true;
-        while (const auto frame = server_.feed().next()) client_.take(*frame);
+        while (const auto frame = server_.outgoing().next()) client_.take(*frame);
     }
 
     void tick(const glm::dvec3& position_mm) {
@@ -232,7 +232,7 @@ class LinkRun {
         if (!differing_.empty())
             outcome.differing_voxels_most = static_cast<std::size_t>(std::ranges::max(differing_));
         const double end_s = tool_.time_s;
-        while (tool_.time_s < end_s + 1.0 || !server_.feed().has_sent_all() || !cable_.is_empty()) {
+        while (tool_.time_s < end_s + 1.0 || !server_.outgoing().has_sent_all() || !cable_.is_empty()) {
             if (tool_.time_s > end_s + longest_wait_for_rest_s) break;
             tick(tool_.burr_position_mm);
         }
@@ -254,7 +254,7 @@ class LinkRun {
     }
     bool send(double now_s) {
         const auto began = std::chrono::steady_clock::now();
-        auto frame = server_.feed().next(cable_.most_bytes());
+        auto frame = server_.outgoing().next(cable_.most_bytes());
         if (!frame) return false;
         frame_us_.push_back(
             std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - began).count());

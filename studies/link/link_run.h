@@ -1,9 +1,9 @@
 // A run over a link: a burr mills at one end, a client keeps a copy of the bone at the other. It measures the
 // bytes on the link, the age of the client's picture, and the voxels in which the copy differs.
 //
-// Both ends are the program's own (ClientFeed, FramePace, SessionReceiver), the link is simulated: it carries
-// so many bytes a second, and each byte arrives so much later. All is in steps of a tick on a clock of its
-// own, so the same choice gives the same outcome, but for `frame_us`.
+// Both ends are the program's own (OutgoingFrames, FramePace, SessionReceiver), the link is simulated: it
+// carries so many bytes a second, and each byte arrives so much later. All is in steps of a tick on a clock
+// of its own, so the same choice gives the same outcome, but for `frame_us`.
 #pragma once
 
 #include <cstddef>

@@ -23,8 +23,8 @@
 
 #include "common/wire/scene_messages.h"
 #include "devices/simulated/simulated_device.h"
-#include "haptic_server/streaming/client_feed.h"
 #include "haptic_server/streaming/live_session.h"
+#include "haptic_server/streaming/outgoing_frames.h"
 #include "haptic_server/streaming/streaming_server.h"
 #include "imaging/case/bone_source.h"
 #include "imaging/phantoms/phantom.h"
@@ -65,11 +65,11 @@ double ms_between(Clock::time_point from, Clock::time_point to) {
 
 void measure_snapshot(Targets& targets, const Scene& scene, const Bone& bone) {
     const BoneReplica mirror(bone);
-    FeedPackers packers;
+    FramePackers packers;
     const auto began = Clock::now();
-    ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packers);
+    OutgoingFrames outgoing(to_message(session_info(scene, false, 3.3, "")), mirror, packers);
     std::size_t bytes = 0;
-    while (const auto frame = feed.next()) bytes += frame->size();
+    while (const auto frame = outgoing.next()) bytes += frame->size();
     const double pack_ms = ms_between(began, Clock::now());
     const glm::dvec3 size(bone.grid().size_voxels);
     const double raw_bytes = 3.0 * size.x * size.y * size.z;
@@ -122,9 +122,9 @@ Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, double 
             .clock = ClockKind::virtual_time, .duration_s = to_s, .changes_are_consumed = true});
     LiveSession shown(session->exchange().tool, session->exchange().changes);
     BoneReplica mirror(bone);
-    FeedPackers packers;
-    ClientFeed feed(to_message(session_info(scene, false, 3.3, "")), mirror, packers);
-    while (feed.next()) {
+    FramePackers packers;
+    OutgoingFrames outgoing(to_message(session_info(scene, false, 3.3, "")), mirror, packers);
+    while (outgoing.next()) {
     }
     std::vector<double> bytes_in_second(static_cast<std::size_t>(to_s - from_s) + 1, 0.0);
     std::vector<double> removed_in_second_mm3(bytes_in_second.size(), 0.0);
@@ -135,10 +135,10 @@ Rate rate_of(const Scene& scene, const Bone& bone, HapticDevice& device, double 
         SessionState state = shown.update(mirror, 1);
         const ToolState& tool = state.tool;
         state.tool.taken_unix_ns = 1'700'000'000'000'000'000;  // as a server would
-        feed.note(mirror.take_changes());
-        feed.request_state(state, frames++ % 30 == 0);
+        outgoing.note(mirror.take_changes());
+        outgoing.request_state(state, frames++ % 30 == 0);
         std::size_t bytes = 0;
-        while (const auto frame = feed.next()) bytes += frame->size();
+        while (const auto frame = outgoing.next()) bytes += frame->size();
         const double removed_now_mm3 = tool.removed_mm3 - std::exchange(removed_mm3, tool.removed_mm3);
         if (tool.time_s < from_s) {
             removed_before_mm3 = removed_mm3;

@@ -10,7 +10,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 #include "common/wire/structure_messages.h"
-#include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/outgoing_frames.h"
 #include "tests/fuzz/image_seeds.h"
 #include "tests/fuzz/small_session.h"
 #include "tests/support/packed.h"
@@ -34,40 +34,40 @@ std::string message_of(const std::string& stream) {
 /// The frames of a session in which a run of voxels is milled, each behind its length.
 std::vector<std::string> session_frames(const Bone& bone, bool with_ticks = false) {
     BoneReplica mirror(bone);
-    FeedPackers packers;
+    FramePackers packers;
     SessionInfo info = small_session_info();
     info.holds_ticks = with_ticks;
-    ClientFeed feed(to_message(info), mirror, packers);
+    OutgoingFrames outgoing(to_message(info), mirror, packers);
     std::vector<std::string> frames;
     const auto drain = [&] {
-        while (auto frame = feed.next()) frames.push_back(*std::move(frame));
+        while (auto frame = outgoing.next()) frames.push_back(*std::move(frame));
     };
     drain();
     for (int i = 0; i < 4; ++i) {
         const std::size_t first = 16 * static_cast<std::size_t>(i);
         ByteBrick left{};
         for (std::size_t k = 0; k < 9; ++k) left[first + k] = static_cast<std::uint8_t>(90 - 10 * k);
-        if (mirror.apply({0, VoxelMask().set_run(first, 9)}, left)) feed.note(mirror.take_changes());
+        if (mirror.apply({0, VoxelMask().set_run(first, 9)}, left)) outgoing.note(mirror.take_changes());
         for (int k = 0; k < 40 && with_ticks; ++k)
-            feed.note_tick({.time_s = 0.04 * i + 0.001 * k,
-                            .hand_mm = {0.1 * i, 0.01 * k, 0.0},
-                            .force_n = {0.1 * i, 0.0, -0.001 * k},
-                            .spindle_on = k > 20,
-                            .fault = static_cast<std::uint8_t>(i),
-                            .burr = static_cast<std::size_t>(i % 2),
-                            .shank_torque_n_mm = glm::dvec3(0.0, -0.1 * i, 0.001 * k)});
-        if (i == 2 && with_ticks) feed.note_missed_ticks(3);
-        feed.request_state({.tool = {.time_s = 0.04 * i,
-                                     .burr_position_mm = {0.1 * i, 0.0, 0.0},
-                                     .force_n = {0.1 * i, 0.0, -0.2},
-                                     .burr = static_cast<std::size_t>(i % 2),
-                                     .spindle_on = true,
-                                     .removed_mm3 = 0.01 * i,
-                                     .fault = i == 2 ? "the device is lost" : ""}},
-                           i % 2 == 1);
+            outgoing.note_tick({.time_s = 0.04 * i + 0.001 * k,
+                                .hand_mm = {0.1 * i, 0.01 * k, 0.0},
+                                .force_n = {0.1 * i, 0.0, -0.001 * k},
+                                .spindle_on = k > 20,
+                                .fault = static_cast<std::uint8_t>(i),
+                                .burr = static_cast<std::size_t>(i % 2),
+                                .shank_torque_n_mm = glm::dvec3(0.0, -0.1 * i, 0.001 * k)});
+        if (i == 2 && with_ticks) outgoing.note_missed_ticks(3);
+        outgoing.request_state({.tool = {.time_s = 0.04 * i,
+                                         .burr_position_mm = {0.1 * i, 0.0, 0.0},
+                                         .force_n = {0.1 * i, 0.0, -0.2},
+                                         .burr = static_cast<std::size_t>(i % 2),
+                                         .spindle_on = true,
+                                         .removed_mm3 = 0.01 * i,
+                                         .fault = i == 2 ? "the device is lost" : ""}},
+                               i % 2 == 1);
         drain();
     }
-    feed.finish("the session has ended");
+    outgoing.finish("the session has ended");
     drain();
     return frames;
 }

@@ -76,14 +76,14 @@ void server_session(Bytes input) {
     Bone carved = bone;
     const SessionInfo info = small_session_info();
     BoneReplica mirror(bone);
-    static FeedPackers packers;
+    static FramePackers packers;
     OperatorChannel output;
     ToolLease lease(output);
     constexpr ToolLease::ClientId id = 1;
     boost::asio::io_context io;
     const auto stream = std::make_shared<ScriptedStream>(io);
     const auto session =
-        std::make_shared<ClientConnection>(stream, ClientFeed(to_message(info), mirror, packers));
+        std::make_shared<ClientConnection>(stream, OutgoingFrames(to_message(info), mirror, packers));
 
     std::optional<Viewpoint> view;
     std::optional<std::string> ended;
@@ -97,7 +97,7 @@ void server_session(Bytes input) {
                             }
                             const auto taken = take_client_message(frame,
                                                                    {.id = id,
-                                                                    .feed = session->feed(),
+                                                                    .outgoing = session->outgoing(),
                                                                     .answers = session->answers(),
                                                                     .lease = &lease,
                                                                     .burr_count = info.burrs.size(),
@@ -121,7 +121,7 @@ void server_session(Bytes input) {
         const std::size_t voxel = ++states % brick_voxel_count;
         carved.fractions(0)[voxel] = 0;
         require(mirror.apply({0, VoxelMask().set(voxel)}, carved.fractions(0)), "a mirror refused a change");
-        session->feed().note(mirror.take_changes());
+        session->outgoing().note(mirror.take_changes());
         session->show({.tool = {.time_s = 0.03 * static_cast<double>(states)}}, states % 30 == 0);
         if (reads_all) stream->let_write();
     }
@@ -131,10 +131,10 @@ void server_session(Bytes input) {
                 "a client is dropped without one line that says why");
     } else {
         session->serve();
-        session->feed().finish("the end");
+        session->outgoing().finish("the end");
         session->pump();
         stream->let_write();
-        require(session->feed().is_finished(), "a session that cannot be ended");
+        require(session->outgoing().is_finished(), "a session that cannot be ended");
         session->close("the end", false);
     }
     // Hello, begin, bricks, end, a state each time it was requested or a message was answered, and the

@@ -24,7 +24,7 @@ inline void require(bool holds, const std::string& what) {
 /// that they came from, or that are longer than allowed; a complaint that is not one line.
 void frame_decoder(Bytes input);
 
-/// A client's messages, against ClientConnection, ClientFeed and ToolLease. Finding: a bone changed by a
+/// A client's messages, against ClientConnection, OutgoingFrames and ToolLease. Finding: a bone changed by a
 /// client; a tool moved to a place without numbers; an answer that is no frame, or more frames than the
 /// client may cause; a client dropped without a line.
 void server_session(Bytes input);

@@ -7,37 +7,37 @@
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
 #include "common/wire/session_receiver.h"
-#include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/outgoing_frames.h"
 #include "tests/support/ball_structure.h"
 #include "tests/support/speckled_bone.h"
 
 namespace osteomill {
 namespace {
 
-class ClientFeedOfStructures : public ::testing::Test {
+class OutgoingFramesOfStructures : public ::testing::Test {
   protected:
-    ClientFeedOfStructures() {
+    OutgoingFramesOfStructures() {
         std::mt19937 random(2);
         mirror_.emplace(testing::make_speckled_bone(random, {.grid = {.size_voxels = {128, 128, 64}}}));
     }
     std::optional<BoneReplica> mirror_;
-    FeedPackers packers_;
-    std::optional<ClientFeed> feed_;
+    FramePackers packers_;
+    std::optional<OutgoingFrames> outgoing_;
 };
 
-TEST_F(ClientFeedOfStructures, TellsWhereProtectedStructuresAreBeforeTheFirstState) {
+TEST_F(OutgoingFramesOfStructures, TellsWhereProtectedStructuresAreBeforeTheFirstState) {
     const std::vector<Structure> structures{
         {0, testing::ball_mask(mirror_->bone().grid(), {3.0, 3.0, 3.0}, 2.0)}};
     const std::vector<v2::StructureBricks> pieces = structure_pieces(structures);
     const SessionInfo session{.burrs = {Burr{}}, .tissues = {{.label = 1, .is_protected = true}}};
-    feed_.emplace(to_message(session), *mirror_, packers_, pieces);
+    outgoing_.emplace(to_message(session), *mirror_, packers_, pieces);
     const StructureDistance near{.tissue = 0, .distance_mm = 0.7};
-    feed_->request_state({.distances = {near}}, false);
+    outgoing_->request_state({.distances = {near}}, false);
     SessionReceiver receiver;
     FrameDecoder decoder;
     std::optional<Structure> arrived;
     std::optional<StateArrived> state;
-    while (const auto bytes = feed_->next()) {
+    while (const auto bytes = outgoing_->next()) {
         decoder.append({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});
         auto opened = open_frame(*decoder.next());
         auto event = receiver.take(std::get<v2::ServerFrame>(std::move(opened)));
@@ -53,11 +53,11 @@ TEST_F(ClientFeedOfStructures, TellsWhereProtectedStructuresAreBeforeTheFirstSta
     ASSERT_TRUE(state);
     EXPECT_EQ(state->state.distances, std::vector{near});
     // An unchanged distance is no news; a changed one is.
-    feed_->request_state({.tool = {.time_s = 0.03}, .distances = {near}}, false);
-    EXPECT_FALSE(feed_->next());
+    outgoing_->request_state({.tool = {.time_s = 0.03}, .distances = {near}}, false);
+    EXPECT_FALSE(outgoing_->next());
     const StructureDistance nearer{.tissue = 0, .distance_mm = 0.6};
-    feed_->request_state({.tool = {.time_s = 0.06}, .distances = {nearer}}, false);
-    EXPECT_TRUE(feed_->next());
+    outgoing_->request_state({.tool = {.time_s = 0.06}, .distances = {nearer}}, false);
+    EXPECT_TRUE(outgoing_->next());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "haptic_server/streaming/client_feed.h"
+#include "haptic_server/streaming/outgoing_frames.h"
 
 #include <algorithm>
 #include <utility>
@@ -20,16 +20,16 @@ constexpr std::size_t least_shrinking = 2;
 
 }  // namespace
 
-ClientFeed::ClientFeed(v2::Hello hello, const BoneReplica& mirror, FeedPackers& packers,
-                       std::span<const v2::StructureBricks> structures)
+OutgoingFrames::OutgoingFrames(v2::Hello hello, const BoneReplica& mirror, FramePackers& packers,
+                               std::span<const v2::StructureBricks> structures)
     : hello_(std::move(hello)), mirror_(mirror), packers_(packers), structure_pieces_(structures) {}
 
-void ClientFeed::note(std::span<const BrickChange> changes) {
+void OutgoingFrames::note(std::span<const BrickChange> changes) {
     for (const BrickChange& change : changes)
         if (static_cast<std::size_t>(mirror_.bone().slot(change.brick)) < next_slot_) pending_.add(change);
 }
 
-void ClientFeed::request_state(SessionState state, bool with_checksum) {
+void OutgoingFrames::request_state(SessionState state, bool with_checksum) {
     events_.insert(events_.end(), state.events.begin(), state.events.end());
     while (events_.size() > most_waiting_events) events_.pop_front();
     state_ = std::move(state);
@@ -41,7 +41,7 @@ void ClientFeed::request_state(SessionState state, bool with_checksum) {
     comparisons_left_ = std::min(comparisons_left_ + 1, most_comparisons_at_once);
 }
 
-std::optional<WireError> ClientFeed::compare(const v2::CompareBone& request) {
+std::optional<WireError> OutgoingFrames::compare(const v2::CompareBone& request) {
     if (stage_ == Stage::finished) return std::nullopt;
     if (stage_ != Stage::live) return WireError{"it compares a bone that it has not been sent yet"};
     if (answer_) return WireError{"it compares again before it has been answered"};
@@ -57,7 +57,7 @@ std::optional<WireError> ClientFeed::compare(const v2::CompareBone& request) {
     return std::nullopt;
 }
 
-void ClientFeed::finish(std::string reason, bool has_said_all) {
+void OutgoingFrames::finish(std::string reason, bool has_said_all) {
     if (goodbye_) return;
     goodbye_ = std::move(reason);
     if (has_said_all && has_sent_all()) return;
@@ -65,7 +65,7 @@ void ClientFeed::finish(std::string reason, bool has_said_all) {
     wants_checksum_ = true;
 }
 
-std::optional<std::string> ClientFeed::next(std::size_t most_state_bytes) {
+std::optional<std::string> OutgoingFrames::next(std::size_t most_state_bytes) {
     v2::ServerFrame frame;
     frame.set_sequence(sequence_ + 1);
     switch (stage_) {
@@ -111,7 +111,7 @@ std::optional<std::string> ClientFeed::next(std::size_t most_state_bytes) {
     return bytes;
 }
 
-void ClientFeed::fill_snapshot_bricks(v2::SnapshotBricks& message) {
+void OutgoingFrames::fill_snapshot_bricks(v2::SnapshotBricks& message) {
     const Bone& bone = mirror_.bone();
     message = packers_.snapshot.pack(bone, next_slot_);
     for (const BrickIndex brick : message.brick())
@@ -119,7 +119,7 @@ void ClientFeed::fill_snapshot_bricks(v2::SnapshotBricks& message) {
             checksum_of_brick(brick, bone.fractions(static_cast<std::int32_t>(next_slot_++)));
 }
 
-void ClientFeed::fill_state(v2::StateFrame& state, std::size_t most_bytes) {
+void OutgoingFrames::fill_state(v2::StateFrame& state, std::size_t most_bytes) {
     *state.mutable_tool() = to_message(state_.tool);
     if (answer_) *state.mutable_comparison() = *std::exchange(answer_, std::nullopt);
     if (state_.status != SessionStatus{}) *state.mutable_status() = to_message(state_.status);
@@ -136,19 +136,19 @@ void ClientFeed::fill_state(v2::StateFrame& state, std::size_t most_bytes) {
     if (std::exchange(wants_checksum_, false)) state.set_bone_checksum(mirror_.checksum());
 }
 
-void ClientFeed::add_events(v2::StateFrame& state, std::size_t most_bytes) {
+void OutgoingFrames::add_events(v2::StateFrame& state, std::size_t most_bytes) {
     for (; !events_.empty() && state.ByteSizeLong() < most_bytes; events_.pop_front())
         *state.add_events() = to_message(events_.front());
 }
 
-void ClientFeed::add_ticks(v2::StateFrame& state) {
+void OutgoingFrames::add_ticks(v2::StateFrame& state) {
     if (ticks_.empty() && missed_ticks_ == 0) return;
     const auto now = std::span(ticks_).first(std::min(ticks_.size(), most_ticks_of_message));
     *state.mutable_ticks() = packers_.ticks.pack(std::exchange(missed_ticks_, 0), now);
     ticks_.erase(ticks_.begin(), ticks_.begin() + static_cast<std::ptrdiff_t>(now.size()));
 }
 
-void ClientFeed::add_changes(v2::StateFrame& state, std::size_t most_bytes) {
+void OutgoingFrames::add_changes(v2::StateFrame& state, std::size_t most_bytes) {
     const std::size_t most_packed = std::min(least_shrinking * most_bytes, largest_packed_changes_bytes);
     std::vector<BrickChange> milled;
     std::vector<BrickChange> restored;

@@ -28,19 +28,19 @@
 
 namespace osteomill {
 
-/// Buffers to compress in, which all ClientFeeds of a thread share.
-struct FeedPackers {
+/// Buffers to compress in, which all OutgoingFrames of a thread share.
+struct FramePackers {
     SnapshotPacker snapshot;
     ChangePacker changes;
     TickPacker ticks;
 };
 
-class ClientFeed {
+class OutgoingFrames {
   public:
     /// `hello` is the client's first frame, `structures` are the messages of the protected structures, sent
     /// after the snapshot. All but `hello` outlive this object.
-    ClientFeed(v2::Hello hello, const BoneReplica& mirror, FeedPackers& packers,
-               std::span<const v2::StructureBricks> structures = {});
+    OutgoingFrames(v2::Hello hello, const BoneReplica& mirror, FramePackers& packers,
+                   std::span<const v2::StructureBricks> structures = {});
 
     /// To be called for every change of the mirror, before the next frame is requested.
     void note(std::span<const BrickChange> changes);
@@ -113,7 +113,7 @@ class ClientFeed {
 
     v2::Hello hello_;
     const BoneReplica& mirror_;
-    FeedPackers& packers_;
+    FramePackers& packers_;
     Stage stage_ = Stage::hello;
     std::uint64_t sequence_ = 0;
     std::uint64_t newest_state_ = 0;
