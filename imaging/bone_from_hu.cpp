@@ -160,7 +160,7 @@ struct CodeTable {
     }
 
     std::vector<std::uint8_t> of_hu;
-    std::array<std::uint8_t, 256> of_tissue{};              // 0: as the HU say
+    std::array<std::uint8_t, 256> of_tissue{};              // 0: from the HU
     std::array<std::vector<std::uint8_t>, 256> of_hu_in{};  // by tissue; empty: as of_hu
 };
 

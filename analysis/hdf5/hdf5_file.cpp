@@ -24,7 +24,7 @@ constexpr std::size_t step_bytes = std::size_t{4} << 20U;
 
 /// In memory: the library does not survive a disk that is full.
 Hdf5Id made_in_memory(const std::filesystem::path& name) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // lines are ours to say
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported in the program's own lines
     const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fapl_core(access.get(), step_bytes, 0);
     H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);

@@ -11,8 +11,8 @@
 
 namespace {
 
-/// Draws the progress on a terminal alone, for the work has three parts and in a log they say nothing; throws
-/// once a signal asks for the end.
+/// Draws the progress on a terminal only: the work has three parts, whose progress is of no use in a log.
+/// Throws once a signal asks for the end.
 void run(const osteomill::ExportOptions& options, const osteomill::ProgramOutput& output) {
     const std::atomic<bool>& is_stopped = osteomill::stop_on_signals();
     osteomill::LineStreamBuffer buffer(*output.err);

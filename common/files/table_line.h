@@ -23,7 +23,7 @@ inline void strip_line(std::string& line, bool is_first) {
     if (line.ends_with('\r')) line.pop_back();
 }
 
-/// The lines of a table that say something: neither blank nor a comment (#). Semicolons between cells become
+/// The lines of a table that are neither blank nor a comment (#). Semicolons between cells become
 /// commas.
 class TableLines {
   public:

@@ -44,8 +44,8 @@ class StreamOver : public Stream, public std::enable_shared_from_this<StreamOver
         transport_.async_read_some(
             asio::buffer(arrived_), [self = this->shared_from_this(), handler = std::move(handler)](
                                         error_code error, std::size_t bytes) {
-                // One who hangs up seldom takes leave of TLS first, and frames say themselves if they are
-                // cut.
+                // A peer that hangs up seldom closes TLS first, and the length of a frame shows whether it
+                // is whole.
                 if (error == ssl::error::stream_truncated) error = asio::error::eof;
                 handler(error, std::span<const std::uint8_t>(self->arrived_).first(bytes));
             });

@@ -22,7 +22,7 @@ class Stream {
     /// The bytes that arrived; the view is valid until the handler returns.
     using ReadHandler = std::function<void(boost::system::error_code, std::span<const std::uint8_t>)>;
     using WriteHandler = std::function<void(boost::system::error_code)>;
-    /// `failure`: empty, or why there is no connection, in words about the other end.
+    /// `failure`: empty, or why there is no connection, as a sentence about the other end.
     using HandshakeHandler = std::function<void(const std::string& failure)>;
 
     virtual ~Stream() = default;

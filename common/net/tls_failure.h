@@ -1,4 +1,4 @@
-// Reason why a TLS connection failed, in words about the other end ("it shows no certificate").
+// Reason why a TLS connection failed, as a sentence about the other end ("it shows no certificate").
 #pragma once
 
 #include <openssl/ssl.h>

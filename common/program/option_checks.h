@@ -20,7 +20,7 @@
 
 namespace osteomill {
 
-/// Behind an argument "[a,b]", which is a name, while CLI11 takes it apart: it would make two of it if an
+/// Behind an argument "[a,b]", which is a name, although CLI11 would split it: it would make two of it if an
 /// option may be given several. No argument holds this letter.
 inline constexpr char whole_mark = '\1';
 inline constexpr const char* without_value = "is given without a value";

@@ -102,7 +102,7 @@ Playhead::Step Playhead::take(RecordedEvent event) {
         ++counts_.states;
         counts_.state_bytes += event.bytes;
         if (followed.check == ReplicaCheck::equal) ++counts_.checksums_verified;
-        // One that did not change is not said again.
+        // A state holds the viewpoint only if it has changed.
         if (!state->state.view) state->state.view = state_.view;
         state_ = std::move(state->state);
         has_state_ = true;

@@ -99,7 +99,7 @@ class Playhead {
     RecordingReader reader_;
     RecordingReader::Mark before_next_;
     std::optional<RecordedEvent> next_;
-    std::optional<RecordingError> what_comes_next_is_wrong_;  // said when it is its turn
+    std::optional<RecordingError> what_comes_next_is_wrong_;  // reported when its turn comes
     RecordedTime before_next_time_;
     RecordedTime time_;    // for next_
     double time_s_ = 0.0;  // time of the last frame

@@ -66,7 +66,7 @@ struct Tissue {
     std::string name{};
     std::array<std::uint8_t, 3> colour_rgb{};
     bool is_protected = false;                 ///< touching it with a turning burr raises a warning
-    std::optional<TissueStrength> strength{};  ///< absent: as its CT numbers say
+    std::optional<TissueStrength> strength{};  ///< absent: from its CT numbers
     double stiffness_factor = 1.0;             ///< factor of the stiffness by its strength or CT numbers
     bool is_cuttable = true;                   ///< false: no burr takes it, it is a wall
     std::string segment{};                     ///< of the segmentation that it is; empty: none

@@ -15,7 +15,7 @@ namespace osteomill {
 struct SceneChange {
     std::string key;       ///< dotted
     std::string value;     ///< as typed
-    bool is_text = false;  ///< whatever it looks like
+    bool is_text = false;  ///< even if it reads as a number
 
     bool operator==(const SceneChange&) const = default;
 };

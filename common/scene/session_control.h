@@ -24,7 +24,7 @@ enum class SessionAction : std::uint8_t {
     fixture,  ///< one of the scene's is switched on or off, while the session is paused
 };
 
-/// In people's words: "undo".
+/// For people: "undo".
 const char* name_of(SessionAction action);
 
 struct SessionControl {

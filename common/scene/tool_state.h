@@ -17,7 +17,7 @@ namespace osteomill {
 
 /// Which client moves the tool, as sent to one of them.
 enum class ToolDriver {
-    unknown,  ///< no client: the server has a device of its own, or is too old to say
+    unknown,  ///< no client: the server has a device of its own, or is too old to send it
     nobody,   ///< the next that sends input
     you,
     another,      ///< whose lease has not run out: input is ignored
@@ -50,13 +50,13 @@ struct ToolState {
     bool touches_protected = false;
     BoundedLine fault{};   ///< why the force is off; empty while all is well
     BoundedLine notice{};  ///< the reason for which a request waits; empty: none waits
-    /// The server's wall clock when it took this off the haptic loop, ns since 1970; 0: not said.
+    /// The server's wall clock when it took this off the haptic loop, ns since 1970; 0: unknown.
     std::int64_t taken_unix_ns = 0;
-    ToolDriver driver = ToolDriver::unknown;  ///< said to each client by the streaming server
+    ToolDriver driver = ToolDriver::unknown;  ///< set for each client by the streaming server
     /// Depth of the burr's tip below where it first met bone, along the spindle axis of that moment; 0
     /// before. Nothing if the server does not send it.
     std::optional<double> depth_mm{};
-    /// Nothing where the server does not say.
+    /// Nothing if the server does not send it.
     std::optional<SolveCounts> solve{};
     /// Moment of the bone on the shank, about the burr's centre. Nothing if no burr has a shank, or the
     /// server does not send it.

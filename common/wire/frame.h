@@ -20,7 +20,7 @@ namespace osteomill {
 /// trust, and how long one frame keeps the next waiting; a snapshot is cut to fit.
 inline constexpr std::size_t largest_frame_bytes = 128 * 1024;
 
-/// The largest that a client may send: it has far less to say than a server.
+/// The largest that a client may send: it sends far less than a server.
 inline constexpr std::size_t largest_client_frame_bytes = 8 * 1024;
 
 /// Appends one frame. Throws std::length_error for a message over the limit: the sender is to cut it first.

@@ -29,7 +29,7 @@ void append_sealed_frame(const v2::ServerFrame& frame, std::string& stream);
 /// hold or is not the last field.
 std::variant<v2::ServerFrame, WireError> open_frame(std::span<const std::uint8_t> message);
 
-/// Whether these bytes end in a seal that holds, whatever they say.
+/// Whether these bytes end in a seal that holds, whatever their content.
 bool has_sound_seal(std::span<const std::uint8_t> message);
 
 /// A sealed message with the time at which it is recorded, nanoseconds since 1970, sealed anew. Call only

@@ -1,4 +1,4 @@
-// The files of words beside this one, as they are in the program.
+// The translations beside this file (de.toml), as they are built into the program.
 #pragma once
 
 #include <span>

@@ -28,13 +28,13 @@ std::string language_of_environment();
 void speak(const std::string& language);
 const std::string& spoken_language();
 
-/// In the language that is spoken; if it has no such words, the English ones. Lives for ever.
+/// The text in the chosen language, or the English one if it is not translated. Lives for ever.
 const char* tr(const char* english);
 inline std::string tr(const std::string& english) {
     return tr(english.c_str());
 }
 /// The translation of a whole text whose values are filled in already: as it stands, with its numbers as {},
-/// or else the text of the file that has {} where this one has names or paths, and the most words besides.
+/// or else the text of the file that has {} where this one has names or paths, and the longest text besides.
 /// Values keep their order. The English text if there is none.
 std::string tr_filled(const std::string& english);
 /// tr_filled, also of a text that begins with a file's name, which stays: "FILE: is no file", "FILE, packet 3

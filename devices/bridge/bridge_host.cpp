@@ -177,7 +177,7 @@ void BridgeHost::take_pose(const omb_header& header, const std::uint8_t* message
     request_clock_ns_ = header.clock_ns;
     awaits_answer_ = true;
     // Each end counts its own interval by its own clock, so the clocks need not agree. An arm whose clock
-    // goes in steps, or fast, may say that it kept the message for longer than it was away.
+    // goes in steps, or fast, may claim that it kept the message for longer than it was away.
     const std::uint64_t away_ns = now_ns - pose.echo_clock_ns;
     const std::uint64_t kept_ns = std::min({away_ns, pose.kept_ns, longest_kept_ns});
     const std::uint64_t round_trip_ns = away_ns - kept_ns;

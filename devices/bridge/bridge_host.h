@@ -90,7 +90,7 @@ class BridgeHost {
     /// The arm that is served, or was; nullopt before the first.
     const std::optional<omb_arm>& arm() const { return arm_; }
     const BridgeCounts& counts() const { return counts_; }
-    /// The arm has said goodbye, or nothing for long.
+    /// The arm has said goodbye, or has been silent for long.
     bool is_gone(std::uint64_t now_ns) const { return session_ == 0 || now_ns - heard_ns_ > gone_ns; }
 
     /// The median time of the last messages to the arm and back; nullopt before there are enough.
@@ -112,7 +112,7 @@ class BridgeHost {
     BridgeMessage begun(omb_kind kind, std::uint64_t session, std::uint64_t now_ns);
     std::optional<BridgeMessage> take_hello(const std::uint8_t* message, const PeerAddress& from,
                                             std::uint64_t now_ns);
-    /// The session of whom that welcome greets. Its last digits say which statement.
+    /// The session of the arm that this welcome greets. Its last digits are the number of the statement.
     std::uint64_t cookie(std::uint64_t welcome_sequence, std::uint64_t welcome_clock_ns,
                          const PeerAddress& to, std::size_t statement) const;
     bool may_join(const PeerAddress& from, std::uint64_t now_ns) const {

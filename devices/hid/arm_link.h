@@ -66,8 +66,8 @@ class ArmLink {
     void answer(double now_s, const std::optional<glm::dvec3>& wanted_n) noexcept;
 
     State state() const { return state_; }
-    /// Newest reading; `connected` only in `waiting` and `driving`, while reports come. Its pedal was said,
-    /// on the clock of `now_s`, when the queue of reports was last empty before it.
+    /// Newest reading; `connected` only in `waiting` and `driving`, while reports come. Its pedal is as of
+    /// the time, on the clock of `now_s`, when the queue of reports was last empty before it.
     const DeviceState& reading() const { return reading_; }
     /// A notice for people, a text with static lifetime; empty while all is well.
     const char* notice() const noexcept;

@@ -38,7 +38,7 @@ struct StylusEncoders {
     glm::dvec3 spindle_axis{1.0, 0.0, 0.0};  ///< unit, from tip to shank, in the stylus
 };
 
-/// How the counters come to say where the arm is.
+/// How the counters are set to the position of the arm.
 enum class CalibrationMethod {
     by_switch,   ///< the device asks, while somebody holds the arm at its calibration position
     at_power_up  ///< it was there when it was plugged in

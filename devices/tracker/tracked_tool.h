@@ -25,7 +25,7 @@ class TrackedTool final : public HapticDevice {
     /// How long a pedal that is always down is up when the tool has come back.
     static constexpr double released_s = 0.1;
 
-    /// `start_pose` in device space: where it is said to be before it was ever seen.
+    /// `start_pose` in device space: where it is reported to be before it was ever seen.
     TrackedTool(TrackerReceiver::Parts parts, TrackedHandpiece handpiece, const ToolPose& start_pose);
 
     std::string name() const override { return "tracked handpiece"; }

@@ -60,7 +60,7 @@ void check(const ServerOptions& options, const ProgramOutput& output) {
     if (must_be_mended(rows)) throw std::runtime_error("the machine is not ready for a session: see above");
 }
 
-/// Nothing if nobody looks on and nothing is recorded. Reads the files of TLS and the list of operators.
+/// Nothing if there are neither clients nor a recording. Reads the files of TLS and the list of operators.
 std::optional<ShownOptions> shown_options(const ServerOptions& options, const std::string& version) {
     StreamingOptions streaming = streaming_options(options.listen.value_or(ListenAddress{}), options.access);
     if (options.operators) streaming.operators.emplace(*options.operators);

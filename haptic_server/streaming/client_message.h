@@ -18,13 +18,13 @@ namespace osteomill {
 /// A client, as far as its messages reach.
 struct MessagingClient {
     ToolLease::ClientId id = 0;
-    OutgoingFrames& outgoing;    ///< may have something to say afterwards
+    OutgoingFrames& outgoing;    ///< may have more to send afterwards
     AnsweredStates& answers;     ///< for the states that the client has been sent
     ToolLease* lease = nullptr;  ///< null: nobody may move the tool now, and input changes nothing
     std::size_t burr_count = 0;  ///< the session's burrs
     /// Takes the client's requests for the session; null: none are accepted now.
     const std::function<void(const SessionControl&)>* control = nullptr;
-    std::optional<Viewpoint>* view = nullptr;  ///< where it looks from; null: nobody wants to know
+    std::optional<Viewpoint>* view = nullptr;  ///< the client's viewpoint; null: it is not wanted
 };
 
 /// Outcome of an operator's input, accepted or not; see AnsweredStates.

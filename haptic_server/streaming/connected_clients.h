@@ -103,14 +103,14 @@ class ConnectedClients {
     std::optional<Id> steered_last_;                // set while that client is connected
 
     std::map<Id, std::shared_ptr<ClientConnection>> connections_;
-    /// Those of the connections that have not said hello. They are sent one and no more, so that a stranger
-    /// costs no snapshot.
+    /// The connections from which no hello has come. They are sent a hello and nothing else, so that a
+    /// stranger costs no snapshot.
     ConnectionQuota unidentified_;
-    std::set<Id> watchers_;       // those of the connections who may not move the tool
-    std::set<Id> refused_input_;  // and of these, who have been named in the log for it
+    std::set<Id> watchers_;       // connections that may not move the tool
+    std::set<Id> refused_input_;  // those of them that the log has named for sending input
     Id last_client_ = 0;
     std::uint64_t sent_bytes_ = 0;
-    std::function<void()> when_gone_;  // says that goodbye has been said, too
+    std::function<void()> when_gone_;  // also called once goodbye has been sent
 
     // Each with its share of the log.
     LimitedLog unidentified_log_;

@@ -24,7 +24,7 @@ class Handshakes {
   public:
     struct Callbacks {
         std::function<void(std::shared_ptr<Stream>)> on_done;
-        /// `why` is in words about the other end.
+        /// `why` is a sentence about the other end.
         std::function<void(const std::string& peer, const std::string& why)> on_failed;
     };
 

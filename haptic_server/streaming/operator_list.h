@@ -2,7 +2,7 @@
 //
 // One a line, whole, in the form of RFC 2253, which `openssl x509 -in viewer.pem -noout -subject -nameopt
 // RFC2253` prints; a certificate of scripts/make_lab_certificates.sh for `viewer` has the subject CN=viewer.
-// Blank lines and those that begin with # say nothing.
+// Blank lines and those that begin with # are skipped.
 #pragma once
 
 #include <filesystem>

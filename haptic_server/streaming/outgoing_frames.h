@@ -79,7 +79,7 @@ class OutgoingFrames {
     std::optional<WireError> compare(const v2::CompareBone& request);
 
     /// Requests the end: the remaining changes, a last state with a checksum, then goodbye; goodbye at once
-    /// if the last state said all that there is (`has_said_all`).
+    /// if the last state contained everything (`has_said_all`).
     void finish(std::string reason, bool has_said_all = false);
 
     /// The next frame, as bytes for the stream; nothing while there is nothing to send. Changes that exceed a
@@ -87,7 +87,7 @@ class OutgoingFrames {
     std::optional<std::string> next(std::size_t most_state_bytes = FramePace::most);
 
     bool finish_requested() const { return goodbye_.has_value(); }
-    /// Whether goodbye has been said.
+    /// Whether goodbye has been sent.
     bool is_finished() const { return stage_ == Stage::finished; }
 
     /// The number of the newest state frame; 0: none yet.

@@ -19,7 +19,7 @@ class StreamSource {
     /// and returns the rest of the frame. `viewers`: number of watching clients.
     virtual SessionState update(BoneReplica& mirror, std::size_t viewers) = 0;
 
-    /// The CT for people to look at, as soon as it is ready: the first call has it made. Nothing if there
+    /// The CT, to be shown, as soon as it is ready: the first call has it made. Nothing if there
     /// is none.
     virtual std::shared_ptr<const CtVolume> ct() { return nullptr; }
     /// Between two updates: a request by a client with the right to it. The outcome is an event.

@@ -170,7 +170,7 @@ BoneFileWriter::BoneFileWriter(const std::filesystem::path& path, const Grid& gr
             .grid = grid,
             .bytes_before_voxels = bytes_before_voxels,
             .key_values = std::move(key_values)} {
-    // Known only at the end; until then there is as much room for them.
+    // Known only at the end; until then they have as much space.
     form_.key_values[hu_digest_key] = std::string(Digest::text_length, '0');
     form_.key_values[header_digest_key] = std::string(Digest::text_length, '0');
     writer_.emplace(path, form_);

@@ -45,8 +45,8 @@ struct DicomValues {
     static constexpr float lowest_air_hu = -1100.0F;
     static constexpr float highest_harmless_hu = 100.0F;
 
-    /// Not a number if it is padding. The photometric interpretation has no say: MONOCHROME1 is how to
-    /// show it.
+    /// Not a number if it is padding. The photometric interpretation does not matter: MONOCHROME1
+    /// is how to show it.
     float hu(std::int64_t stored, const DicomRescale& rescale) const {
         float hu = static_cast<float>(rescale.slope * static_cast<double>(stored) + rescale.intercept);
         if (table) {
@@ -71,12 +71,11 @@ struct DicomHeader {
     int columns = 0;
     int samples_per_pixel = 1;
     bool is_uncompressed = false;  ///< the pixels stand in the file as they are
-    std::string no_grey_image;     ///< why it holds no CT numbers whatever its pixels, in words; or empty
-    std::string
-        not_of_the_scan;  ///< why it is left out where others are ("is a localizer"), in words; or empty
+    std::string no_grey_image;     ///< why it holds no CT numbers, as text; empty if it may
+    std::string not_of_the_scan;   ///< why it is left out beside others ("is a localizer"), as text; or empty
     DicomValues values{};
     /// Whether its JPEG 2000 codestream says that its pixels are signed, if the header says otherwise; GDCM
-    /// would take the header's word and clamp.
+    /// would follow the header and clamp.
     std::optional<bool> sign_of_codestream{};
     /// The placement of each frame; std::nullopt for a frame that the header does not place, see `fault`.
     std::vector<std::optional<SlicePlacement>> frames;

@@ -9,13 +9,13 @@
 
 namespace osteomill {
 
-/// Throws std::invalid_argument, in words, if the file has an image that cannot be decoded or that does
-/// not hold its pixels: bits, frames or sizes that cannot be; fewer bytes of pixel data than the header's
-/// size takes; a codestream of another size; compressed pixels that no codec shrinks so. Nothing for a file
-/// without an image.
+/// Throws std::invalid_argument, with the reason, if the file has an image that cannot be decoded or that
+/// does not hold its pixels: bits, frames or sizes that cannot be; fewer bytes of pixel data than the
+/// header's size takes; a codestream of another size; compressed pixels that no codec shrinks so. Nothing for
+/// a file without an image.
 void require_sound_pixels(const DicomScan& scan);
 
-/// Number of Frames (0028,0008), 1 if there is none. Throws std::invalid_argument, in words, unless it is
+/// Number of Frames (0028,0008), 1 if there is none. Throws std::invalid_argument unless it is
 /// up to 65536.
 std::size_t frame_count(const DicomScan& scan);
 

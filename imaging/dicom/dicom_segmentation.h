@@ -1,4 +1,4 @@
-// A DICOM segmentation (SEG) as a label map with layers, its segments in the words of 3D Slicer's .seg.nrrd.
+// A DICOM segmentation (SEG) as a label map with layers, its segments as in 3D Slicer's .seg.nrrd.
 #pragma once
 
 #include <filesystem>

@@ -29,8 +29,8 @@ struct SliceStack {
     glm::dmat3 direction{1.0};       ///< columns: unit vectors of those three axes
 };
 
-/// Stacks the slices along their common normal (row x column). Throws std::invalid_argument, in words that
-/// name the slices, for: fewer than two slices; sizes, orientations or pixel spacings that differ; a spacing,
+/// Stacks the slices along their common normal (row x column). Throws std::invalid_argument, naming the
+/// slices, for: fewer than two slices; sizes, orientations or pixel spacings that differ; a spacing,
 /// a position or a direction that is not a number or that no scan has (plausible_geometry.h); row and column
 /// further than most_shear_degrees from perpendicular; two slices at one position; slices that lean by more
 /// than that and shift sideways by more than half a pixel over the stack (gantry tilt, its angle in the

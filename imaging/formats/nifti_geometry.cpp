@@ -15,7 +15,7 @@ namespace osteomill {
 
 namespace {
 
-/// Spacings, directions and positions (of a voxel) that differ by less say the same.
+/// Spacings, directions and positions (of a voxel) that differ by less are equal.
 constexpr double same_within = 1e-3;
 
 /// An orientation that the header states: steps of the axes, patient RAS, in the header's unit.

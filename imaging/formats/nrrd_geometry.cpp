@@ -48,7 +48,7 @@ struct NrrdSpace {
     bool is_anatomical = false;
 };
 
-/// "left-posterior-superior", "LPS", with time behind or not; coordinates that say nothing of the patient.
+/// "left-posterior-superior", "LPS", with time behind or not; coordinates that are not the patient's.
 NrrdSpace space_of(const NrrdHeader& header, const std::filesystem::path& path) {
     NrrdSpace space;
     const auto refuse = [&](const char* name) {

@@ -27,7 +27,7 @@ struct OpenedImage {
     /// Slicer writes them.
     int layers = 1;
     bool is_coloured = false;  ///< its values are colours, 0xRRGGBB, which a float holds
-    /// "key:=value" of a NRRD; the segments of a DICOM segmentation in the words of Slicer's .seg.nrrd.
+    /// "key:=value" of a NRRD; the segments of a DICOM segmentation as in Slicer's .seg.nrrd.
     std::map<std::string, std::string> key_values{};
     /// The files that hold the values, if that is not the one file that was opened.
     std::vector<std::filesystem::path> data_files{};

@@ -1,8 +1,8 @@
 // A volume as a stack of pictures, PNG or TIFF, a slice each: a folder of them in the order of the numbers in
 // their names, or one TIFF of several pages. Micro-CT comes so, and labels as colours.
 //
-// A picture says nothing of the patient: its columns are taken to run left, its rows to the back, the slices
-// up.
+// A picture does not state where it lies in the patient: its columns are assumed to run left, its rows to the
+// back, the slices up.
 #pragma once
 
 #include <filesystem>

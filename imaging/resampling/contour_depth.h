@@ -1,6 +1,6 @@
 // Depth in bone of each pixel of one slice of a scan, measured within the slice: the distance from the
 // contour HU = threshold, mm, positive in bone, negative outside. Right to a small part of a pixel, since the
-// contour runs between the pixels as their HU say.
+// contour runs between the pixels where their HU place it.
 #pragma once
 
 #include <span>

@@ -47,9 +47,9 @@ float mean_around(std::size_t place, const glm::ivec3& size, std::span<const flo
 
 }  // namespace
 
-FieldOfView::FieldOfView(const SourceImage& part, std::span<float> values, std::span<std::byte> room,
+FieldOfView::FieldOfView(const SourceImage& part, std::span<float> values, std::span<std::byte> scratch,
                          const std::function<void()>& pause)
-    : part_(part), is_outside_(room) {
+    : part_(part), is_outside_(scratch) {
     const glm::ivec3& size = part_.size_voxels;
     const auto slice = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
     std::vector<std::pair<std::size_t, float>> layer;

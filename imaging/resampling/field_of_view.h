@@ -17,9 +17,9 @@ class FieldOfView {
   public:
     /// `values` are the part's; those that are not numbers are padding. Next to the field they become the
     /// mean of their neighbours, layer by layer, as deep as a spline reaches; farther away they become air.
-    /// `room`: a bit for each value, all 0, which must outlive it. `pause`: see filter_lines.
+    /// `scratch`: a bit for each value, all 0, which must outlive it. `pause`: see filter_lines.
     FieldOfView(
-        const SourceImage& part, std::span<float> values, std::span<std::byte> room,
+        const SourceImage& part, std::span<float> values, std::span<std::byte> scratch,
         const std::function<void()>& pause = [] {});
 
     /// How many voxels were not measured.

@@ -89,7 +89,7 @@ struct SliceShapes::Depth {
 };
 
 SliceShapes::SliceShapes(const SourceImage& part, std::span<const float> values, int axis,
-                         double threshold_hu, double result_spacing_mm, std::span<float> room,
+                         double threshold_hu, double result_spacing_mm, std::span<float> scratch,
                          const std::function<void()>& pause)
     : axes_((axis + 1) % 3, (axis + 2) % 3, axis),
       columns_(part.size_voxels[axes_.x]),
@@ -104,8 +104,8 @@ SliceShapes::SliceShapes(const SourceImage& part, std::span<const float> values,
       column_step_(step_along(part, axes_.x)),
       row_step_(step_along(part, axes_.y)),
       slice_step_(step_along(part, axes_.z)),
-      depth_mm_(room.first(values.size())),
-      trust_(room.subspan(values.size(), values.size())) {
+      depth_mm_(scratch.first(values.size())),
+      trust_(scratch.subspan(values.size(), values.size())) {
     measure_depths(values, threshold_hu, pause);
     compare_slices(pause);
 }
@@ -244,7 +244,7 @@ double SliceShapes::out_of_reach(double depth_mm) const {
 }
 
 /// The depth that a slice without a contour would have, if the contour went on as it came from `before` to
-/// `last`. It counts near the last contour; deeper in, bone ends where its HU say.
+/// `last`. It counts near the last contour; deeper in, the HU decide where bone ends.
 SliceShapes::Continued SliceShapes::continued(const glm::dvec3& at, int last, int before,
                                               double beyond_mm) const {
     if (before < 0 || before >= slices_) return {};

@@ -36,12 +36,12 @@ class SliceShapes {
     /// Floats of memory that it needs, per voxel of the scan.
     static constexpr std::size_t floats_per_voxel = 2;
 
-    /// Looks at every slice along `axis`, on all cores. `values` are the part's HU, finite; `room`, which
+    /// Looks at every slice along `axis`, on all cores. `values` are the part's HU, finite; `scratch`, which
     /// must outlive it, takes floats_per_voxel for each. `result_spacing_mm`: the spacing of the voxels for
     /// which places are requested. `pause`: see filter_lines.
     SliceShapes(
         const SourceImage& part, std::span<const float> values, int axis, double threshold_hu,
-        double result_spacing_mm, std::span<float> room, const std::function<void()>& pause = [] {});
+        double result_spacing_mm, std::span<float> scratch, const std::function<void()>& pause = [] {});
 
     /// `at`: continuous voxel coordinates in the scan. std::nullopt if HU blended in place are right: in a
     /// slice, far from the contour, where it hardly moves, and where the slices' contours are not of one

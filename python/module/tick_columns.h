@@ -36,7 +36,7 @@ class TickColumns {
     const LoadedCase& loaded_;
 };
 
-/// Number of the Fault that a tick names in words; 0: none.
+/// Number of the Fault that a tick reports as text; 0: none.
 std::uint8_t fault_number(const ToolState& tool) noexcept;
 
 }  // namespace osteomill::python

@@ -72,7 +72,7 @@ class CarveKernel {
     std::size_t row_count_ = 0;
     std::array<Row, most_rows + RemovedVoxels::lanes> rows_;
     std::array<std::int32_t, list_length> list_;
-    std::array<std::uint8_t, brick_edge_voxels + list_length> left_;  // after room for a row
+    std::array<std::uint8_t, brick_edge_voxels + list_length> left_;  // behind space for a row
 };
 
 }  // namespace osteomill

@@ -57,7 +57,7 @@ void FullScan::mark_changed(const BoneContent& content, std::int32_t slot, std::
         from_first.x + bricks_across_ * (from_first.y + bricks_across_ * from_first.z))];
     if (number == unchanged) {
         number = static_cast<std::int32_t>(changes_.size());
-        changes_.push_back({.brick = brick});  // there is room for all
+        changes_.push_back({.brick = brick});  // there is space for all
     }
     changes_[static_cast<std::size_t>(number)].voxels.set(offset);
 }

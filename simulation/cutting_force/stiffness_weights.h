@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-/// Relative stiffness times the fraction that each voxel lost; zero for padding. `weights` has room for
+/// Relative stiffness times the fraction that each voxel lost; zero for padding. `weights` has space for
 /// removed.padded_count(). Real-time safe.
 inline void weigh_by_stiffness(const BoneContent& content, const RemovedVoxels& removed,
                                std::span<float> weights) noexcept {

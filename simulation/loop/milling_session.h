@@ -68,7 +68,7 @@ struct MillingSessionReport {
     PeriodicStatistics haptic;
     PeriodicStatistics milling;
     RemovedByTissue removed_mm3{};         ///< by this session
-    RemovedByTissue removed_before_mm3{};  ///< as the options say
+    RemovedByTissue removed_before_mm3{};  ///< from the options
     double peak_force_n = 0.0;
     double most_energy_to_hand_mj = 0.0;  ///< net energy that the force gave the hand, the most that it was
     SolveCounts solve;                    ///< for a coupling that solves
