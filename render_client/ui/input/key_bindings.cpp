@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
 
 #include "common/words/translation.h"
 
@@ -150,6 +151,16 @@ Situation situation_of(bool drills, bool shows_recording) {
 glm::ivec2 held_view_motion(const std::bitset<WindowInput::most_keys>& keys_down) {
     const auto held = [&](int key) { return keys_down[static_cast<std::size_t>(key)] ? 1 : 0; };
     return {held(GLFW_KEY_D) - held(GLFW_KEY_A), held(GLFW_KEY_Q) - held(GLFW_KEY_E)};
+}
+
+std::string key_of(Action action) {
+    const auto binding = std::ranges::find(table(), action, &KeyBinding::action);
+    if (action == Action::none || binding == table().end()) return "";
+    const int key = binding->keys.front();
+    if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25) return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
+    // GLFW numbers letters and signs as ASCII does; the others are called as in the help.
+    return key > GLFW_KEY_SPACE && key < GLFW_KEY_ESCAPE ? std::string(1, static_cast<char>(key))
+                                                         : binding->name;
 }
 
 std::span<const KeyBinding> key_bindings() {

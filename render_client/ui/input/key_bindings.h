@@ -1,4 +1,5 @@
-// Bindings of keys and mouse: one table, from which the window acts and F1's help is printed.
+// Bindings of keys and mouse: one table, from which the window acts, F1's help is printed and the tool bar
+// names the keys of its buttons.
 #pragma once
 
 #include <bitset>
@@ -88,6 +89,9 @@ std::span<const KeyBinding> key_bindings();
 
 /// The actions of the keys that went down, in their order.
 std::vector<Action> actions_of(std::span<const int> pressed_keys, Situation situation);
+
+/// The key of an action, for people: "U" or "F10"; empty if it has none.
+std::string key_of(Action action);
 
 /// Whether a binding is valid in that situation.
 bool holds(const KeyBinding& binding, Situation situation);

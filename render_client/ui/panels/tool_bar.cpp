@@ -24,7 +24,7 @@ struct ToolButton {
     void (*press)(const OverlayContent&) = nullptr;  ///< in its place
     std::string sign;
     std::string word;
-    std::string tip;
+    std::string tip;  ///< without the key, which is the action's
     bool is_enabled = true;
     bool is_on = false;
 };
@@ -69,7 +69,7 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
         buttons.push_back({.action = Action::tilt,
                            .sign = "\u2197",
                            .word = tr("Tilt"),
-                           .tip = tr("left drag tilts the handpiece (T); the arrow keys do, too"),
+                           .tip = tr("left drag tilts the handpiece; the arrow keys do, too"),
                            .is_enabled = may,
                            .is_on = content.view->drag_tilts});
     }
@@ -77,7 +77,7 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
         {.action = Action::place,
          .sign = "\u25C9",
          .word = tr("Place"),
-         .tip = tr("then click on bone: there the tool goes; with shift the handpiece is upright on it (L)"),
+         .tip = tr("then click on bone: there the tool goes; with shift the handpiece is upright on it"),
          .is_enabled = may,
          .is_on = content.view->click_places});
     buttons.push_back(
@@ -85,14 +85,14 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
          .sign = "\u21C4",
          .word = content.view->moves_bone ? tr("Let go") : tr("Move bone"),
          .tip = tr("left drag turns the bone under the tool, with shift it moves it, the wheel brings it "
-                   "nearer; press again to go on there (B)"),
+                   "nearer; press again to go on there"),
          .is_enabled = may,
          .is_on = content.view->moves_bone});
     if (content.session != nullptr && content.session->has_ct)
         buttons.push_back({.action = Action::slices,
                            .sign = "\u25A6",
                            .word = "CT",
-                           .tip = tr("slices of the CT (F7)"),
+                           .tip = tr("slices of the CT"),
                            .is_on = content.view->slices_shown});
     const auto counted = [](const char* word, std::uint32_t count) {
         return count > 0 ? fmt::format("{} {}", word, count) : std::string(word);
@@ -100,12 +100,12 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
     buttons.push_back({.action = Action::undo,
                        .sign = "\u21B6",
                        .word = counted(tr("Undo"), can.undo_steps),
-                       .tip = tr("gives back what the last stroke took (U)"),
+                       .tip = tr("gives back what the last stroke took"),
                        .is_enabled = may && can.undo_steps > 0});
     buttons.push_back({.action = Action::redo,
                        .sign = "\u21B7",
                        .word = counted(tr("Redo"), can.redo_steps),
-                       .tip = tr("the stroke that was undone last (R)"),
+                       .tip = tr("the stroke that was undone last"),
                        .is_enabled = may && can.redo_steps > 0});
     buttons.push_back(
         {.press = [](const OverlayContent& its) { its.view->question = SessionQuestion::reset; },
@@ -116,28 +116,28 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
     buttons.push_back({.action = Action::hold,
                        .sign = can.is_paused ? "\u25B6" : "\u275A\u275A",
                        .word = can.is_paused ? tr("Go on") : tr("Pause"),
-                       .tip = tr("force and spindle off (H)"),
+                       .tip = tr("force and spindle off"),
                        .is_enabled = may,
                        .is_on = can.is_paused});
     buttons.push_back({.action = Action::mark,
                        .sign = "\u2691",
                        .word = tr("Mark"),
-                       .tip = tr("this moment, with a note, for the report (M)"),
+                       .tip = tr("this moment, with a note, for the report"),
                        .is_enabled = may});
     buttons.push_back({.action = Action::save,
                        .sign = "\u21E9",
                        .word = tr("Save"),
-                       .tip = tr("the bone as it is, where the server saves it (F6)"),
+                       .tip = tr("the bone as it is, where the server saves it"),
                        .is_enabled = may});
     buttons.push_back({.action = Action::save_surface,
                        .sign = "\u25B3",
                        .word = tr("Surface"),
-                       .tip = tr("the bone's surface as it is, as STL, PLY or OBJ (F8)"),
+                       .tip = tr("the bone's surface as it is, as STL, PLY or OBJ"),
                        .is_enabled = may});
     buttons.push_back({.action = Action::finish,
                        .sign = "\u25A0",
                        .word = tr("Finish"),
-                       .tip = tr("ends the session for everybody; all is saved (F10)"),
+                       .tip = tr("ends the session for everybody; all is saved"),
                        .is_enabled = may});
     return buttons;
 }
@@ -295,7 +295,8 @@ void draw_tool_bar(const OverlayContent& content, const PanelPlace& place) {
         if (button.is_on) ImGui::PopStyleColor();
         ImGui::EndDisabled();
         if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-            const std::string tip = button.word + ": " + button.tip;
+            std::string tip = button.word + ": " + button.tip;
+            if (const std::string key = key_of(button.action); !key.empty()) tip += " (" + key + ")";
             ImGui::SetTooltip("%s%s", tip.c_str(),
                               content.link.controls.may_control ? "" : tr("\nanother client has the seat"));
         }

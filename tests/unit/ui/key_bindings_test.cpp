@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <filesystem>
+#include <fstream>
+#include <regex>
 #include <set>
 
 namespace osteomill::key_bindings_test {
@@ -54,6 +57,41 @@ TEST(KeyBindings, ReachEveryAction) {
     for (const KeyBinding& binding : key_bindings()) reached.insert(binding.action);
     for (int action = 0; action <= static_cast<int>(Action::on_5_s); ++action)
         EXPECT_EQ(reached.count(static_cast<Action>(action)), 1u) << action;
+}
+
+TEST(KeyBindings, NameTheKeyOfEveryAction) {
+    EXPECT_EQ(key_of(Action::none), "");
+    EXPECT_EQ(key_of(Action::undo), "U");
+    EXPECT_EQ(key_of(Action::finish), "F10");
+    EXPECT_EQ(key_of(Action::end), "ESC");
+    for (const KeyBinding& binding : key_bindings())
+        if (binding.action != Action::none)
+            EXPECT_TRUE(std::string(binding.name).starts_with(key_of(binding.action)) ||
+                        key_of(binding.action) == "=")
+                << binding.name;
+}
+
+TEST(KeyBindings, HaveTheKeysOfTheDocuments) {
+    std::set<std::string> known;
+    const std::regex key("F[0-9]+|[A-Z]+|[+-]");
+    const auto keys_in = [&](const std::string& text) {
+        return std::set<std::string>(std::sregex_token_iterator(text.begin(), text.end(), key), {});
+    };
+    for (const KeyBinding& binding : key_bindings()) known.merge(keys_in(binding.name));
+    for (const char* document : {"README.md", "docs/microscope.md"}) {
+        std::ifstream file(std::filesystem::path(OSTEOMILL_SOURCES) / document);
+        int keys = 0;
+        bool is_in_table = false;
+        for (std::string line; std::getline(file, line);) {
+            is_in_table = line.starts_with("| key |") || (is_in_table && line.starts_with("|"));
+            if (!is_in_table || line.starts_with("|--")) continue;
+            for (const std::string& each : keys_in(line.substr(1, line.find('|', 1) - 1))) {
+                EXPECT_TRUE(known.contains(each)) << document << ": " << each;
+                ++keys;
+            }
+        }
+        EXPECT_GE(keys, 6) << document;
+    }
 }
 
 TEST(KeyBindings, DependOnTheKindOfSession) {
