@@ -99,7 +99,7 @@ IgtlMessage string_message(const std::string& name, const std::string& text) {
 IgtlMessage status_message(const std::string& name, bool is_well, const std::string& text) {
     const igtl::StatusMessage::Pointer message = igtl::StatusMessage::New();
     message->SetCode(is_well ? igtl::StatusMessage::STATUS_OK : igtl::StatusMessage::STATUS_NOT_READY);
-    // What is not set the library sends as its memory holds it.
+    // The library sends uninitialised memory for members that are not set.
     message->SetSubCode(0);
     message->SetErrorName("");
     message->SetStatusString(text.c_str());

@@ -53,7 +53,7 @@ struct Fixture {
     bool operator==(const Fixture&) const = default;
 };
 
-/// What a fixture has whose file says nothing else.
+/// The defaults of a fixture: values that the file does not give.
 inline Fixture usual_fixture(FixtureKind kind) {
     Fixture usual{.kind = kind};
     if (kind == FixtureKind::forbidden) {
@@ -71,7 +71,7 @@ inline Fixture usual_fixture(FixtureKind kind) {
 /// Bound on what a file or a recording may hold, as most_fixtures.
 inline constexpr std::size_t longest_fixture_name = 100;  ///< bytes
 
-/// Of at most most_fixtures.
+/// The set of those that are on. `fixtures`: at most most_fixtures.
 inline FixtureSet fixtures_on(std::span<const Fixture> fixtures) {
     FixtureSet on = 0;
     for (std::size_t i = 0; i < fixtures.size(); ++i)

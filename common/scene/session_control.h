@@ -31,7 +31,7 @@ struct SessionControl {
     static constexpr std::size_t longest_text = 200;  ///< bytes
 
     SessionAction action = SessionAction::none;
-    /// Of a mark: its note; of save: ".stl", ".ply" or ".obj" for the surface; of a fixture: its name.
+    /// A mark's note; for save ".stl", ".ply" or ".obj" to get the surface; a fixture's name.
     std::string text{};
     ToolPose pose{};           ///< of place: where the burr shall be, patient LPS; the axis is a unit vector
     double spindle_rpm = 0.0;  ///< of speed; 0: each burr's own

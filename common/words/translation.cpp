@@ -51,8 +51,8 @@ std::string filled(std::string text, const std::vector<std::string>& values) {
     return text;
 }
 
-/// What stands in the text where the pattern has {}; nothing if it does not fit, or if the pattern has too
-/// few words before its first place to be recognised by.
+/// The parts of the text at the places where the pattern has {}; nothing if it does not fit, or if the
+/// pattern has too few letters before its first place to be recognised by.
 std::optional<std::vector<std::string>> values_in(std::string_view text, std::string_view pattern) {
     constexpr std::size_t fewest_letters = 8;
     std::size_t at = pattern.find(place);

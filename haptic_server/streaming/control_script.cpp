@@ -42,7 +42,7 @@ double number_in(std::string_view text, const char* name, const char* what) {
     return *number;
 }
 
-/// Of "NAME=on" or "NAME=off".
+/// Reads "NAME=on" or "NAME=off".
 void read_switch(SessionControl& control) {
     const std::size_t equals = control.text.rfind('=');
     const std::string_view to =

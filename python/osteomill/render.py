@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _Path = str | os.PathLike[str]
 KINDS = ("colour", "depth", "labels", "normals")
-"""Of images, that are drawn unless others are named."""
+"""Kinds of images that are drawn unless others are named."""
 
 
 class Rendering(Iterator[dict[str, Any]]):

@@ -59,7 +59,7 @@ struct MillingSessionOptions {
     /// choice.
     std::optional<int> haptic_cpu{};
     std::optional<int> milling_cpu{};
-    /// Of the scene's protected tissues, for its fixtures; not kept.
+    /// Those of the scene's protected tissues, for its fixtures; not kept.
     std::vector<Structure> structures{};
 };
 
@@ -135,8 +135,8 @@ class MillingSession {
 
     /// After run() or end().
     MillingSessionReport report() const;
-    /// Of the scene's fixtures on the burr in the last tick, patient axes; on the virtual clock between two
-    /// calls of advance().
+    /// Force of the scene's fixtures on the burr in the last tick, patient axes; on the virtual clock between
+    /// two calls of advance().
     glm::dvec3 fixture_force_n() const { return coupling_->felt_fixtures().force_n; }
     /// Those of the scene's fixtures that can be on.
     FixtureSet held_fixtures() const { return held_fixtures_; }

@@ -202,10 +202,10 @@ BENCHMARK(LoopAtTenKilohertz)
     ->Iterations(100)
     ->Unit(benchmark::kMillisecond);
 
-/// What fixtures add to a haptic tick: the default coupling's tick with a burr half a millimetre from a
-/// nerve, in air, without a fixture, with all of the following switched off, with a guide, a forbidden region
-/// and a slow zone, and with a forbidden region about a fissure burr, in turn; all act but those that are
-/// off. Counters: medians of a tick, in microseconds, each over that without.
+/// The time that fixtures add to a haptic tick: the default coupling's tick with a burr half a millimetre
+/// from a nerve, in air, without a fixture, with all of the following switched off, with a guide, a forbidden
+/// region and a slow zone, and with a forbidden region about a fissure burr, in turn; all act but those that
+/// are off. Counters: medians of a tick, in microseconds, each over that without.
 void TickWithFixture(benchmark::State& state) {
     const Grid grid{.size_voxels = {96, 96, 96}, .spacing_mm = 0.1, .origin_mm = {-4.75, -4.75, -4.75}};
     const std::vector<Structure> nerve{{.tissue = 0, .mask = testing::ball_mask(grid, glm::dvec3(0.0), 1.0)}};

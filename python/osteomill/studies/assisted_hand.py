@@ -27,7 +27,7 @@ LONGEST = 4.0  # times the recording: a hand that is held off for good gives up
 
 @dataclasses.dataclass(frozen=True)
 class Grip:
-    """Of a hand: kg, N/mm, N s/mm. Published values spread by a factor of five (devices/simulated/hand_model.h)."""
+    """A hand's mass, spring and damper: kg, N/mm, N s/mm. Published values spread by a factor of five (devices/simulated/hand_model.h)."""
 
     mass_kg: float
     stiffness_n_per_mm: float
@@ -110,7 +110,7 @@ def _pace(apart_mm: float) -> float:
 
 
 def _between(rows: Any, place: float) -> Any:
-    """Of rows that are a tick apart."""
+    """The value between rows that are a tick apart."""
     first = int(place)
     share = place - first
     return rows[first] if share == 0.0 else (1.0 - share) * rows[first] + share * rows[first + 1]
@@ -136,7 +136,7 @@ def _quoted(text: str) -> str:
 
 
 def read_fixtures(file: pathlib.Path) -> list[dict[str, Any]]:
-    """Of a TOML file that holds [[fixture]] and nothing else; what they mean is checked by the scene. RuntimeError in one line."""
+    """The fixtures of a TOML file that holds [[fixture]] and nothing else; their meaning is checked by the scene. RuntimeError in one line."""
     import tomllib
 
     try:

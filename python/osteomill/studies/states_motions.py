@@ -49,7 +49,7 @@ class Entry:
 
 
 def motions_of(bones: list[dict[str, Any]], seed: int, randoms: int) -> list[Motion]:
-    """Of each bone three published slots, a hole drilled through at the same feed, and random dives."""
+    """For each bone three published slots, a hole drilled through at the same feed, and random dives."""
     kinds: list[dict[str, Any]] = [{"kind": "slot", "depth_mm": depth} for depth in SLOT_DEPTHS_MM]
     kinds += [{"kind": "drill"}] + [{"kind": "random", "draw": draw} for draw in range(randoms)]
     listed = [bone | kind for bone in bones for kind in kinds]
@@ -100,7 +100,7 @@ def case_of_motion(motion: Motion) -> Case:
 
 
 def plate_layers_mm(seed: int, number: int) -> tuple[float, float, float]:
-    """Of the outer cortex, the cancellous bone, the inner cortex."""
+    """Thickness of the outer cortex, the cancellous bone, the inner cortex."""
     rng = np.random.default_rng([seed, 2, number])
     low, high = np.array([0.8, 1.2, 0.6]), np.array([1.6, 2.4, 1.2])
     outer, middle, inner = VOXEL_MM * np.round(rng.uniform(low, high) / VOXEL_MM)
@@ -193,7 +193,7 @@ def entry_of(case: Case, from_mm: Array, into: Array) -> Entry:
 
 
 def recorded_path(file: pathlib.Path, case: Case) -> Path:
-    """Of a recording of a session of this case, as its burr went. ValueError in one line for another bone, no ticks or several burrs."""
+    """The path of the burr in a recording of a session of this case. ValueError in one line for another bone, no ticks or several burrs."""
     with Recording(file) as recording:
         ticks = recording.ticks
         if recording.bone_at(float(recording.time_s[0])).checksum() != case.bone.checksum():

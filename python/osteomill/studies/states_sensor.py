@@ -1,4 +1,4 @@
-"""What sensors see of a motion: the force within the tooth period at 10 kHz, and a force sensor's reading of it.
+"""Readings of sensors during a motion: the force within the tooth period at 10 kHz, and a force sensor's reading of it.
 
 The sensor is a model, stated here and in the file: a Butterworth low pass of second order, then white noise on each axis, of a root
 mean square that is drawn once a motion between 42 and 48 mN (as published for such sensors), then steps of 1 mN.
@@ -44,7 +44,7 @@ class ForceSensor:
 
 
 def force_within_tooth_n(milled: Mapping[str, Any], burr: Burr, phase_rad: float = 0.0) -> Array:
-    """Of the bone on the burr at RATE_HZ, (n, 3): equation (1) of docs/milling-model.md by its harmonics (studies/states/milled_path.h).
+    """Force of the bone on the burr at RATE_HZ, (n, 3): equation (1) of docs/milling-model.md by its harmonics (studies/states/milled_path.h).
     `phase_rad`: where the first edge stands at time 0. Mean and harmonics are linear between milliseconds."""
     mean_n = finer(milled["force_n"])
     angle_rad = phase_rad + _studies.turns(burr) * 2.0 * np.pi * burr.rpm / 60.0 * (1 + np.arange(len(mean_n))) / RATE_HZ

@@ -56,7 +56,7 @@ const char* words_for(SessionAction done) {
     return tr("the server did what this program does not know");
 }
 
-/// Of "NAME: on" or "NAME: off", whose name is a person's.
+/// Translates "on" and "off" behind a name, which stays as it is: "NAME: on".
 std::string switched_words(const std::string& text) {
     const std::size_t end = text.rfind(' ');
     return end == std::string::npos ? text : text.substr(0, end + 1) + tr(text.substr(end + 1));

@@ -69,7 +69,7 @@ std::vector<HelpLine> wrapped(const PanelPainter& painter, const std::vector<Hel
     return rows;
 }
 
-/// Columns that fit in a room so wide with the smallest letters that can be read.
+/// Columns that fit in this width with the smallest letters that can be read.
 HelpLayout in_narrow_columns(const PanelPainter& painter, const std::vector<HelpLine>& lines,
                              std::size_t count, float room_x) {
     const auto parts = static_cast<float>(count);
@@ -88,7 +88,7 @@ float letters_in(const glm::vec2& room, const HelpLayout& layout) {
 HelpLayout lay_out_help(const PanelPainter& painter, Situation situation, const glm::vec2& room) {
     const std::vector<HelpLine> lines = help_lines(situation);
     HelpLayout best = in_columns(painter, lines, 1);
-    // Of equal ones the fewest columns, and rather whole lines.
+    // If several are equal, the fewest columns, and whole lines before wrapped ones.
     const auto try_also = [&](HelpLayout next) {
         if (letters_in(room, next) > letters_in(room, best)) best = std::move(next);
     };

@@ -35,7 +35,7 @@ bool is_a_name(const std::string& text) {
            !testing::has_word(std::regex_replace(text, of_a_condition, ""));
 }
 
-/// What stands between the tags of a page's body, and its title.
+/// The texts between the tags of a page's body, and its title.
 std::vector<std::string> texts_of(const std::string& page) {
     static const std::regex style("<style>[^<]*</style>");
     static const std::regex text(">([^<>]*)<");

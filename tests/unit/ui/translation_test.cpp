@@ -264,7 +264,7 @@ TEST(Translation, LeaveNoWordsOfThePanelsAside) {
                 ElementsAre("bare word"));
 }
 
-/// What a literal, which may begin or end within a tag, has beside tags and the program's name.
+/// A literal, which may begin or end within a tag, without tags and the program's name.
 std::string without_tags(const std::string& literal) {
     return std::regex_replace(literal, std::regex("^[^<>]*>|<[^>]*>?|Osteomill"), "");
 }

@@ -59,7 +59,7 @@ struct Levels {
     double mean = 0.0, deviation = 0.0;
 };
 
-/// Of green in the picture's middle.
+/// Levels of green in the picture's middle.
 Levels levels_of(const Picture& picture) {
     double sum = 0.0, squares = 0.0;
     int count = 0;

@@ -50,7 +50,7 @@ TEST(SawnFaces, AreNoneOfRoundBone) {
         const Bone ball = made_bone(grid, [=](const glm::dvec3& p) { return radius_mm - glm::length(p); });
         EXPECT_FALSE(sawn_faces(ball).any()) << radius_mm;
     }
-    // Of a vault whose middle is far outside the grid.
+    // A vault whose middle is far outside the grid.
     const Bone vault = made_bone(
         grid, [](const glm::dvec3& p) { return 60.0 - glm::length(p - glm::dvec3(0.0, 0.0, -57.0)); });
     EXPECT_EQ(sawn_faces(vault).high.z, SawnFaces::none);

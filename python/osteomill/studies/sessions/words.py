@@ -26,7 +26,7 @@ class Words:
         return text.format(*values) if values else text
 
     def name(self, written: str) -> str:
-        """Of a tissue, a case or a structure, as people write it: files write "Facial_Nerve"."""
+        """The name of a tissue, a case or a structure as people write it: files write "Facial_Nerve"."""
         return self(written.replace("_", " "))
 
 
