@@ -13,7 +13,7 @@ namespace osteomill::study {
 namespace {
 
 constexpr double rail_tick_s = 0.001;
-constexpr double voxel_mm = 0.1;
+constexpr double rail_voxel_mm = 0.1;
 constexpr int ticks_to_get_there = 750;
 constexpr int measured_ticks = 250;
 constexpr double least_depth_mm = 0.12;
@@ -28,7 +28,7 @@ constexpr double most_force_n = 3.0;
 std::vector<SteadyCase> motions_on_rails(int count, std::uint64_t seed) {
     constexpr int drawn_for_each = 8;
     std::vector<SteadyCase> motions;
-    for (const RandomMotion& drawn : random_motions(drawn_for_each * count, seed, voxel_mm)) {
+    for (const RandomMotion& drawn : random_motions(drawn_for_each * count, seed, rail_voxel_mm)) {
         if (static_cast<int>(motions.size()) == count) break;
         const SteadyCase& c = drawn.motion;
         if (drawn.dives || c.previous_groove_mm_higher || c.depth_mm < least_depth_mm ||
@@ -49,7 +49,7 @@ OnRails run_on_rails(const SteadyCase& c, const std::string& coupling_name) {
     const BoneBlock block{.low_mm = glm::min(start_mm, end_mm) - margin_mm,
                           .high_mm = glm::max(start_mm, end_mm) + margin_mm,
                           .up = c.up};
-    MillingModel model(voxelised(block, voxel_mm), {c.burr}, {});
+    MillingModel model(voxelised(block, rail_voxel_mm), {c.burr}, {});
     const auto coupling = make_coupling(coupling_named(coupling_name), {});
     ForgottenChanges changes;
     const auto latest = std::make_unique<MillingResult>();
