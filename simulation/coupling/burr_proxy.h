@@ -11,9 +11,10 @@
 //
 // C_i, n_i, gap_i and A_i as in engagement.h, with gaps counted from p in the first; cut_i is how far the
 // patch may advance in bone that the proxy has cut since the map was sampled, so no bone is felt twice. Gaps
-// of freshly carved bone scatter by about a tenth of a voxel, more than a burr advances in a tick: a patch
-// whose gap is near a fifth of a voxel may touch or not, and counts as touching by the weight w_i, which
-// falls from 1 to 0 between a tenth and three tenths. A threshold would let it come and go with the lattice.
+// of freshly carved bone scatter by a fortieth of a voxel (rms) and at most 0.08, as much as a slow burr
+// advances in a tick: a patch whose gap is that small may touch or not, and counts as touching by the weight
+// w_i, which falls from 1 to 0 over the scatter. A threshold would let it come and go with the lattice; a
+// wider fall takes bone for touched that is yet to be met, and the first touch for twice as hard as it is.
 // Piecewise linear: Newton on the set of patches in contact (contact_solve.h). With a spring alone and in one
 // dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for any B.
 //
@@ -107,8 +108,8 @@ class BurrProxy {
     const glm::dvec3& shank_torque_n_mm() const { return walls_.torque_n_mm; }
 
     /// Between these gaps a patch counts as touching by a share.
-    static constexpr double surely_touching_voxels = 0.1;
-    static constexpr double surely_apart_voxels = 0.3;
+    static constexpr double surely_touching_voxels = 0.04;
+    static constexpr double surely_apart_voxels = 0.11;
     /// Depth by which a patch gives way before its edges cut, and how far the carving burr may trail, since a
     /// patch that lies nearly along the motion yields, too.
     static constexpr double edge_yields_mm = 0.001;

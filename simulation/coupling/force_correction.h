@@ -2,7 +2,9 @@
 // map's patches are coarse for a shallow cut, and it sees a rim of bone as in contact a little early or late:
 // the force comes out a few per cent too long or too short and a degree off its direction, and a soft hand
 // swings on that. The milling model's force, which comes from the removed voxels themselves, does not have
-// the error. The gain G that makes the two agree is followed slowly. It knows no direction but the spindle a:
+// the error. The gain G that makes the two agree is followed slowly, but while a contact is young the map is
+// off by most and changes fastest: the window is a tenth of the contact's age, up to 30 ms. The gain knows no
+// direction but the spindle a:
 // a stretch and a turn across it, a stretch along it,
 //
 //     G = re (1 - a a^T) + im [a]x + along a a^T
@@ -53,7 +55,8 @@ class ForceCorrection {
             return;
         }
         air_s_ = 0.0;
-        const double share = window_s / (memory_s + window_s);
+        age_s_ += window_s;
+        const double share = window_s / (std::min(memory_s, memory_by_age * age_s_) + window_s);
         const auto follow = [share](double& mean, double now) { mean += share * (now - mean); };
         follow(agreement_across_, glm::dot(p, m) - p_along * m_along);
         follow(turn_across_, glm::dot(axis, glm::cross(p, m)));
@@ -72,7 +75,8 @@ class ForceCorrection {
     void reset() noexcept { *this = ForceCorrection{}; }
     const glm::dmat3& gain() const noexcept { return gain_; }
 
-    static constexpr double memory_s = 0.03;
+    static constexpr double memory_s = 0.03;  ///< of a contact that lasts
+    static constexpr double memory_by_age = 0.1;
     /// Below about the square root of this force the gain means nothing and tends to 1.
     static constexpr double quiet_n2 = 1e-6;
     static constexpr double most_turn = 0.3;
@@ -95,6 +99,7 @@ class ForceCorrection {
     double window_s_ = 0.0;
     double time_s_ = -1.0;  // end of the model's last step
     double air_s_ = 0.0;    // since there was a force to compare
+    double age_s_ = 0.0;    // of the contact: time with a force to compare
     double agreement_across_ = 0.0;
     double turn_across_ = 0.0;
     double power_across_ = 0.0;

@@ -148,7 +148,7 @@ TEST(BurrProxy, MeetsBoneOnlyBeyondTheGapAndNeverTwice) {
 TEST(BurrProxy, TakesAPatchIntoContactByDegreesAsItsGapCloses) {
     // The gap of a rim scatters with the lattice by some hundredths of a voxel; the force must not jump.
     double last_mm = 0.0;
-    for (double gap_voxels = 0.0; gap_voxels <= 0.4; gap_voxels += 0.02) {
+    for (double gap_voxels = 0.0; gap_voxels <= 0.2; gap_voxels += 0.005) {
         BurrProxy proxy;
         proxy.place(glm::dvec3(0.0));
         advance(proxy, {0.005, 0.0, 0.0}, 0.001, true, *damper_along_x(0.001, 0.1 * gap_voxels));

@@ -58,6 +58,24 @@ TEST(ForceCorrection, StaysWithinItsBoundsWhateverTheModelSays) {
     EXPECT_NEAR(glm::dot(found_n, predicted_n), 0.5, 0.05);
 }
 
+TEST(ForceCorrection, SoonForgetsHowAContactBegan) {
+    // At first touch the map may be twice too stiff, and is right some ticks later.
+    ForceCorrection correction;
+    const glm::dvec3 predicted_n(0.0, 1.0, 0.0);
+    double time_s = 0.0;
+    const auto tick = [&](double times_too_stiff) {
+        correction.add_prediction(correction.gain() * predicted_n, tick_s);
+        correction.compare(predicted_n / times_too_stiff, time_s += tick_s, axis);
+        return glm::length(correction.gain() * predicted_n);
+    };
+    for (int i = 0; i < 4; ++i) tick(2.0);
+    EXPECT_NEAR(tick(2.0), 0.5, 0.05);
+    for (int i = 0; i < 5; ++i) tick(1.0);
+    EXPECT_NEAR(tick(1.0), 1.0, 0.05);
+    for (int i = 0; i < 1000; ++i) tick(1.0);
+    EXPECT_GT(tick(2.0), 0.95) << "a contact that lasts is followed slowly";
+}
+
 TEST(ForceCorrection, ForgetsInTheAirWhatItLearntInBone) {
     ForceCorrection correction;
     const glm::dvec3 predicted_n(0.0, 1.0, 0.0);
