@@ -12,7 +12,7 @@ namespace osteomill::study {
 namespace {
 
 /// Bone reaches so far beyond the burr's motion.
-constexpr double spare_mm = 2.0;
+constexpr double clear_mm = 2.0;
 constexpr double lift_mm = 0.5;
 /// Off the lattice by an odd share of a voxel, as a hand is.
 constexpr glm::dvec3 shift_off_the_lattice_mm(0.031, 0.017, 0.0);
@@ -88,7 +88,7 @@ class Sites {
     void add(const char* kind, std::string name, double from_mm, double to_mm, double below_mm,
              std::function<double(const glm::dvec3&)> distance_mm, std::vector<Waypoint> motion,
              std::function<double(const glm::dvec3&)> relative_stiffness = {}) {
-        const double beside_mm = radius_mm_ + spare_mm;
+        const double beside_mm = radius_mm_ + clear_mm;
         sites_.push_back({.kind = kind,
                           .name = std::move(name),
                           .burr = burr_,
@@ -129,7 +129,7 @@ class Sites {
                     return meeting(height_mm, -thickness_mm - height_mm);
                 };
                 add("breakthrough", fmt::format("plate of {} mm tilted by {}", thickness_mm, tilt_deg), 0.0,
-                    0.0, thickness_mm + 2.0 * radius_mm_ + spare_mm, plate,
+                    0.0, thickness_mm + 2.0 * radius_mm_ + clear_mm, plate,
                     through(thickness_mm, std::tan(tilt)));
             }
             constexpr double curvature_mm = 60.0;
@@ -138,7 +138,7 @@ class Sites {
                 return meeting(height_mm, -thickness_mm - height_mm);
             };
             add("breakthrough", fmt::format("curved plate of {} mm", thickness_mm), 0.0, 0.0,
-                thickness_mm + 2.0 * radius_mm_ + spare_mm, shell, through(thickness_mm, 0.0));
+                thickness_mm + 2.0 * radius_mm_ + clear_mm, shell, through(thickness_mm, 0.0));
         }
     }
 
@@ -150,16 +150,16 @@ class Sites {
                 add("edge",
                     fmt::format("{} the edge, along {}x", side < 0.0 ? "inside" : "outside",
                                 direction < 0.0 ? '-' : '+'),
-                    -4.0, 4.0, depth_mm_ + spare_mm, quarter,
+                    -4.0, 4.0, depth_mm_ + clear_mm, quarter,
                     pass({-4.0 * direction, y_mm}, {4.0 * direction, y_mm}));
             }
     }
 
     void corners() {
         const auto eighth = [](const glm::dvec3& p) { return meeting(p.z, p.y, p.x); };
-        add("corner", "over the corner, outward", -3.0, 2.0, depth_mm_ + spare_mm, eighth,
+        add("corner", "over the corner, outward", -3.0, 2.0, depth_mm_ + clear_mm, eighth,
             pass({-2.5, -2.5}, {2.0, 2.0}));
-        add("corner", "over the corner, inward", -3.0, 2.0, depth_mm_ + spare_mm, eighth,
+        add("corner", "over the corner, inward", -3.0, 2.0, depth_mm_ + clear_mm, eighth,
             pass({2.0, 2.0}, {-2.5, -2.5}));
     }
 
@@ -172,9 +172,9 @@ class Sites {
             for (const double direction : {-1.0, 1.0})
                 add("thin wall",
                     fmt::format("through {} mm, along {}y", thickness_mm, direction < 0.0 ? '-' : '+'), 0.0,
-                    0.0, depth_mm_ + spare_mm, wall,
+                    0.0, depth_mm_ + clear_mm, wall,
                     pass({0.0, -direction * beside_mm}, {0.0, direction * beside_mm}));
-            add("thin wall", fmt::format("along {} mm", thickness_mm), -3.0, 3.0, depth_mm_ + spare_mm, wall,
+            add("thin wall", fmt::format("along {} mm", thickness_mm), -3.0, 3.0, depth_mm_ + clear_mm, wall,
                 pass({-3.0, 0.0}, {3.0, 0.0}));
         }
     }
@@ -186,7 +186,7 @@ class Sites {
                 return meeting(p.z, hole_mm - std::sqrt(p.x * p.x + p.y * p.y));
             };
             add("pilot hole", fmt::format("a hole of {:.0f} % enlarged", 100.0 * share), 0.0, 0.0,
-                3.0 + radius_mm_ + spare_mm, block,
+                3.0 + radius_mm_ + clear_mm, block,
                 Path(above(0.0, 0.0))
                     .to({0.0, 0.0, radius_mm_ - 3.0}, plunge_mm_per_s_)
                     .to(above(0.0, 0.0), 6.0)
@@ -197,7 +197,7 @@ class Sites {
     void own_tunnel() {
         const double deep_mm = radius_mm_ - burr_.diameter_mm;
         add(
-            "own tunnel", "up, down and aside", 0.0, 0.0, burr_.diameter_mm + spare_mm + 1.0,
+            "own tunnel", "up, down and aside", 0.0, 0.0, burr_.diameter_mm + clear_mm + 1.0,
             [](const glm::dvec3& p) { return p.z; },
             Path(above(0.0, 0.0))
                 .to({0.0, 0.0, deep_mm}, plunge_mm_per_s_)
@@ -216,7 +216,7 @@ class Sites {
         for (const double direction : {-1.0, 1.0})
             add("entering and leaving",
                 fmt::format("a block of 4 mm, along {}x", direction < 0.0 ? '-' : '+'), -4.0, 4.0,
-                depth_mm_ + spare_mm, ridge,
+                depth_mm_ + clear_mm, ridge,
                 pass({-direction * outside_mm, 0.0}, {direction * outside_mm, 0.0}));
     }
 
@@ -224,13 +224,13 @@ class Sites {
         const auto block = [](const glm::dvec3& p) { return p.z; };
         for (const double direction : {-1.0, 1.0})
             add("tissue border", direction > 0.0 ? "from hard into soft" : "from soft into hard", -3.0, 3.0,
-                depth_mm_ + spare_mm, block, pass({-3.0 * direction, 0.0}, {3.0 * direction, 0.0}),
+                depth_mm_ + clear_mm, block, pass({-3.0 * direction, 0.0}, {3.0 * direction, 0.0}),
                 [](const glm::dvec3& p) { return p.x < 0.0 ? 1.0 : 0.3; });
     }
 
     void spindle_stops() {
         add(
-            "spindle", "stopped and started under load", -3.0, 3.0, depth_mm_ + spare_mm,
+            "spindle", "stopped and started under load", -3.0, 3.0, depth_mm_ + clear_mm,
             [](const glm::dvec3& p) { return p.z; },
             Path(above(-3.0, 0.0))
                 .to(in(-3.0, 0.0), plunge_mm_per_s_)
@@ -248,7 +248,7 @@ class Sites {
         path.to(in(-2.0, 0.0), plunge_mm_per_s_);
         for (int i = 0; i < 2; ++i) path.to(in(2.0, 0.0), feed_mm_per_s_).to(in(-2.0, 0.0), feed_mm_per_s_);
         add(
-            "reversal", "there and back in a slot", -2.0, 2.0, depth_mm_ + spare_mm,
+            "reversal", "there and back in a slot", -2.0, 2.0, depth_mm_ + clear_mm,
             [](const glm::dvec3& p) { return p.z; }, path.to(above(-2.0, 0.0), 4.0).motion());
     }
 
