@@ -48,21 +48,22 @@ PlannedRegion::PlannedRegion(const Bone& bone, const SessionInfo& session)
             if (fractions[offset] > 0 && holds(slot, offset, first + voxel_in_brick(offset)))
                 voxels_.set(slot, offset);
     }
-    if (std::holds_alternative<TissueRegion>(plan_.region)) surface_ = NearestPlace(voxels_.surface_mm());
+    if (is_tissue()) surface_ = NearestPlace(voxels_.surface_mm());
 }
 
 bool PlannedRegion::holds(std::int32_t slot, std::size_t offset, const glm::ivec3& voxel) const {
-    if (std::holds_alternative<TissueRegion>(plan_.region))
-        return label_ >= 0 && bone_.content().tissue_in(slot, offset) == label_;
+    if (is_tissue()) return label_ >= 0 && bone_.content().tissue_in(slot, offset) == label_;
     return distance_mm(centre_of_voxel_mm(bone_.grid(), voxel)) <= 0.0;
 }
 
+bool PlannedRegion::has_tissue(const glm::ivec3& voxel) const {
+    return contains(bone_.grid(), voxel) && bone_.fraction_at(voxel) > 0 && bone_.tissue_at(voxel) == label_;
+}
+
 bool PlannedRegion::holds(const glm::dvec3& place_mm) const {
-    if (!std::holds_alternative<TissueRegion>(plan_.region)) return distance_mm(place_mm) <= 0.0;
-    return is_mostly(to_voxel_coordinates(bone_.grid(), place_mm), [&](const glm::ivec3& voxel) {
-        return contains(bone_.grid(), voxel) && bone_.fraction_at(voxel) > 0 &&
-               bone_.tissue_at(voxel) == label_;
-    });
+    if (!is_tissue()) return distance_mm(place_mm) <= 0.0;
+    return is_mostly(to_voxel_coordinates(bone_.grid(), place_mm),
+                     [&](const glm::ivec3& voxel) { return has_tissue(voxel); });
 }
 
 double PlannedRegion::distance_mm(const glm::dvec3& place_mm) const {

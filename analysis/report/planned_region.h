@@ -17,6 +17,10 @@ class PlannedRegion {
     const VoxelSet& voxels() const { return voxels_; }
     /// Whether the region holds a voxel, be it bone or not.
     bool holds(std::int32_t slot, std::size_t offset, const glm::ivec3& voxel) const;
+    /// A tissue, and so a set of voxels; else a body with a border of its own.
+    bool is_tissue() const { return std::holds_alternative<TissueRegion>(plan_.region); }
+    /// Whether the tissue's bone is in a voxel, be it of the grid or beyond.
+    bool has_tissue(const glm::ivec3& voxel) const;
     /// Whether the region holds a place in patient LPS, in a tissue also between the centres of voxels.
     bool holds(const glm::dvec3& place_mm) const;
     /// From a place outside of it: to the sphere or cylinder, or to the centre of the tissue's nearest voxel.

@@ -28,7 +28,10 @@ class Pictures {
     ReportPicture of(const Bone& bone, const NamedView& view, int size_px,
                      const std::optional<SeenBurr>& burr = {}) const {
         SectionMarks marks{.structures = trace_.where};
-        if (region_ != nullptr) marks.is_outlined = [&](const glm::dvec3& at) { return region_->holds(at); };
+        if (region_ != nullptr && region_->is_tissue())
+            marks.is_outlined_voxel = [&](const glm::ivec3& voxel) { return region_->has_tissue(voxel); };
+        else if (region_ != nullptr)
+            marks.is_outlined = [&](const glm::dvec3& at) { return region_->holds(at); };
         return {view.title, png_data_uri(picture_of(bone, trace_.session.tissues, view.view, size_px, marks)),
                 picture_overlay(view.view, burr)};
     }

@@ -6,9 +6,11 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/bone/bone_ray.h"
+#include "imaging/picture/smooth_border.h"
 #include "imaging/picture/voxel_share.h"
 
 namespace osteomill {
@@ -21,10 +23,85 @@ constexpr int rays_per_edge_pixel_side = 3;
 constexpr double edge_step = 10.0;  // of 255
 const glm::dvec3 bone_colour(226.0, 216.0, 198.0);
 
+/// More voxels about a section are drawn as they are: with 20 bytes for each, several pictures at a time.
+constexpr std::size_t most_smoothed_voxels = 4'000'000;
+
+/// The voxels that a section passes through; nothing if there are too many for smooth borders.
+std::optional<VoxelBounds> voxels_of_section(const Grid& grid, const BoneView& view) {
+    const glm::dvec3 right = glm::cross(view.direction, view.up);
+    const glm::dvec3 extent_mm = view.half_width_mm * (glm::abs(right) + glm::abs(view.up));
+    const VoxelBounds box{glm::ivec3(glm::floor(to_voxel_coordinates(grid, view.centre_mm - extent_mm))),
+                          glm::ivec3(glm::ceil(to_voxel_coordinates(grid, view.centre_mm + extent_mm)))};
+    const VoxelBounds within{glm::max(box.first, -1), glm::min(box.last, grid.size_voxels)};
+    const glm::dvec3 size = glm::dvec3(within.last - within.first + 1 + 2 * SmoothBorder::reach_voxels);
+    const bool is_beside = glm::any(glm::greaterThan(within.first, within.last));
+    if (is_beside || size.x * size.y * size.z > static_cast<double>(most_smoothed_voxels))
+        return std::nullopt;
+    return within;
+}
+
+VoxelBounds grown(const VoxelBounds& box, int by) {
+    return {box.first - by, box.last + by};
+}
+
+bool meet(const VoxelBounds& a, const VoxelBounds& b) {
+    return glm::all(glm::lessThanEqual(a.first, b.last)) && glm::all(glm::lessThanEqual(b.first, a.last));
+}
+
+/// The tissues of a section's bone.
+class TissueBorders {
+  public:
+    TissueBorders(const Bone& bone, const VoxelBounds& box) {
+        const VoxelBounds about = grown(box, SmoothBorder::reach_voxels);
+        const glm::ivec3 size = about.last - about.first + 1;
+        std::vector<std::int16_t> labels;
+        std::array<bool, 256> is_there{};
+        for (int z = 0; z < size.z; ++z)
+            for (int y = 0; y < size.y; ++y)
+                for (int x = 0; x < size.x; ++x) {
+                    const glm::ivec3 voxel = about.first + glm::ivec3(x, y, z);
+                    const bool is_bone = contains(bone.grid(), voxel) && bone.fraction_at(voxel) > 0;
+                    labels.push_back(is_bone ? std::int16_t{bone.tissue_at(voxel)} : no_bone);
+                    if (is_bone) is_there[bone.tissue_at(voxel)] = true;
+                }
+        const auto of_label = [&](std::size_t label) {
+            return [&, label](const glm::ivec3& voxel) {
+                const glm::ivec3 place = voxel - about.first;
+                return labels[static_cast<std::size_t>(place.x) +
+                              static_cast<std::size_t>(size.x) *
+                                  (static_cast<std::size_t>(place.y) +
+                                   static_cast<std::size_t>(size.y) * static_cast<std::size_t>(place.z))] ==
+                       static_cast<std::int16_t>(label);
+            };
+        };
+        // One tissue alone has no border.
+        if (std::ranges::count(is_there, true) < 2) return;
+        for (std::size_t label = 0; label < is_there.size(); ++label)
+            if (is_there[label]) borders_.emplace_back(label, SmoothBorder(box, of_label(label)));
+    }
+
+    /// The label of the bone at a place, as its nearest border says; nothing where there is one tissue at
+    /// most.
+    std::optional<std::size_t> label_at(const glm::dvec3& place) const {
+        std::optional<std::size_t> nearest;
+        double least = 0.0;
+        for (const auto& [label, border] : borders_)
+            if (const double distance = border.distance(place); !nearest || distance < least)
+                nearest = label, least = distance;
+        return nearest;
+    }
+
+  private:
+    static constexpr std::int16_t no_bone = -1;
+    std::vector<std::pair<std::size_t, SmoothBorder>> borders_;
+};
+
 class View {
   public:
     View(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, const SectionMarks& marks)
         : bone_(bone), tissues_(tissues), view_(view), marks_(marks), probe_(bone) {
+        if (view.is_section)
+            if (const auto box = voxels_of_section(bone.grid(), view)) find_borders(*box);
         colours_.fill(bone_colour);
         for (const Tissue& tissue : tissues)
             colours_[tissue.label] =
@@ -44,7 +121,7 @@ class View {
         if (span.is_empty()) return background;
         const glm::dvec3 first = ray.at(span.from + 1e-6);
         if (view_.is_section && span.from == 0.0 && probe_.between(first) > surface_fraction)
-            return 0.92 * tissue_colour(first);
+            return 0.92 * colour_of_cut(first);
         const auto hit = probe_.first_surface(ray, span, [](double) { return true; });
         return hit ? lit(ray, *hit) : background;
     }
@@ -87,11 +164,33 @@ class View {
         return gradient;
     }
 
+    void find_borders(const VoxelBounds& box) {
+        tissue_borders_.emplace(bone_, box);
+        for (const Structure& structure : marks_.structures) {
+            const auto bounds = structure.mask.bounds();
+            if (!bounds || !meet(grown(box, SmoothBorder::reach_voxels), *bounds)) continue;
+            structure_borders_.emplace_back(structure.tissue, SmoothBorder(box, [&](const glm::ivec3& voxel) {
+                                                return structure.mask.contains(voxel);
+                                            }));
+        }
+    }
+
     std::optional<glm::dvec3> structure_colour(const glm::dvec3& place) const {
+        if (tissue_borders_) {
+            for (const auto& [tissue, border] : structure_borders_)
+                if (border.holds(place)) return colours_[tissues_[tissue].label];
+            return std::nullopt;
+        }
         for (const Structure& structure : marks_.structures)
             if (is_mostly(place, [&](const glm::ivec3& voxel) { return structure.mask.contains(voxel); }))
                 return colours_[tissues_[structure.tissue].label];
         return std::nullopt;
+    }
+
+    glm::dvec3 colour_of_cut(const glm::dvec3& place) {
+        if (tissue_borders_)
+            if (const auto label = tissue_borders_->label_at(place)) return colours_[*label];
+        return tissue_colour(place);
     }
 
     /// Blended between voxels with bone, as the window does, so that tissues meet without steps.
@@ -111,6 +210,8 @@ class View {
     const BoneView& view_;
     const SectionMarks& marks_;
     BoneSampler probe_;
+    std::optional<TissueBorders> tissue_borders_;  // of a section; nothing: drawn voxel by voxel
+    std::vector<std::pair<std::size_t, SmoothBorder>> structure_borders_;
     std::array<glm::dvec3, 256> colours_;
     glm::dvec3 light_{0.0};
 };
@@ -150,14 +251,14 @@ class Colours {
 
 /// Pixels of the region beside one outside of it.
 void draw_outline(RgbPicture& picture, const BoneView& view, const glm::dvec3& right,
-                  const SectionMarks& marks) {
+                  const std::function<bool(const glm::dvec3& place_mm)>& is_outlined) {
     constexpr std::array<std::uint8_t, 3> colour{0, 90, 200};
     const int size = picture.size_px;
     std::vector<char> is_in;
     for (int row = 0; row < size; ++row)
         for (int column = 0; column < size; ++column)
-            is_in.push_back(marks.is_outlined(view.centre_mm + offset_mm(view, column + 0.5, size) * right -
-                                              offset_mm(view, row + 0.5, size) * view.up));
+            is_in.push_back(is_outlined(view.centre_mm + offset_mm(view, column + 0.5, size) * right -
+                                        offset_mm(view, row + 0.5, size) * view.up));
     const auto at = [&](int row, int column) {
         return is_in[static_cast<std::size_t>(std::clamp(row, 0, size - 1) * size +
                                               std::clamp(column, 0, size - 1))];
@@ -168,6 +269,19 @@ void draw_outline(RgbPicture& picture, const BoneView& view, const glm::dvec3& r
             if (at(row, column) && !(at(row - reach, column) && at(row + reach, column) &&
                                      at(row, column - reach) && at(row, column + reach)))
                 std::ranges::copy(colour, picture.rgb.begin() + 3 * (row * size + column));
+}
+
+/// Of a region of voxels, as a rule for places.
+std::function<bool(const glm::dvec3& place_mm)> outlined(const Grid& grid, const BoneView& view,
+                                                         const SectionMarks& marks) {
+    if (!marks.is_outlined_voxel) return marks.is_outlined;
+    if (const auto box = voxels_of_section(grid, view))
+        return [&grid, border = SmoothBorder(*box, marks.is_outlined_voxel)](const glm::dvec3& place_mm) {
+            return border.holds(to_voxel_coordinates(grid, place_mm));
+        };
+    return [&](const glm::dvec3& place_mm) {
+        return is_mostly(to_voxel_coordinates(grid, place_mm), marks.is_outlined_voxel);
+    };
 }
 
 }  // namespace
@@ -204,7 +318,8 @@ RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const B
                     static_cast<std::uint8_t>(std::lround(std::clamp(drawn[channel], 0.0, 255.0))));
         }
     }
-    if (view.is_section && marks.is_outlined) draw_outline(picture, view, right, marks);
+    if (view.is_section && (marks.is_outlined || marks.is_outlined_voxel))
+        draw_outline(picture, view, right, outlined(bone.grid(), view, marks));
     return picture;
 }
 

@@ -2,8 +2,9 @@
 //
 // Surface and normals are those of the window (bone_sampling.glsl). Lit from the viewer's upper left,
 // coloured by tissue; where the near side is cut away, the cut face is flat and bears the tissues' colours.
-// An import and a server have no OpenGL, and a case or a page of a report needs some pictures, not thirty a
-// second.
+// On it borders of tissues and structures are smooth (smooth_border.h), unless a voxel is hardly larger than
+// a pixel. An import and a server have no OpenGL, and a case or a page of a report needs some pictures, not
+// thirty a second.
 #pragma once
 
 #include <array>
@@ -39,6 +40,8 @@ struct RgbPicture {
 struct SectionMarks {
     std::span<const Structure> structures{};                        ///< in their tissue's colour
     std::function<bool(const glm::dvec3& place_mm)> is_outlined{};  ///< a region whose border is drawn
+    /// Or one of voxels, some of them beyond the grid, whose border is drawn smooth.
+    std::function<bool(const glm::ivec3& voxel)> is_outlined_voxel{};
 };
 
 RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, int size_px,
