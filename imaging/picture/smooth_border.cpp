@@ -90,7 +90,7 @@ std::vector<float> distances_to(const glm::ivec3& size, const std::vector<char>&
     return squares;
 }
 
-std::vector<float> gaussian(double deviation) {
+std::vector<float> gaussian_weights(double deviation) {
     const int reach = static_cast<int>(std::ceil(2.5 * deviation));
     std::vector<float> weights;
     for (int i = -reach; i <= reach; ++i)
@@ -117,7 +117,7 @@ void filter(const glm::ivec3& size, std::vector<float>& values, std::size_t reac
 
 /// 2 G v - G G v.
 std::vector<float> smoothed(const glm::ivec3& size, const std::vector<float>& values, double deviation) {
-    const std::vector<float> weights = gaussian(deviation);
+    const std::vector<float> weights = gaussian_weights(deviation);
     const auto mean = [&](std::span<const float> window) {
         return std::inner_product(weights.begin(), weights.end(), window.begin(), 0.0f);
     };
