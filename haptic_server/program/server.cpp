@@ -66,6 +66,7 @@ std::optional<ShownOptions> shown_options(const ServerOptions& options, const st
     if (options.operators) streaming.operators.emplace(*options.operators);
     if (!options.listen && !options.record && !options.controls) return std::nullopt;
     streaming.listens = options.listen.has_value();
+    streaming.waits_for_client = options.waits_for_client;
     return ShownOptions{
         .streaming = std::move(streaming),
         .script = options.controls ? read_control_script(*options.controls) : ControlScript{},

@@ -214,6 +214,8 @@ ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& acce
     if (is_client && !options.listen) {
         throw std::invalid_argument("--device client: the operator connects over --listen, which is none");
     }
+    if (options.waits_for_client && (is_virtual || !options.listen))
+        throw std::invalid_argument("--wait-for-client: needs --clock real and --listen, where one connects");
     if (options.operators && !is_client)
         throw std::invalid_argument(
             "--operators: goes with --device client; with others no client moves the tool");

@@ -24,6 +24,7 @@ struct ServerOptions {
     LogFiles logs;
     std::optional<ListenAddress> listen;  ///< nullopt: nobody is served
     Access access;
+    bool waits_for_client = false;           ///< the session's time begins with one
     std::optional<ListenAddress> metrics;    ///< where Prometheus may ask; on this machine
     std::vector<std::string> metrics_hosts;  ///< names by which it may be asked, beside localhost
     bool logs_json = false;

@@ -100,6 +100,10 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
                    "Where clients connect, port 0: any free one; \"none\": nobody does (127.0.0.1:7010; none "
                    "with --clock virtual)")
         ->type_name("ADDRESS:PORT");
+    app.add_flag(
+        "--wait-for-client", to.waits_for_client,
+        "The session begins, and its time runs, once a client that may operate has drawn the bone or "
+        "moves the tool; until then nothing moves");
     app.add_option("--metrics", typed.metrics,
                    "Where Prometheus or curl may ask how the session goes, at /metrics; an address of this "
                    "machine alone, such as 127.0.0.1:9464")

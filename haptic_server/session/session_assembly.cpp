@@ -88,7 +88,8 @@ SessionAssembly::SessionAssembly(const SessionAssembly& other, DeviceParts devic
 }
 
 void SessionAssembly::run(const std::atomic<bool>& stop, const OnProgress& on_progress) {
-    std::atomic<bool> is_over{false};
+    if (shown_) shown_->wait_for_client(stop);
+    std::atomic<bool> is_over{stop.load() || (shown_ && shown_->finish_requested())};
     session_->run(is_over, [&](const ToolState& tool) {
         if (on_progress) on_progress(tool);
         show_frame();

@@ -59,9 +59,9 @@ class SessionAssembly {
     /// Null: no clients, no recording.
     ShownSession* shown() { return shown_ ? &*shown_ : nullptr; }
 
-    /// Starts the device, runs until the duration has passed, `stop` is set, the simulated hand is at its
-    /// trajectory's end or a client ends the session, and stops the device. Once. Throws as
-    /// HapticDevice::start() does.
+    /// Waits for a client, if the options of streaming say so: the session's time begins then. Starts the
+    /// device, runs until the duration has passed, `stop` is set, the simulated hand is at its trajectory's
+    /// end or a client ends the session, and stops the device. Once. Throws as HapticDevice::start() does.
     void run(const std::atomic<bool>& stop, const OnProgress& on_progress = {});
 
     // Or, on the virtual clock, in this order and in steps.

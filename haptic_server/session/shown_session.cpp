@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "analysis/surface/mesh_file.h"
@@ -68,7 +70,8 @@ StreamingOptions with_teller(StreamingOptions streaming, SessionKeeper& keeper) 
 
 ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirror, MillingSession& session,
                            const DeviceParts& device)
-    : keeper_(save_into(options.save_bone, scene.source)),
+    : waits_for_client_(options.streaming.waits_for_client),
+      keeper_(save_into(options.save_bone, scene.source)),
       controls_(session.exchange().gate, *session.exchange().restored, session.exchange().placements,
                 requests(options, scene.scene, device, session.held_fixtures())),
       live_(session.exchange().tool, session.exchange().changes, &controls_, std::move(options.script)),
@@ -81,6 +84,11 @@ ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirro
     live_.watch(StructureWatch(std::move(scene.structures), scene.scene.tissues, scene.scene.burrs),
                 scene.scene.tissues);
     server_.start();
+}
+
+void ShownSession::wait_for_client(const std::atomic<bool>& stop) const {
+    while (waits_for_client_ && !server_.has_client_begun() && !stop.load() && !finish_requested())
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
 void ShownSession::end() {

@@ -1,6 +1,7 @@
 // The part of a session that streams it to clients, records it, and lets them control it.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -39,6 +40,9 @@ class ShownSession {
 
     StreamingServer& server() { return server_; }
     bool finish_requested() const { return keeper_.finish_requested(); }
+    /// With waits_for_client: returns when a client has begun, one ends the session, or `stop` is set. Before
+    /// the session runs.
+    void wait_for_client(const std::atomic<bool>& stop) const;
     /// Reports a failure to save or record to the log and to clients.
     void tell(const std::string& line) { keeper_.tell(line); }
 
@@ -54,6 +58,7 @@ class ShownSession {
     SessionControls::Requests requests(const ShownOptions& options, const Scene& scene,
                                        const DeviceParts& device, FixtureSet held);
 
+    const bool waits_for_client_;
     SessionKeeper keeper_;
     std::optional<ToolPose> placed_;  // the streaming thread's until end()
     SessionControls controls_;

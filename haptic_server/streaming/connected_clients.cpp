@@ -187,6 +187,7 @@ std::optional<WireError> ConnectedClients::take(Id id, const v2::ClientFrame& fr
                                       .control = controls ? &control_ : nullptr,
                                       .view = shows_view ? &views_[id] : nullptr},
                                      now);
+    has_begun_ = has_begun_ || controls || shows_view || (may_operate && frame.has_operator_input());
     log_holder();
     if (frame.has_operator_input() && watchers_.contains(id) && refused_input_.insert(id).second)
         log_client(

@@ -73,6 +73,9 @@ class ConnectedClients {
     std::optional<Viewpoint> view_of_operator();
 
     std::size_t count() const { return connections_.size(); }
+    /// One that may operate has stated its viewpoint, which a window does once the bone is drawn, or has
+    /// moved the tool or used the controls.
+    bool has_begun() const { return has_begun_; }
     /// Frames sent, to all present and former clients.
     std::uint64_t sent_bytes() const { return sent_bytes_; }
 
@@ -110,6 +113,7 @@ class ConnectedClients {
     std::set<Id> refused_input_;  // those of them that the log has named for sending input
     Id last_client_ = 0;
     std::uint64_t sent_bytes_ = 0;
+    bool has_begun_ = false;
     std::function<void()> when_gone_;  // also called once goodbye has been sent
 
     // Each with its share of the log.

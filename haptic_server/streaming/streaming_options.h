@@ -47,6 +47,8 @@ struct StreamingOptions {
     /// Frames go out when show_frame() is called instead, and a recording waits for its disk: for sessions
     /// that run on a clock of their own.
     bool paced_by_session = false;
+    /// The session's time begins with a client, see StreamingServer::has_client_begun().
+    bool waits_for_client = false;
     std::optional<RecordTo> record{};
 };
 

@@ -41,9 +41,9 @@ namespace {
 constexpr std::chrono::seconds longest_goodbye{5};
 constexpr const char* end_of_session = "the session has ended";
 
-/// Clients are asked for their viewpoint only if it is recorded.
+/// Clients are asked for their viewpoint only if it is recorded, or the session begins with it.
 SessionInfo with_view(SessionInfo session, const StreamingOptions& options) {
-    session.records_view = options.record.has_value();
+    session.records_view = options.record.has_value() || options.waits_for_client;
     return session;
 }
 
@@ -147,6 +147,7 @@ class StreamingServer::Impl {
         thread_.join();
     }
 
+    bool has_client_begun() const { return has_client_begun_ || has_failed_; }
     StreamingTraffic traffic() const { return {traffic_clients_, traffic_sent_bytes_}; }
     std::uint16_t port() const { return port_; }
     std::uint64_t mirror_checksum() const { return mirror_.checksum(); }
@@ -196,7 +197,9 @@ class StreamingServer::Impl {
     void send_frame() {
         clients_.look_after(Clock::now());
         update();
-        const bool with_checksum = frames_++ % frames_per_checksum_ == 0;
+        // With a checksum each state is sent: a server whose time stands until a client begins is not silent.
+        const bool waits = options_.waits_for_client && state_.tool.time_s == 0.0;
+        const bool with_checksum = frames_++ % frames_per_checksum_ == 0 || waits;
         if (recorder_) {
             SessionState recorded = state_;
             recorded.view = clients_.view_of_operator();
@@ -204,6 +207,7 @@ class StreamingServer::Impl {
         }
         clients_.show_ct([this] { return source_.ct(); });
         clients_.show(state_, with_checksum);
+        has_client_begun_ = clients_.has_begun();
         traffic_clients_ = clients_.count();
         traffic_sent_bytes_ = clients_.sent_bytes();
         if (options_.listens && !is_accepting_) accept();
@@ -290,6 +294,7 @@ class StreamingServer::Impl {
     bool has_ended_ = false;               // the owner's
     bool has_finished_recording_ = false;  // the owner's
     std::atomic<bool> has_failed_{false};
+    std::atomic<bool> has_client_begun_{false};
     std::atomic<std::size_t> traffic_clients_{0};
     std::atomic<std::uint64_t> traffic_sent_bytes_{0};
     std::uint16_t port_ = 0;
@@ -317,6 +322,9 @@ void StreamingServer::finish_recording() {
 }
 void StreamingServer::stop() {
     impl_->stop();
+}
+bool StreamingServer::has_client_begun() const {
+    return impl_->has_client_begun();
 }
 StreamingTraffic StreamingServer::traffic() const {
     return impl_->traffic();

@@ -62,6 +62,10 @@ class StreamingServer {
     /// Waits up to about 5 s for clients that are slow to read the end, closes, joins.
     void stop();
 
+    /// Any thread: a client that may operate has the bone drawn, or moves the tool or controls the session;
+    /// or streaming has failed, and none will come. With waits_for_client every client is asked for its
+    /// viewpoint, recorded or not, which a window sends when the bone is there.
+    bool has_client_begun() const;
     /// Any thread.
     StreamingTraffic traffic() const;
     /// The port that is listened on, after start().

@@ -17,13 +17,12 @@ void ClientOutbox::begin(const SessionInfo& session) {
     records_view_ = session.records_view;
     burr_count_ = session.burrs.size();
     owes_hello_ = true;
-    owes_view_ = records_view_ && view_;
+    view_.reset();
+    owes_view_ = false;
 }
 
 void ClientOutbox::end() {
-    const std::optional<Viewpoint> view = view_;
     *this = {};
-    view_ = view;
 }
 
 void ClientOutbox::put(v2::OperatorInput input) {

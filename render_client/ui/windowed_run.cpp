@@ -11,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <glm/common.hpp>
 #include <thread>
 
 #include "common/scene/scene_file.h"
@@ -169,7 +170,8 @@ class Drawing {
         keep_settings(std::chrono::duration<double>(now - began_).count());
 
         const SessionNews news = session_.take_in();
-        if (session_.has_bone() && now - view_told_ >= view_period) {
+        // Not before the session's bone is there: a server may wait for that.
+        if (session_.elements().controls && now - view_told_ >= view_period) {
             source_.send_view(viewpoint_of(session_.camera()));
             view_told_ = now;
         }
@@ -260,6 +262,7 @@ class Drawing {
         drawn_ = start;
         session_.resize(input_.framebuffer_size_px);
         session_.view().scale = static_cast<float>(options_.ui_scale.value_or(input_.content_scale));
+        if (start_) start_->page.window_size = glm::ivec2(glm::round(input_.size));
         if (panels_.feed(input_)) redraw_.note_change(start);
         commands_.work_clutch();
         camera_.aim(session_);

@@ -7,7 +7,9 @@
 #include <fstream>
 #include <string>
 
+#include "render_client/link/bone_link.h"
 #include "tests/support/child_process.h"
+#include "tests/support/eventually.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/logged_removal.h"
 
@@ -92,6 +94,41 @@ TEST_F(Programs, AfterASessionTheClientsBoneIsTheServersBitForBit) {
         EXPECT_TRUE(served.at("milling_step_us").contains(key));
     }
     EXPECT_TRUE(std::filesystem::exists(file("frames-early.json") + "/final.png"));
+}
+
+TEST_F(Programs, ASessionsTimeBeginsWhenAClientHasTheBone) {
+    ChildProcess server({HAPTIC_SERVER, "--device", "client", "--scene", "cube", "--listen", "127.0.0.1:0",
+                         "--wait-for-client", "--duration-s", "0.5", "--json", file("server.json")});
+    const auto port = server.line_after("listening on 127.0.0.1:");
+    ASSERT_TRUE(port) << server.err();
+    BoneLink link("127.0.0.1", static_cast<std::uint16_t>(std::stoi(*port)));
+    LinkUpdate seen;
+    const auto has_frames = [&](std::uint64_t count) {
+        return eventually([&] {
+            seen = link.poll();
+            EXPECT_TRUE(!seen.tool || seen.tool->time_s == 0.0) << "nobody has seen the bone";
+            return seen.frames >= count;
+        });
+    };
+    // Many more than the session's 15, and no second passes without: the server waits and is not silent.
+    ASSERT_TRUE(has_frames(30));
+    ASSERT_TRUE(seen.tool);
+    link.send_view(Viewpoint{});
+    EXPECT_TRUE(eventually([&] {
+        seen = link.poll();
+        return seen.tool && seen.tool->time_s > 0.0;
+    }));
+    ASSERT_EQ(server.wait(), 0) << server.err();
+    EXPECT_NEAR(json("server.json").at("duration_s").get<double>(), 0.5, 0.05);
+}
+
+TEST_F(Programs, ASessionThatWaitsForItsClientCanBeEnded) {
+    ChildProcess server({HAPTIC_SERVER, "--device", "client", "--scene", "cube", "--listen", "127.0.0.1:0",
+                         "--wait-for-client", "--json", file("server.json")});
+    ASSERT_TRUE(server.line_after("listening on ")) << server.err();
+    server.send_signal(SIGINT);
+    ASSERT_EQ(server.wait(), 0) << server.err();
+    EXPECT_EQ(json("server.json").at("duration_s"), 0.0);
 }
 
 TEST_F(Programs, AClientThatIsKilledDisturbsNobody) {
