@@ -128,6 +128,7 @@ void StartPage::start() {
                                      "--case=" + wanted.argument,
                                      "--device=client",
                                      "--listen=127.0.0.1:0",
+                                     "--wait-for-client",
                                      "--report=" + report_folder_.string(),
                                      "--language=" + spoken_language(),
                                      "--save-bone=" + (report_folder_ / "bone.nrrd").string()};
@@ -174,9 +175,13 @@ void StartPage::open_report_of(const KeptSession& session) {
 }
 
 void StartPage::replay(const std::filesystem::path& recording) {
+    std::vector<std::string> command{program("render_client"), "--replay=" + recording.string(),
+                                     "--language=" + spoken_language()};
+    // A window that suits this screen, and not one that is larger than it.
+    if (window_size.x > 0 && window_size.y > 0)
+        command.push_back(fmt::format("--window-size={}x{}", window_size.x, window_size.y));
     attempt([&] {
-        players_.push_back(std::make_unique<ChildProgram>(std::vector<std::string>{
-            program("render_client"), "--replay=" + recording.string(), "--language=" + spoken_language()}));
+        players_.push_back(std::make_unique<ChildProgram>(command));
         message_ = recording.string() + tr(" opens in a window of its own");
     });
 }

@@ -63,8 +63,9 @@ class StartPage {
     /// Its report in the user's browser, made before if there is none; a recording in a window of its own.
     void open_report_of(const KeptSession& session);
     void replay(const std::filesystem::path& recording);
-    std::size_t chosen = 0;  ///< index in cases()
-    std::string trainee{};   ///< who works in the session
+    glm::ivec2 window_size{0};  ///< of this window, for others that it opens; 0: any
+    std::size_t chosen = 0;     ///< index in cases()
+    std::string trainee{};      ///< who works in the session
     void start();
     /// The window has seen the end of the session: only its report remains to be written.
     void note_end_of_session();

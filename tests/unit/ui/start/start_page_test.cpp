@@ -55,6 +55,7 @@ TEST_F(StartPageTest, SendsItsWindowToThePortThatTheServerWasGiven) {
     std::getline(file, arguments);
     EXPECT_THAT(arguments, HasSubstr("--listen=127.0.0.1:0"));
     EXPECT_THAT(arguments, HasSubstr("--language=en")) << "the window's, for the report";
+    EXPECT_THAT(arguments, HasSubstr("--wait-for-client")) << "its time runs once the bone is drawn";
     window.poll();
     EXPECT_FALSE(window.take_server()) << "it is there";
 }
@@ -90,6 +91,20 @@ TEST_F(StartPageTest, IsThereAfterASessionWasKilledUntilTheWindowIsSentToTheNext
     screen.page.start();
     screen.page.poll();
     EXPECT_TRUE(screen.is_due(LinkStatus::lost)) << "no session is there to be lost";
+}
+
+TEST_F(StartPageTest, ReplaysInAWindowAsLargeAsItsOwn) {
+    make_program("render_client", "echo \"$@\" > " + (folder_ / "arguments").string());
+    StartPage window = page();
+    window.window_size = {800, 600};
+    window.replay(folder_ / "session.pcap");
+    std::string arguments;
+    ASSERT_TRUE(comes_true(window, [&] {
+        std::ifstream file(folder_ / "arguments");
+        return static_cast<bool>(std::getline(file, arguments));
+    })) << window.message();
+    EXPECT_THAT(arguments, HasSubstr("--replay=" + (folder_ / "session.pcap").string()));
+    EXPECT_THAT(arguments, HasSubstr("--window-size=800x600"));
 }
 
 TEST_F(StartPageTest, LooksAtAScanOnceAndGoesThroughItsSlices) {
