@@ -30,7 +30,7 @@ std::string heading(const SessionTrace& trace) {
     html += fmt::format("<p class='about'>{}</p>", about);
     if (session.plan)
         html += fmt::format("<p class='about'>{}</p>",
-                            trf("To be removed: {}, with a margin of {:g} mm",
+                            trf("To be removed: {}, with a margin of {:.3g} mm",
                                 html_text(describe(*session.plan)), session.plan->margin_mm));
     if (!trace.error.empty())
         html +=

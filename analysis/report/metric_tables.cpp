@@ -20,13 +20,13 @@ ShownValue shown(const MetricRow& row) {
 }
 
 std::string table(std::span<const MetricRow> rows) {
-    std::string html = "<table>";
+    std::string html = table_begin;
     for (const MetricRow& row : rows) {
         const ShownValue value = shown(row);
         html += fmt::format("<tr><td>{}</td><td class='n'>{}</td><td class='u'>{}</td></tr>",
                             html_text(tr_filled(row.text)), value.number, html_text(value.unit));
     }
-    return html + "</table>";
+    return html + table_end;
 }
 
 /// A line for each thing, a column a metric.
@@ -38,7 +38,7 @@ std::string table_of_several(std::span<const MetricRow> rows, const SessionInfo&
         const auto is_same = [&](const MetricRow* column) { return column->key == row.key; };
         if (std::ranges::none_of(columns, is_same)) columns.push_back(&row);
     }
-    std::string html = "<table><tr><th></th>";
+    std::string html = fmt::format("{}<tr><th></th>", table_begin);
     for (const MetricRow* column : columns) {
         const std::string unit = shown(*column).unit;
         html += fmt::format("<th class='n'>{}{}</th>", html_text(tr_filled(column->text)),
@@ -56,7 +56,7 @@ std::string table_of_several(std::span<const MetricRow> rows, const SessionInfo&
         }
         html += "</tr>";
     }
-    return html + "</table>";
+    return html + table_end;
 }
 
 }  // namespace

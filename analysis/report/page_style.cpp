@@ -38,6 +38,10 @@ svg{width:100%;height:auto;margin:4px 0}svg .title{font-weight:600}
 .signatures{display:grid;grid-template-columns:repeat(3,1fr);gap:24px;margin-top:34px}
 .signatures div{border-top:1px solid #444;color:#555;font-size:12.5px;padding-top:2px}
 footer{color:#777;font-size:12.5px;margin-top:30px}
+p,h1,h2,h3,.verdict,.tile,figcaption{overflow-wrap:break-word}
+@media screen{.scroll{overflow-x:auto;max-width:100%}td>code{display:block;min-width:130px}}
+@media screen and (max-width:940px){.columns{columns:1}.tiles,.pictures,.pictures.two{grid-template-columns:repeat(2,minmax(0,1fr))}}
+@media screen and (max-width:480px){.tiles,.pictures,.pictures.two,.signatures{grid-template-columns:minmax(0,1fr)}}
 @media print{body{max-width:none;padding:0;font-size:11px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 .first{display:flex;flex-direction:column;height:252mm;break-after:page}
 .first .two{width:162mm;margin:0 auto}.comment{min-height:18mm}

@@ -10,6 +10,11 @@ namespace osteomill {
 /// For a <style> element. On paper, A4 or Letter, whichever the printer has.
 extern const char* const page_style;
 
+/// Around the rows of a table: one that is wider than the window scrolls in a box of its own, and the page
+/// does not.
+inline constexpr const char* table_begin = "<div class='scroll'><table>";
+inline constexpr const char* table_end = "</table></div>";
+
 /// At most four digits that count.
 std::string number_text(double value);
 

@@ -82,9 +82,9 @@ std::optional<PlanMetrics> plan_metrics(const SessionTrace& trace) {
 std::string describe(const Plan& plan) {
     if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) return tissue_words(tissue->tissue);
     if (const auto* sphere = std::get_if<SphereRegion>(&plan.region))
-        return trf("a sphere of {:g} mm radius", sphere->radius_mm);
+        return trf("a sphere of {:.3g} mm radius", sphere->radius_mm);
     const auto& cylinder = std::get<CylinderRegion>(plan.region);
-    return trf("a cylinder of {:g} mm radius, {:g} mm long", cylinder.radius_mm,
+    return trf("a cylinder of {:.3g} mm radius, {:.3g} mm long", cylinder.radius_mm,
                glm::length(cylinder.to_mm - cylinder.from_mm));
 }
 

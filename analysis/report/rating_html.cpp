@@ -71,12 +71,12 @@ std::string rating_summary(const SessionTrace& trace, const RatingResult& rating
 std::string rating_table(const RatingResult& rating) {
     if (rating.items.empty()) return {};
     std::string html = fmt::format(
-        "<h2>{}</h2><p class='about'>{}{}. {}</p><table><tr><th></th><th class='n'>{}</th><th>{}</th>"
+        "<h2>{}</h2><p class='about'>{}{}. {}</p>{}<tr><th></th><th class='n'>{}</th><th>{}</th>"
         "<th>{}</th><th>{}</th></tr>",
         tr("Rating"), points_text(rating), undone_text(rating),
         tr("Decided from what the recording holds; hand position, grip and other things that a rater sees "
            "are no part of it."),
-        tr("points"), tr("item"), tr("reached where"), tr("measured"));
+        table_begin, tr("points"), tr("item"), tr("reached where"), tr("measured"));
     for (const RatedItem& one : rating.items)
         html += fmt::format("<tr>{}<td>{}{}</td><td><code>{}</code></td><td>{}</td></tr>", verdict_cells(one),
                             html_text(tr(one.item.name)),
@@ -84,7 +84,7 @@ std::string rating_table(const RatingResult& rating) {
                                 ? ""
                                 : "<span class='source'>" + html_text(tr(one.item.source)) + "</span>",
                             html_text(one.item.when), measured_text(one));
-    return html + "</table>";
+    return html + table_end;
 }
 
 }  // namespace osteomill

@@ -35,9 +35,8 @@ std::string pictures_of(const SessionPictures& pictures) {
 /// Numbered as over the plots.
 std::string events(const SessionTrace& trace) {
     if (trace.events.empty()) return {};
-    std::string html =
-        fmt::format("{}<table><tr><th class='n'></th><th class='n'>{}</th><th></th><th></th></tr>",
-                    heading(tr("What was done")), tr("time (s)"));
+    std::string html = fmt::format("{}{}<tr><th class='n'></th><th class='n'>{}</th><th></th><th></th></tr>",
+                                   heading(tr("What was done")), table_begin, tr("time (s)"));
     std::size_t number = 0;
     for (const ControlEvent& event : trace.events) {
         const char* const action = tr(name_of(event.action));
@@ -46,15 +45,15 @@ std::string events(const SessionTrace& trace) {
                             ++number, event.time_s, event.is_refused ? trf("{}, refused", action) : action,
                             html_text(is_note ? event.text : tr_filled(event.text)));
     }
-    return html + "</table>";
+    return html + table_end;
 }
 
 std::string settings(const SessionInfo& session) {
     if (session.settings.empty()) return {};
-    std::string html = heading(tr("Settings")) + "<table>";
+    std::string html = heading(tr("Settings")) + table_begin;
     for (const auto& [name, value] : session.settings)
         html += fmt::format("<tr><td>{}</td><td>{}</td></tr>", html_text(name), html_text(value));
-    return html + "</table>";
+    return html + table_end;
 }
 
 }  // namespace

@@ -68,6 +68,13 @@ class GoldenTest(unittest.TestCase):
         names = re.findall(r'<g id="[^"]*"|<script', first)
         self.assertEqual(names, [])
 
+    def test_a_table_wider_than_the_window_scrolls_in_a_box_of_its_own(self):
+        html = page.overview(self.sessions, [], []).html
+        self.assertGreater(html.count("<table"), 2)
+        self.assertEqual(html.count("<table"), html.count("<div class='scroll'><table"))
+        self.assertEqual(html.count("</table>"), html.count("</table></div>"))
+        self.assertIn(".scroll{overflow-x:auto", html)
+
 
 class LanguageTest(unittest.TestCase):
     FOLDER = pathlib.Path(page.__file__).parent

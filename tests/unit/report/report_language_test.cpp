@@ -177,6 +177,18 @@ TEST_F(ReportLanguage, IsOfEveryTextOfWhatIsLeftOfARecording) {
     EXPECT_THAT(page("anna", "de"), HasSubstr("Die Aufzeichnung endet vor der Sitzung"));
 }
 
+TEST_F(ReportLanguage, RoundsTheLengthsOfThePlan) {
+    SessionInfo session = jaw();
+    session.plan =
+        Plan{.region =
+                 CylinderRegion{.from_mm = {0.0, 0.0, 0.0}, .to_mm = {1.0, 1.0, 4.0}, .radius_mm = 1.0 / 3.0},
+             .margin_mm = 0.5};
+    write("anna", session);
+    expect_all_translated("anna");
+    EXPECT_THAT(page("anna", "de"),
+                HasSubstr("ein Zylinder mit 0.333 mm Radius, 4.24 mm lang, mit einem Rand von 0.5 mm"));
+}
+
 TEST_F(ReportLanguage, IsOfEveryTextWithoutPlanMarksOrTissues) {
     write("anna", {.scene_name = "cube", .burrs = {Burr{}}, .trainee = "Anna"});
     expect_all_translated("anna");

@@ -45,6 +45,17 @@ TEST(WriteReport, ShowsHostileNamesAsTextInOnePage) {
     const std::string page = testing::bytes_of(folder / "report/report.html");
     EXPECT_THAT(page, Not(HasSubstr("<script")));
     EXPECT_THAT(page, HasSubstr("&lt;script"));
+    // On a narrow screen a table scrolls, and the page does not.
+    const auto count_of = [&page](const std::string& wanted) {
+        std::size_t count = 0;
+        for (std::size_t at = page.find(wanted); at != std::string::npos; at = page.find(wanted, at + 1))
+            ++count;
+        return count;
+    };
+    EXPECT_GT(count_of("<table"), 3U);
+    EXPECT_EQ(count_of("<table"), count_of("<div class='scroll'><table"));
+    EXPECT_EQ(count_of("</table>"), count_of("</table></div>"));
+    EXPECT_THAT(page, HasSubstr(".scroll{overflow-x:auto"));
     EXPECT_THAT(page, Not(HasSubstr("href=")));
     EXPECT_THAT(page, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
     const auto json = nlohmann::json::parse(testing::bytes_of(folder / "report/metrics.json"));
