@@ -18,12 +18,12 @@ std::vector<TissueColour> solid_colours(std::span<const Tissue> tissues) {
 
 }  // namespace
 
-DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session) {
+DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session, const KnownShanks& shanks) {
     DrawnTool tool{.state = state, .is_only_a_thing = true};
     const Burr* burr = session.burr_of(state.burr);
     if (burr == nullptr) return tool;
     const bool clockwise = burr->sense == SpindleSense::clockwise;
-    tool.burr = {burr->diameter_mm, burr->head, burr->edges, clockwise};
+    tool.burr = {burr->diameter_mm, burr->head, burr->edges, clockwise, shanks.of(state.burr)};
     if (!state.spindle_on) return tool;
     const double turns = spindle_rpm(state, *burr) / 60.0 * state.time_s;
     // Clockwise seen from the shank is negative about the axis from tip to shank.
@@ -42,6 +42,7 @@ SessionImages::SessionImages(ImagedSession& session, std::span<const DatasetCame
 }
 
 void SessionImages::follow() {
+    shanks_.take_in(&session_.session());
     const std::vector<BrickChange> changes = session_.take_changes();
     const std::span<const VoxelBox> changed = textures_.update(session_.bone(), changes);
     for (const auto& view : views_) {
@@ -80,7 +81,7 @@ CameraImages SessionImages::draw(std::size_t camera, bool wants_colour, bool wan
                         .colour = Picture(glm::ivec2(0))};
     const Camera drawn = camera_of(images.pinhole, images.camera, ball.centre_mm, ball.radius_mm);
     std::optional<DrawnTool> tool;
-    if (session_.tool()) tool = tool_as_thing(*session_.tool(), session_.session());
+    if (session_.tool()) tool = tool_as_thing(*session_.tool(), session_.session(), shanks_);
     const DrawnTool* shown = tool ? &*tool : nullptr;
     if (wants_colour) images.colour = view.picture.draw(&textures_, shown, drawn).read_back();
     if (!wants_surface) return images;

@@ -9,6 +9,7 @@
 
 #include "render_client/dataset/camera_file.h"
 #include "render_client/dataset/imaged_session.h"
+#include "render_client/dataset/known_shanks.h"
 #include "render_client/dataset/surface_labels.h"
 #include "render_client/volume/passes/scene_picture.h"
 
@@ -24,7 +25,7 @@ struct CameraImages {
 };
 
 /// A recorded tool as a thing: its burr in full, turned as far as its speed turns it by its time.
-DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session);
+DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session, const KnownShanks& shanks = {});
 
 class SessionImages {
   public:
@@ -54,6 +55,7 @@ class SessionImages {
 
     ImagedSession& session_;
     RaycastRenderer renderer_;
+    KnownShanks shanks_;
     std::vector<Tissue> tissues_;
     BoneTextures textures_;
     std::vector<std::unique_ptr<View>> views_;

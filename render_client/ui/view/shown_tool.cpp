@@ -33,6 +33,7 @@ bool ShownTool::has_turning_burr() const {
 }
 
 void ShownTool::turn(double elapsed_s, const SessionInfo* session) {
+    shanks_.take_in(session);
     // A frame that took long makes no state old that came with it.
     if (!std::exchange(is_new_, false)) age_s_ += elapsed_s;
     if (!has_turning_burr()) return;
@@ -58,7 +59,8 @@ DrawnTool ShownTool::drawn(const ToolState& shown, const SessionInfo* session,
                     .motion = has_turning_burr() ? BurrMotion::at_speed : BurrMotion::still,
                     .has_handpiece = true};
     if (const Burr* burr = session ? session->burr_of(shown.burr) : nullptr)
-        drawn.burr = {burr->diameter_mm, burr->head, burr->edges, burr->sense == SpindleSense::clockwise};
+        drawn.burr = {burr->diameter_mm, burr->head, burr->edges, burr->sense == SpindleSense::clockwise,
+                      shanks_.of(shown.burr)};
     if (command && !shown_pose_ &&
         glm::distance(command->hand_target_mm, shown.burr_position_mm) > nearest_shown_target_mm)
         drawn.hand_target_mm = command->hand_target_mm;

@@ -5,6 +5,7 @@
 
 #include "common/scene/operator_command.h"
 #include "common/scene/tool_state.h"
+#include "render_client/dataset/known_shanks.h"
 #include "render_client/link/session_source.h"
 #include "render_client/volume/passes/stereo_picture.h"
 
@@ -36,6 +37,7 @@ class ShownTool {
     bool is_new_ = false;  ///< it came in the frame that is being drawn
     std::optional<ToolPose> shown_pose_;
     double spin_rad_ = 0.0;
+    KnownShanks shanks_;
 };
 
 }  // namespace osteomill

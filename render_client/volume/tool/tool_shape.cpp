@@ -162,28 +162,29 @@ Triangles fluted_head(const BurrShape& burr, const BurrProfile& profile, BurrMot
     return head;
 }
 
-struct ShankShape {
-    double neck_mm = 0.0;  ///< radii
-    double shank_mm = 0.0;
-    double head_end_mm = 0.0;  ///< heights
-    double neck_end_mm = 0.0;
-    double taper_end_mm = 0.0;
-    double end_mm = 0.0;
-};
-
-ShankShape shank_of(const BurrShape& burr) {
+/// From within the head to the end, upwards.
+std::vector<Station> shank_of(const BurrShape& burr) {
     const double radius = 0.5 * burr.diameter_mm;
-    ShankShape shape{.neck_mm = 0.45 * radius,
-                     .shank_mm = radius > 1.0 ? handpiece_shank_radius_mm : turbine_shank_radius_mm,
-                     .head_end_mm = radius};
-    if (burr.head.shape != HeadShape::ball) {
-        shape.head_end_mm = BurrProfile(burr.head, burr.diameter_mm).top_height();
-        shape.neck_mm = std::min(shape.neck_mm, 0.4 * burr.head.neck_diameter_mm);
+    const double into_head_mm = 0.1 * burr.diameter_mm;
+    if (!burr.shank.empty()) {
+        std::vector<Station> stations{
+            {burr.shank.front().height_mm - into_head_mm, burr.shank.front().radius_mm}};
+        for (const ShankPoint& point : burr.shank) stations.push_back({point.height_mm, point.radius_mm});
+        return stations;
     }
-    shape.neck_end_mm = shape.head_end_mm + std::max(2.0, 1.2 * radius);
-    shape.taper_end_mm = shape.neck_end_mm + 3.0;
-    shape.end_mm = shape.taper_end_mm + shank_length_mm;
-    return shape;
+    double head_end_mm = radius;
+    double neck_mm = 0.45 * radius;
+    if (burr.head.shape != HeadShape::ball) {
+        head_end_mm = BurrProfile(burr.head, burr.diameter_mm).top_height();
+        neck_mm = std::min(neck_mm, 0.4 * burr.head.neck_diameter_mm);
+    }
+    const double shank_mm = radius > 1.0 ? handpiece_shank_radius_mm : turbine_shank_radius_mm;
+    const double neck_end_mm = head_end_mm + std::max(2.0, 1.2 * radius);
+    const double taper_end_mm = neck_end_mm + 3.0;
+    return {{head_end_mm - into_head_mm, neck_mm},
+            {neck_end_mm, neck_mm},
+            {taper_end_mm, shank_mm},
+            {taper_end_mm + shank_length_mm, shank_mm}};
 }
 
 }  // namespace
@@ -194,17 +195,13 @@ Triangles burr_head(const BurrShape& burr, BurrMotion motion) {
 }
 
 Triangles burr_shank(const BurrShape& burr, BurrMotion motion) {
-    const ShankShape shape = shank_of(burr);
-    return lathe({{shape.head_end_mm - 0.1 * burr.diameter_mm, shape.neck_mm},
-                  {shape.neck_end_mm, shape.neck_mm},
-                  {shape.taper_end_mm, shape.shank_mm},
-                  {shape.end_mm, shape.shank_mm},
-                  {shape.end_mm, 0.0}},
-                 marked_shank(motion));
+    std::vector<Station> stations = shank_of(burr);
+    stations.push_back({stations.back().z, 0.0});
+    return lathe(stations, marked_shank(motion));
 }
 
 Triangles handpiece(const BurrShape& burr) {
-    const double from_mm = shank_of(burr).end_mm;
+    const double from_mm = shank_of(burr).back().z;
     // Heights above the end of the shank, which ends within the nose.
     const auto part = [&](std::vector<Station> stations, const glm::vec3& linear_rgb) {
         for (Station& station : stations) station.z += from_mm;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/scene/burr_head.h"
+#include "common/scene/shank.h"
 #include "render_client/volume/tool/triangles.h"
 
 namespace osteomill {
@@ -11,6 +12,7 @@ struct BurrShape {
     BurrHead head{};
     int edges = 6;
     bool clockwise = true;  ///< which way the flutes wind
+    ShankProfile shank{};   ///< empty: the usual one for such a head
 
     bool operator==(const BurrShape&) const = default;
 };
@@ -23,7 +25,8 @@ enum class BurrMotion { still, at_speed };
 /// is the burr's true one. At speed it is the body of revolution that the flutes sweep.
 Triangles burr_head(const BurrShape& burr, BurrMotion motion = BurrMotion::still);
 
-/// Tapered neck and cylindrical shank in the same frame. Its lower end is open, within the head.
+/// Neck and shank in the same frame: the burr's profile, or a tapered neck and a cylinder. Its lower end is
+/// open, within the head.
 Triangles burr_shank(const BurrShape& burr, BurrMotion motion = BurrMotion::still);
 
 /// A straight surgical handpiece from the end of the shank on, in the same frame: nose, ribbed grip, body,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/scene/scene_file.h"
+
 namespace osteomill {
 namespace {
 
@@ -16,6 +18,28 @@ TEST(ShownTool, TurnsWhileStatesComeHoweverLongAFrameTakes) {
     }
     tool.turn(0.3, nullptr);
     EXPECT_EQ(tool.drawn(state, nullptr, std::nullopt).motion, BurrMotion::still) << "nothing was heard";
+}
+
+TEST(ShownTool, HasTheShankThatTheSessionsSceneGivesItsBurr) {
+    Scene scene;
+    scene.name = "shanks";
+    scene.burrs = {Burr{.name = "usual"}, Burr{.name = "long", .shank = {{2.0, 0.5}, {20.0, 0.75}}}};
+    SessionInfo session{.burrs = scene.burrs, .scene_toml = write_scene(scene, SceneText::complete)};
+    for (Burr& burr : session.burrs) burr.shank.clear();  // as a hello describes them
+    const auto shank_of = [&](std::size_t burr) {
+        ShownTool tool;
+        ToolState state;
+        state.burr = burr;
+        tool.take(state);
+        tool.turn(0.02, &session);
+        return tool.drawn(state, &session, std::nullopt).burr.shank;
+    };
+    EXPECT_EQ(shank_of(0), ShankProfile{});
+    EXPECT_EQ(shank_of(1), scene.burrs[1].shank);
+    session.scene_toml = "no scene = [";
+    EXPECT_EQ(shank_of(1), ShankProfile{}) << "the usual one";
+    session.scene_toml.clear();
+    EXPECT_EQ(shank_of(1), ShankProfile{});
 }
 
 }  // namespace

@@ -43,6 +43,23 @@ TEST(ToolShape, HasTheOutlineOfAHeadThatIsNoBall) {
     EXPECT_NEAR(widest, 1.0f, 1e-3f);
 }
 
+TEST(ToolShape, HasTheShankOfTheBurrsProfile) {
+    const BurrShape burr{.diameter_mm = 2.0, .shank = {{1.0, 0.4}, {6.0, 0.4}, {8.0, 1.2}, {30.0, 1.2}}};
+    float highest = 0.0f;
+    for (const Vertex& vertex : burr_shank(burr).vertices) {
+        const float z = vertex.position.z;
+        const float radius = glm::length(glm::vec2(vertex.position));
+        if (radius > 0.0f) {
+            EXPECT_NEAR(radius, z <= 6.0f ? 0.4f : 1.2f, 1e-5f) << z;
+        }
+        highest = std::max(highest, z);
+    }
+    EXPECT_NEAR(highest, 30.0f, 1e-5f);
+    float begins = 1e6f;
+    for (const Vertex& vertex : handpiece(burr).vertices) begins = std::min(begins, vertex.position.z);
+    EXPECT_NEAR(begins, 29.5f, 1e-4f);
+}
+
 /// Brightness of each vertex.
 std::vector<float> shades(const Triangles& triangles) {
     std::vector<float> values;
