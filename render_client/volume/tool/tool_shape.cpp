@@ -22,6 +22,8 @@ constexpr glm::vec3 grip_grey(0.075f, 0.08f, 0.09f);
 constexpr double turbine_shank_radius_mm = 0.8;
 constexpr double handpiece_shank_radius_mm = 1.175;
 constexpr double shank_length_mm = 18.0;
+/// What is thicker in a burr's profile is the handpiece, which does not turn.
+constexpr double thickest_shank_radius_mm = 3.0;
 
 /// A closed grid of quads: `columns` round the z axis, one row a station, each point given by a function.
 Triangles wrap(int rows, int columns, const std::function<Vertex(int row, double angle_rad)>& point) {
@@ -166,12 +168,13 @@ Triangles fluted_head(const BurrShape& burr, const BurrProfile& profile, BurrMot
 std::vector<Station> shank_of(const BurrShape& burr) {
     const double radius = 0.5 * burr.diameter_mm;
     const double into_head_mm = 0.1 * burr.diameter_mm;
-    if (!burr.shank.empty()) {
-        std::vector<Station> stations{
-            {burr.shank.front().height_mm - into_head_mm, burr.shank.front().radius_mm}};
-        for (const ShankPoint& point : burr.shank) stations.push_back({point.height_mm, point.radius_mm});
-        return stations;
+    std::vector<Station> of_profile;
+    for (const ShankPoint& point : burr.shank) {
+        if (point.radius_mm > thickest_shank_radius_mm) break;
+        if (of_profile.empty()) of_profile.push_back({point.height_mm - into_head_mm, point.radius_mm});
+        of_profile.push_back({point.height_mm, point.radius_mm});
     }
+    if (of_profile.size() > 2) return of_profile;
     double head_end_mm = radius;
     double neck_mm = 0.45 * radius;
     if (burr.head.shape != HeadShape::ball) {

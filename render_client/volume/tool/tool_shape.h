@@ -25,8 +25,8 @@ enum class BurrMotion { still, at_speed };
 /// is the burr's true one. At speed it is the body of revolution that the flutes sweep.
 Triangles burr_head(const BurrShape& burr, BurrMotion motion = BurrMotion::still);
 
-/// Neck and shank in the same frame: the burr's profile, or a tapered neck and a cylinder. Its lower end is
-/// open, within the head.
+/// Neck and shank in the same frame: the burr's profile up to where it widens to a handpiece, or a tapered
+/// neck and a cylinder. Its lower end is open, within the head.
 Triangles burr_shank(const BurrShape& burr, BurrMotion motion = BurrMotion::still);
 
 /// A straight surgical handpiece from the end of the shank on, in the same frame: nose, ribbed grip, body,

@@ -44,7 +44,9 @@ TEST(ToolShape, HasTheOutlineOfAHeadThatIsNoBall) {
 }
 
 TEST(ToolShape, HasTheShankOfTheBurrsProfile) {
-    const BurrShape burr{.diameter_mm = 2.0, .shank = {{1.0, 0.4}, {6.0, 0.4}, {8.0, 1.2}, {30.0, 1.2}}};
+    const BurrShape burr{
+        .diameter_mm = 2.0,
+        .shank = {{1.0, 0.4}, {6.0, 0.4}, {8.0, 1.2}, {30.0, 1.2}, {31.0, 6.0}, {80.0, 8.0}}};
     float highest = 0.0f;
     for (const Vertex& vertex : burr_shank(burr).vertices) {
         const float z = vertex.position.z;
@@ -54,7 +56,7 @@ TEST(ToolShape, HasTheShankOfTheBurrsProfile) {
         }
         highest = std::max(highest, z);
     }
-    EXPECT_NEAR(highest, 30.0f, 1e-5f);
+    EXPECT_NEAR(highest, 30.0f, 1e-5f) << "from there on it is the handpiece";
     float begins = 1e6f;
     for (const Vertex& vertex : handpiece(burr).vertices) begins = std::min(begins, vertex.position.z);
     EXPECT_NEAR(begins, 29.5f, 1e-4f);
