@@ -64,11 +64,12 @@ TEST(KeyBindings, NameTheKeyOfEveryAction) {
     EXPECT_EQ(key_of(Action::undo), "U");
     EXPECT_EQ(key_of(Action::finish), "F10");
     EXPECT_EQ(key_of(Action::end), "ESC");
-    for (const KeyBinding& binding : key_bindings())
-        if (binding.action != Action::none)
-            EXPECT_TRUE(std::string(binding.name).starts_with(key_of(binding.action)) ||
-                        key_of(binding.action) == "=")
-                << binding.name;
+    for (const KeyBinding& binding : key_bindings()) {
+        if (binding.action == Action::none) continue;
+        EXPECT_TRUE(std::string(binding.name).starts_with(key_of(binding.action)) ||
+                    key_of(binding.action) == "=")
+            << binding.name;
+    }
 }
 
 TEST(KeyBindings, HaveTheKeysOfTheDocuments) {
