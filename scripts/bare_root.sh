@@ -69,8 +69,9 @@ serve_packages() {
 # run_demo: the packages' own test. Nothing is to be said on standard error: autopkgtest takes that for a failure.
 run_demo() {
     cp debian/tests/demo "$root/root/"
-    within /root/demo 2>"$root/root/demo.err"
-    [ ! -s "$root/root/demo.err" ] || { cat "$root/root/demo.err" >&2; exit 1; }
+    local result=0
+    within /root/demo 2>"$root/root/demo.err" || result=$?
+    [ "$result" -eq 0 ] && [ ! -s "$root/root/demo.err" ] || { cat "$root/root/demo.err" >&2; echo "the demo failed ($result)" >&2; exit 1; }
 }
 
 # Libraries that came with the packages may stay: they are not ours.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/shank.h"
+#include "common/scene/burr.h"
 #include "common/wire/session_info.h"
 
 namespace osteomill {

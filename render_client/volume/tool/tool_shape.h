@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/scene/burr_head.h"
-#include "common/scene/shank.h"
+#include "common/scene/burr.h"
 #include "render_client/volume/tool/triangles.h"
 
 namespace osteomill {
