@@ -128,7 +128,7 @@ TEST_F(Programs, ASessionThatWaitsForItsClientCanBeEnded) {
     ASSERT_TRUE(server.line_after("listening on ")) << server.err();
     server.send_signal(SIGINT);
     ASSERT_EQ(server.wait(), 0) << server.err();
-    EXPECT_EQ(json("server.json").at("duration_s"), 0.0);
+    EXPECT_LT(json("server.json").at("duration_s"), 0.5) << "no longer than it takes to let the hand go";
 }
 
 TEST_F(Programs, AClientThatIsKilledDisturbsNobody) {
