@@ -110,7 +110,7 @@ void add_look(CLI::App& app, RenderOptions& options) {
         "!--no-thin-bone", options.thin_bone,
         "Thin bone hides what is behind it; unless given, it takes on the colour of a sinus or a nerve");
     app.add_flag("--smooth-silhouettes", options.smooth_silhouettes,
-                 "Antialiased outlines of the bone, at about a seventh of a frame's time; never of slices");
+                 "Antialiased outlines of the bone, at about a tenth of a frame's time; never of slices");
     app.add_flag("!--no-grain", options.grain,
                  "No fine grain of bone, which stays with it; never with surface-voxels");
     app.add_flag(
