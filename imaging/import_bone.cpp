@@ -363,17 +363,17 @@ void import_bone(const ImportOptions& options, const OpenedImage& opened,
         const std::span<float> values = scratch.values().first(voxel_count(work.needed));
         const bool is_whole = read_part(options, opened, work.needed, values, pause, surroundings);
         const SourceImage part = part_of(opened.image, work.needed);
-        const std::span<float> room = scratch.values().subspan(values.size());
+        const std::span<float> space = scratch.values().subspan(values.size());
         std::optional<FieldOfView> field;
         if (!is_whole)
-            field.emplace(part, values, std::as_writable_bytes(room.first(floats_of_field(work))), pause);
+            field.emplace(part, values, std::as_writable_bytes(space.first(floats_of_field(work))), pause);
         if (field && field->voxels_outside() > 0)
             surroundings.messages << fmt::format("{}: {} voxels were not measured (padding); taken as air\n",
                                                  options.input.string(), field->voxels_outside());
         std::optional<SliceShapes> shapes;
         if (work.axis_of_shapes)
             shapes.emplace(part, values, *work.axis_of_shapes, *options.threshold_hu, work.grid.spacing_mm,
-                           room.subspan(floats_of_field(work)), pause);
+                           space.subspan(floats_of_field(work)), pause);
         const Refiner refiner(part, values, work.grid, shapes ? &*shapes : nullptr, pause);
         const SliceSource source{refiner, field ? &*field : nullptr, work.grid};
         Specks left_out;

@@ -50,8 +50,8 @@ std::optional<v2::CompareBone> DifferenceSearch::next(const Bone& bone, const Ru
     v2::CompareBone request;
     while (!suspects_.empty()) {
         const auto [first, count] = *suspects_.begin();
-        const std::size_t room = most_parts_of_a_comparison - requested_.size();
-        if (count > room && !requested_.empty()) break;  // finer parts in a request of its own
+        const std::size_t parts_left = most_parts_of_a_comparison - requested_.size();
+        if (count > parts_left && !requested_.empty()) break;  // finer parts in a request of its own
         suspects_.erase(suspects_.begin());
         const std::uint64_t per_part = rounded_up_ratio(count, most_parts_of_a_comparison);
         v2::BrickRange& range = *request.add_ranges();

@@ -51,11 +51,11 @@ class ByteSource::Inflater {
   private:
     std::size_t step(std::span<std::byte> bytes) {
         refill();
-        const auto room = static_cast<uInt>(std::min<std::size_t>(bytes.size(), 1u << 30));
+        const auto space = static_cast<uInt>(std::min<std::size_t>(bytes.size(), 1u << 30));
         stream_.next_out = reinterpret_cast<Bytef*>(bytes.data());
-        stream_.avail_out = room;
+        stream_.avail_out = space;
         const int result = inflate(&stream_, Z_NO_FLUSH);
-        const std::size_t made = room - stream_.avail_out;
+        const std::size_t made = space - stream_.avail_out;
         if (result == Z_MEM_ERROR) throw std::bad_alloc();
         if (result == Z_BUF_ERROR && made == 0)
             throw ImagingError(file_.path(), "is cut off: its compressed voxels end early");

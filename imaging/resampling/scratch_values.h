@@ -1,4 +1,4 @@
-// Room for a scan's values: in memory, or, if they are more than ought to be held there, in a file without a
+// Space for a scan's values: in memory, or, if they are more than ought to be held there, in a file without a
 // name that is mapped into it and gone with the program.
 #pragma once
 

@@ -13,14 +13,14 @@ namespace {
 using ::testing::IsEmpty;
 using Folders = std::vector<std::string>;
 
-struct Room {
+struct Module {
     std::string folder;
     Folders uses;  // beside itself and the generated messages of proto/
 };
 
 /// A file belongs to the first module whose folder holds it.
-const std::vector<Room>& rooms() {
-    static const std::vector<Room> all{
+const std::vector<Module>& modules() {
+    static const std::vector<Module> all{
         {"common/", {}},
         {"bridge/", {}},
         {"simulation/", {"common/bone/", "common/scene/"}},
@@ -54,9 +54,9 @@ bool is_in(const std::string& file, const std::string& folder) {
     return file.starts_with(folder);
 }
 
-bool may_use(const Room& room, const std::string& file) {
-    if (is_in(file, room.folder) || is_in(file, "osteomill/")) return true;
-    return std::any_of(room.uses.begin(), room.uses.end(),
+bool may_use(const Module& module, const std::string& file) {
+    if (is_in(file, module.folder) || is_in(file, "osteomill/")) return true;
+    return std::any_of(module.uses.begin(), module.uses.end(),
                        [&](const std::string& folder) { return is_in(file, folder); });
 }
 
@@ -75,24 +75,24 @@ TEST(IncludeArrows, PointDownward) {
     const std::filesystem::path root(REPOSITORY);
     Folders wrong;
     int includes = 0;
-    for (const Room& room : rooms()) {
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room.folder)) {
+    for (const Module& module : modules()) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / module.folder)) {
             const std::string extension = entry.path().extension().string();
             if (extension != ".cpp" && extension != ".h") continue;
             const std::string file = std::filesystem::relative(entry.path(), root).string();
             // A file of a narrower module is judged there.
-            const auto own = std::find_if(rooms().begin(), rooms().end(),
-                                          [&](const Room& one) { return is_in(file, one.folder); });
-            if (&*own != &room) continue;
+            const auto own = std::find_if(modules().begin(), modules().end(),
+                                          [&](const Module& one) { return is_in(file, one.folder); });
+            if (&*own != &module) continue;
             for (const std::string& included : includes_of(entry.path())) {
                 if (included.find('/') == std::string::npos || included.starts_with("..")) continue;
                 ++includes;
-                if (!may_use(room, included)) wrong.push_back(file + " includes " + included);
+                if (!may_use(module, included)) wrong.push_back(file + " includes " + included);
             }
         }
     }
     EXPECT_THAT(wrong, IsEmpty());
-    EXPECT_GT(includes, 1000) << "the rooms were not found";
+    EXPECT_GT(includes, 1000) << "the modules were not found";
 }
 
 }  // namespace
