@@ -1,8 +1,8 @@
 // Shapes beside the bone, as triangles: burr with shank and handpiece, force arrow, sphere.
 #pragma once
 
-#include "common/scene/burr_head.h"
 #include "common/scene/burr.h"
+#include "common/scene/burr_head.h"
 #include "render_client/volume/tool/triangles.h"
 
 namespace osteomill {
