@@ -150,6 +150,14 @@ void require_host_names(const TypedServerOptions& typed) {
                 name));
 }
 
+/// A measurement runs no session, so nothing of one is written.
+void require_nothing_of_a_session(const std::vector<NamedFile>& files) {
+    for (const NamedFile& file : files)
+        if (file.is_written && file.option != save_profile_flag)
+            throw std::invalid_argument(fmt::format(
+                "{} is of no use with --measure-arm, which runs no session; leave one out", file.option));
+}
+
 /// The profile to write; nothing if no arm is measured.
 std::optional<std::filesystem::path> measured_profile(const TypedServerOptions& typed,
                                                       const DeviceEntry& device) {
@@ -234,6 +242,7 @@ ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& acce
     options.measures_into = measured_profile(typed, device);
     if (outputs.json) outputs.json_histograms = histograms_beside(*outputs.json);
     options.files = files_of(options, access);
+    if (options.measures_into) require_nothing_of_a_session(options.files);
     require_distinct(options.files);
     return options;
 }

@@ -74,6 +74,43 @@ TEST(ServerOptions, DriveAHapticArmInRealTime) {
     EXPECT_THAT(error_of({"--device-profile", "polhem_v1"}), HasSubstr("--device hid"));
 }
 
+TEST(ServerOptions, MeasureAnArmIntoAProfile) {
+    EXPECT_FALSE(parse({}).options->measures_into);
+    EXPECT_EQ(*parse({"--measure-arm"}).options->measures_into, "measured_arm.toml");
+    for (const char* arm : {"hid", "haply", "bridge", "simulated"})
+        EXPECT_EQ(
+            *parse({"--measure-arm", "--device", arm, "--save-profile", "my.toml"}).options->measures_into,
+            "my.toml")
+            << arm;
+    // Over the profile that it reads, but over no other input.
+    const std::vector<const char*> hid{"--measure-arm", "--device", "hid", "--device-profile", "my.toml"};
+    const auto with = [&](std::vector<const char*> more) {
+        more.insert(more.begin(), hid.begin(), hid.end());
+        return more;
+    };
+    EXPECT_EQ(error_of(with({"--save-profile", "my.toml"})), "no error");
+    EXPECT_THAT(error_of(with({"--save-profile", "t.toml", "--controls", "t.toml"})),
+                AllOf(HasSubstr("--save-profile"), HasSubstr("--controls")));
+}
+
+TEST(ServerOptions, MeasureNothingThatIsNoHeldArm) {
+    const std::vector<std::pair<std::vector<const char*>, const char*>> wrong{
+        {{"--save-profile", "my.toml"}, "--save-profile is of no use without --measure-arm"},
+        {{"--measure-arm", "--device", "client"},
+         "--device client is no arm; take hid, bridge, haply or simulated"},
+        {{"--measure-arm", "--device", "spacemouse"}, "--device spacemouse is no arm"},
+        {{"--measure-arm", "--grip", "rails"},
+         "--measure-arm: a prescribed hand (--grip rails) feels no force"},
+        {{"--measure-arm", "--trajectory", "t.csv"}, "leave --trajectory out"},
+        {{"--measure-arm", "--save-profile", "my.txt"}, "--save-profile: 'my.txt' must end in .toml"},
+        {{"--measure-arm", "--json", "a.json"},
+         "--json is of no use with --measure-arm, which runs no session"},
+        {{"--measure-arm", "--report", "out"}, "--report is of no use with --measure-arm"},
+        {{"--measure-arm", "--device", "hid", "--clock", "virtual"}, "a person needs --clock real"}};
+    for (const auto& [words, why] : wrong)
+        EXPECT_THAT(error_of(words), AllOf(HasSubstr(why), Not(HasSubstr("\n"))));
+}
+
 TEST(ServerOptions, PutTheBurrOfATrackedHandWhereTheHandIs) {
     const std::vector<const char*> tracked{"--device", "tracker", "--tracker-registration", "t.toml"};
     const auto with = [&](std::vector<const char*> more) {
