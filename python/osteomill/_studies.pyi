@@ -142,7 +142,7 @@ def random_motions(
 def contact_models() -> list[str]: ...
 def resting_force_n(model: str, depth_mm: float) -> float: ...
 
-# Stability: points of the map, sites, rails.
+# Stability: points of the map, sites, rails, onsets.
 class SceneCache:
     def __init__(self) -> None: ...
 
@@ -180,6 +180,18 @@ def run_site(
 ) -> tuple[dict[str, Any], NDArray[np.float64]]: ...
 def motions_on_rails(count: int, seed: int) -> list[SteadyCase]: ...
 def run_on_rails(motion: SteadyCase, method: str) -> tuple[NDArray[np.float64], NDArray[np.float64], bool]: ...
+def run_onset(
+    burr: Burr,
+    *,
+    is_entry: bool,
+    up: _Vector,
+    way_mm: float,
+    speed_mm_per_s: float,
+    method: str,
+    stiffness_n_per_mm: float,
+    damping_n_s_per_mm: float,
+    is_guided: bool,
+) -> tuple[dict[str, float], NDArray[np.float64]]: ...
 
 class PolishingSlide:
     def __init__(self, edge_coefficients_n_per_mm: _Vector, rpm: float = ..., stroke_mm: float = ...) -> None: ...

@@ -1,7 +1,9 @@
-// Stability: a point of the map beside the truth in continuous time, a site where bone ends, a hand on rails.
+// Stability: a point of the map beside the truth in continuous time, a site where bone ends, a hand on rails,
+// a burr that enters bone.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <glm/geometric.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "devices/simulated/hand_model.h"
 #include "python/module/arrays.h"
 #include "python/studies/bindings.h"
+#include "studies/stability/onset/onset_run.h"
 #include "studies/stability/rails/motion_on_rails.h"
 #include "studies/stability/scene/map_run.h"
 #include "studies/stability/scene/timed_coupling.h"
@@ -185,12 +188,60 @@ void bind_rails(py::module_& module) {
         "pulled the burr away from the hand, so that it was no steady motion.");
 }
 
+void bind_onset(py::module_& module) {
+    module.def(
+        "run_onset",
+        [](const Burr& burr, bool is_entry, const py::handle& up, double way_mm, double speed_mm_per_s,
+           const std::string& method, double stiffness_n_per_mm, double damping_n_s_per_mm, bool is_guided) {
+            const study::Onset onset{.burr = burr,
+                                     .kind = is_entry ? study::OnsetKind::entry : study::OnsetKind::plunge,
+                                     .up = glm::normalize(python::vector_of(up, "up")),
+                                     .way_mm = way_mm,
+                                     .speed_mm_per_s = speed_mm_per_s};
+            const study::OnsetHand hand{.coupling = method,
+                                        .stiffness_n_per_mm = stiffness_n_per_mm,
+                                        .damping_n_s_per_mm = damping_n_s_per_mm,
+                                        .is_guided = is_guided};
+            study::OnsetRun run;
+            {
+                const py::gil_scoped_release released;
+                run = study::run_onset(onset, hand);
+            }
+            const double exact_n = study::peak_of(run.exact_n, 0.0).peak_n;
+            py::dict found;
+            std::vector<double> values(9 * run.exact_n.size());
+            std::size_t column = 0;
+            for (const auto& [name, forces_n] :
+                 {std::pair("exact", &run.exact_n), std::pair("ideal", &run.ideal_n),
+                  std::pair("felt", &run.felt_n)}) {
+                const study::OnsetPeak peak = study::peak_of(*forces_n, exact_n);
+                found[py::str(std::string(name) + "_peak_n")] = peak.peak_n;
+                found[py::str(std::string(name) + "_half_ms")] = peak.half_ms;
+                for (std::size_t i = 0; i < forces_n->size(); ++i)
+                    for (int axis = 0; axis < 3; ++axis)
+                        values[9 * i + column + static_cast<std::size_t>(axis)] = (*forces_n)[i][axis];
+                column += 3;
+            }
+            return py::make_tuple(
+                found, array_of(std::move(values), {static_cast<py::ssize_t>(run.exact_n.size()), 9}));
+        },
+        py::arg("burr"), py::kw_only(), py::arg("is_entry"), py::arg("up"), py::arg("way_mm"),
+        py::arg("speed_mm_per_s"), py::arg("method"), py::arg("stiffness_n_per_mm"),
+        py::arg("damping_n_s_per_mm"), py::arg("is_guided"),
+        "A burr enters bone (studies/stability/onset): of the exact answer, an ideal spring and the coupling "
+        "the "
+        "peak of the force over 5 ms, and when it is over half of the exact peak; and each millisecond the "
+        "three "
+        "forces on the hand, N, patient axes: (n, 9).");
+}
+
 }  // namespace
 
 void bind_stability(py::module_& module) {
     bind_map(module);
     bind_sites(module);
     bind_rails(module);
+    bind_onset(module);
 }
 
 }  // namespace osteomill::python

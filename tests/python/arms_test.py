@@ -95,8 +95,11 @@ class StudyTest(unittest.TestCase):
         self.assertEqual(list(tables["encoder"]["step_mm"]), [0.0, 0.0125, 0.1])
         self.assertTrue((tables["response"]["gain"] > 0.0).all())
         self.assertEqual(set(tables["springs"]["coupling"]), {"implicit", *arms.UNSPRUNG})
+        sprung = tables["springs"][tables["springs"]["coupling"] == "implicit"].sort_values("stiffness_n_per_mm")
+        shares = sprung.drop_duplicates("stiffness_n_per_mm")["share_of_peak"]
+        self.assertTrue(shares.is_monotonic_increasing and 0.2 < shares.min() < shares.max() < 1.0, shares)
         self.assertEqual(set(tables["slide"]["way"]), set(arms.SLIDE_WAYS))
-        for name, words in (("encoder", "encoder step, mm"), ("response", "phase, degrees"), ("springs", "spring at the arm, N/mm"),
+        for name, words in (("encoder", "encoder step, mm"), ("response", "phase, degrees"), ("springs", "share of the exact peak"),
                             ("slide", "as published")):
             self.assertIn(words, charts[name])
 

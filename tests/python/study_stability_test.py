@@ -7,7 +7,7 @@ import pandas as pd
 from study_files import run_of
 
 from osteomill import _studies
-from osteomill.studies import stability, stability_map, stability_regions, stability_sites
+from osteomill.studies import stability, stability_map, stability_onset, stability_regions, stability_sites
 from osteomill.studies.options import UsageError
 from osteomill.studies.program import parser_of
 from osteomill.studies.stability_points import CONDITIONS, map_points, text_of
@@ -75,7 +75,10 @@ class PointsTest(unittest.TestCase):
 
     def test_of_options_that_exclude_one_another_are_refused(self):
         for words, reason in ((("--sites", "--grips", "firm"), "--sites excludes --grips"), (("--walks", "3"), "--walks requires --sites"),
-                              (("--sites", "--rails", "3"), "--rails excludes --sites"), (("--only", "x"), "--only requires --sites")):
+                              (("--sites", "--rails", "3"), "--rails excludes --sites"),
+                              (("--onset", "--sites"), "--onset excludes --sites"), (("--onset", "--delays", "1"), "--onset excludes --delays"),
+                              (("--onset", "--edge-forces"), "--onset excludes --edge-forces"),
+                              (("--only", "x"), "--only requires --sites")):
             with self.assertRaisesRegex(UsageError, reason):
                 stability.run(options_of(*words), None)
         for words, reason in ((("--methods", "glue"), "'glue' is not one of implicit"), (("--milling-rates-hz", "50"), "50 is not one of 100"),
@@ -180,6 +183,34 @@ class SitesTest(unittest.TestCase):
         self.assertGreater(len(trace), 1000)
         self.assertEqual(trace["t_s"].iloc[1], 0.001)
         self.assertEqual(set(trace["spindle"]), {0, 1})
+
+
+class OnsetTest(unittest.TestCase):
+    def outcome(self, felt_n):
+        return {"exact_peak_n": 2.0, "exact_half_ms": 10.0, "ideal_peak_n": 1.0, "ideal_half_ms": 12.0, "felt_peak_n": felt_n,
+                "felt_half_ms": 15.0}
+
+    def test_shares_are_of_the_exact_peak(self):
+        cases = stability_onset.cases_of(options_of("--onset", "--quick"))
+        self.assertEqual(len({stability_onset.name_of(case) for case in cases}), len(cases))
+        plunges = [case for case in cases if case["kind"] != stability_onset.ENTRY]
+        table = stability_onset.table_of(plunges, [self.outcome(1.0 if place else 0.9) for place in range(len(plunges))])
+        self.assertAlmostEqual(table["felt_share"][0], 0.45)
+        self.assertAlmostEqual(table["points"][0], -5.0)
+        self.assertAlmostEqual(table["felt_late_ms"][0], 5.0)
+        self.assertEqual(stability_onset.bar_line_of(table), f"MISSED {len(plunges) - 1} of {len(plunges)} plunges within 3 points of the "
+                         "ideal spring's share")
+        self.assertIn("plunge, prescribed, 1.5 N/mm, implicit      0.47 (0.50)  -5.0 to +0.0  +3 to +3", stability_onset.lines_of(table))
+
+    def test_prints_and_keeps_its_table(self):
+        with run_of("stability", stability, "--onset", "--quick") as (out, said):
+            table = pd.read_csv(out / "onset.csv")
+        self.assertIn("met    16 of 16 plunges within 3 points", said)
+        self.assertEqual(len(table), 24)
+        plunges = table[table["kind"] != stability_onset.ENTRY]
+        self.assertTrue((plunges["ideal_share"] < 1.0).all() and (plunges["points"].abs() > 0.0).all())
+        with self.assertRaisesRegex(ValueError, "glue"):
+            stability_onset.measure(stability_onset.cases_of(options_of("--onset"))[0] | {"method": "glue"})
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
   force above 5 Hz, over the ticks with a force. A jump: more than 0.03 N between two ticks.
 - Response: a hand on rails whose feed swings, through a slot; the force on it over that on a burr that is rigidly the hand.
 - Springs: each shipped arm with its own spring and with softer and stiffer ones: the frequency up to which 0.71 of the force is
-  passed, and the noise in the tooth scene.
+  passed, the share of the peak when a firm hand plunges into bone (stability_onset.py), and the noise in the tooth scene.
 - Slide: the published experiment in strokes of 8 mm, by spindle speed and grip: the limit cycle of the force on the hand. It is
   the rms, below which nine tenths of half-second windows stay, of the force less its mean over 0.1 s; with the arm as it is, and
   without friction and encoder steps, which hide limit cycles.
@@ -19,6 +19,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from osteomill import Case, _studies
+from osteomill.studies import stability_onset
 from osteomill.studies.study_run import StudyRun
 
 NAME = "arms"
@@ -83,7 +84,8 @@ def measure(case: dict[str, Any]) -> dict[str, float]:
         response, rigid_n_s_per_m = _studies.force_response(case["coupling"], case["stiffness_n_per_mm"], case["hz"])
         return {"gain": abs(response), "phase_deg": float(np.degrees(np.angle(response))), "rigid_n_s_per_m": rigid_n_s_per_m}
     if case["part"] == "bandwidth":
-        return {"bandwidth_hz": _bandwidth_hz(case["stiffness_n_per_mm"])}
+        return {"bandwidth_hz": _bandwidth_hz(case["stiffness_n_per_mm"]),
+                "share_of_peak": stability_onset.share_of_peak(case["stiffness_n_per_mm"])}
     if case["part"] == "spring":
         arm = dict(_studies.shipped_arms())[case["arm"]]
         return noise_of(_studies.forces_on_hand(_case("tooth"), arm, coupling=case["coupling"], longest_s=case["longest_s"],
@@ -150,8 +152,9 @@ def tables_of(choices: list[dict[str, Any]], outcomes: list[dict[str, float]]) -
 
     encoder, springs = of("encoder"), of("spring")
     encoder.insert(3, "noise_percent", 100.0 * encoder["noise_n"] / encoder["mean_force_n"])
-    passed = of("bandwidth").set_index("stiffness_n_per_mm")["bandwidth_hz"]
-    springs["bandwidth_hz"] = springs["stiffness_n_per_mm"].map(passed).where(springs["coupling"] == "implicit")
+    passed = of("bandwidth").set_index("stiffness_n_per_mm")
+    for number in ("bandwidth_hz", "share_of_peak"):
+        springs[number] = springs["stiffness_n_per_mm"].map(passed[number]).where(springs["coupling"] == "implicit")
     limited_by = {name: arm.limited_by for name, arm in _studies.shipped_arms()}
     springs["limited_by"] = springs["arm"].map(limited_by).where(springs["is_chosen"], "")
     return {"encoder": encoder, "response": of("response"), "springs": springs, "slide": of("slide")}

@@ -41,21 +41,24 @@ def response(table: pd.DataFrame) -> Figure:
 
 
 def springs(table: pd.DataFrame) -> Figure:
-    figure = charts.figure(10.0, 4.8)
+    figure = charts.figure(13.0, 4.8)
     figure.suptitle("Springs of the shipped arms; filled: what each gets; crosses: the published coupling")
-    passed, noise = figure.subplots(1, 2)
+    passed, peak, noise = figure.subplots(1, 3)
+    of_springs = ((passed, "bandwidth_hz"), (peak, "share_of_peak"))
     first = table["arm"].iloc[0]
     for colour, (arm, rows) in zip((charts.BLUE, charts.RED, charts.GREEN, charts.PINK, charts.AMBER), table.groupby("arm", sort=False)):
         sprung = rows[rows["coupling"] == "implicit"].sort_values("stiffness_n_per_mm")
         gets = sprung[sprung["is_chosen"]]
         published = rows[rows["coupling"] == "interpolate"]
-        if arm == first:
-            passed.plot(sprung["stiffness_n_per_mm"], sprung["bandwidth_hz"], marker="o", markerfacecolor="white", color=charts.GREY)
-        passed.plot(gets["stiffness_n_per_mm"], gets["bandwidth_hz"], marker="o", markersize=8, color=colour, linestyle="none")
+        for axes, number in of_springs:
+            if arm == first:
+                axes.plot(sprung["stiffness_n_per_mm"], sprung[number], marker="o", markerfacecolor="white", color=charts.GREY)
+            axes.plot(gets["stiffness_n_per_mm"], gets[number], marker="o", markersize=8, color=colour, linestyle="none")
         noise.plot(sprung["stiffness_n_per_mm"], sprung["noise_n"], marker="o", markerfacecolor="white", color=colour, label=arm)
         noise.plot(gets["stiffness_n_per_mm"], gets["noise_n"], marker="o", markersize=8, color=colour, linestyle="none")
         noise.plot(published["stiffness_n_per_mm"], published["noise_n"], marker="x", color=colour, linestyle="none")
     passed.set(xlabel="spring at the arm, N/mm", ylabel="force passed up to, Hz", xlim=(0.0, 5.0), ylim=(0.0, None))
+    peak.set(xlabel="spring at the arm, N/mm", ylabel="share of the exact peak of a plunge", xlim=(0.0, 5.0), ylim=(0.0, 1.0))
     noise.set(xlabel="spring at the arm, N/mm", ylabel="force above 5 Hz, N rms", xlim=(0.0, 5.0), ylim=(0.0, None))
     noise.legend(loc="center right")
     return figure

@@ -1,10 +1,10 @@
 """Stability: the range in which each coupling holds, and its error there. It runs the map; or, in its place, sites where bone
-ends, or motions on rails.
+ends, motions on rails, or entries into bone.
 
 The map runs every coupling in the program's own loops on a device of its own, beside the truth in continuous time of the
 same scene and hand (a finely simulated arm): a point is stable where the force has no limit cycle beyond the truth's and
-gives the hand no energy beyond it. Points: stability_points.py; evaluation: stability_map.py; sites and rails:
-stability_sites.py, stability_rails.py.
+gives the hand no energy beyond it. Points: stability_points.py; evaluation: stability_map.py; sites, rails and
+entries: stability_sites.py, stability_rails.py, stability_onset.py.
 
 A case of the sweep is a scene in a hand, with all couplings, rates and delays: they share one bone and one truth, whose
 computation takes as long as many of them.
@@ -15,7 +15,7 @@ import json
 from typing import Any
 
 from osteomill import _studies
-from osteomill.studies import stability_map, stability_rails, stability_regions, stability_sites
+from osteomill.studies import stability_map, stability_onset, stability_rails, stability_regions, stability_sites
 from osteomill.studies.options import UsageError, listed, number, one_of, whole_within
 from osteomill.studies.stability_points import DELAYS_TICKS, GRIPS, METHODS, MILLING_RATES_HZ, Point, map_points
 from osteomill.studies.study_run import StudyRun
@@ -44,6 +44,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rails", type=whole_within(1, 100_000), metavar="N",
                         help="instead of the map: so many random steady motions of a hand on rails, and how far the mean force "
                         "on it is from the milling model's")
+    parser.add_argument("--onset", action="store_true",
+                        help="instead of the map: a burr enters bone; the share of the exact answer's peak that the hand feels, beside "
+                        "that of an ideal spring")
     parser.add_argument("--seed", type=whole_within(0, 2**63 - 1), default=1, metavar="N",
                         help="of the random walks or motions (%(default)s)")
 
@@ -58,6 +61,8 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
     _require_what_belongs_together(options)
     if options.rails:
         stability_rails.run(options, study)
+    elif options.onset:
+        stability_onset.run(options, study)
     elif options.sites:
         stability_sites.run(options, study)
     else:
@@ -65,11 +70,14 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
 
 
 def _require_what_belongs_together(options: argparse.Namespace) -> None:
-    if options.sites and options.rails:
-        raise UsageError("--rails excludes --sites")
+    instead = [f"--{name}" for name in ("onset", "rails", "sites") if getattr(options, name)]
+    if len(instead) > 1:
+        raise UsageError(f"{instead[0]} excludes {instead[1]}")
     for name in OF_THE_MAP:
-        if options.sites and getattr(options, name):
-            raise UsageError(f"--sites excludes --{name.replace('_', '-')}")
+        if (options.sites or options.onset) and getattr(options, name):
+            raise UsageError(f"{instead[0]} excludes --{name.replace('_', '-')}")
+    if options.onset and options.edge_forces:
+        raise UsageError("--onset excludes --edge-forces: the impulse of edges that rub depends on how long they do")
     for name in ("walks", "only"):
         if getattr(options, name) and not options.sites:
             raise UsageError(f"--{name} requires --sites")

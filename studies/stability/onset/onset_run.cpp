@@ -28,7 +28,11 @@ struct Plan {
 
     double way_mm(double time_s) const { return std::min(speed_mm_per_s * time_s, end_mm); }
     double speed_at(double time_s) const { return speed_mm_per_s * time_s < end_mm ? speed_mm_per_s : 0.0; }
-    int ticks() const { return static_cast<int>((end_mm / speed_mm_per_s + after_stop_s) / onset_tick_s); }
+    /// A prescribed hand that stops takes its force away; a guided one still pushes.
+    int ticks(bool is_guided) const {
+        return static_cast<int>(
+            std::ceil((end_mm / speed_mm_per_s + (is_guided ? after_stop_s : 0.0)) / onset_tick_s));
+    }
 
     double end_mm;
     double speed_mm_per_s;
@@ -100,7 +104,7 @@ std::vector<glm::dvec3> exact_forces(const Onset& onset, const ImpulseByWay& imp
     HandOnLine hand(onset, is_guided);
     double deepest_mm = 0.0;
     std::vector<glm::dvec3> forces_n;
-    for (int tick = 0; tick < Plan(onset).ticks(); ++tick) {
+    for (int tick = 0; tick < Plan(onset).ticks(is_guided); ++tick) {
         const glm::dvec3 before_n_s = impulse.at(deepest_mm);
         for (int i = 0; i < substeps; ++i) {
             hand.move_in_bone([&](double way_mm) {
@@ -199,7 +203,7 @@ std::vector<glm::dvec3> sampled_forces(const Onset& onset, const OnsetLine& line
     HandOnLine hand(onset, is_guided);
     glm::dvec3 force_n(0.0);
     std::vector<glm::dvec3> forces_n;
-    for (int i = 0; i < Plan(onset).ticks(); ++i) {
+    for (int i = 0; i < Plan(onset).ticks(is_guided); ++i) {
         for (int k = 0; k < substeps; ++k) hand.move(glm::dot(force_n, line.direction));
         force_n = tick(hand, (i + 1) * onset_tick_s);
         forces_n.push_back(force_n);

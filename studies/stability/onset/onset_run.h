@@ -34,8 +34,9 @@ struct OnsetRun {
     std::vector<glm::dvec3> felt_n;  ///< with the coupling
 };
 
-/// Until a tenth of a second after the hand wants to stop. Throws std::invalid_argument for an unknown
-/// coupling, a spring that is none, a speed or way that is not above 0, and what ImpulseByWay refuses.
+/// Until a prescribed hand stops, or a tenth of a second after a guided one means to. Throws
+/// std::invalid_argument for an unknown coupling, a spring that is none, a speed or way that is not above 0,
+/// and what ImpulseByWay refuses.
 OnsetRun run_onset(const Onset& onset, const OnsetHand& hand);
 
 struct OnsetPeak {
