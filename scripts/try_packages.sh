@@ -57,7 +57,7 @@ say "upgrade: from the same with an older version, a file that is no more, and s
 older=$root/root/older
 for package in "$packages"/*.deb; do
     dpkg-deb -R "$package" "$older"
-    sed -i 's/^Version: .*/&~older/' "$older/DEBIAN/control"
+    sed -i 's/^Version: .*/&~older/; s/(= [^)]*/&~older/g' "$older/DEBIAN/control"  # packages of one version name one another
     mkdir -p "$older/usr/share/osteomill"
     touch "$older/usr/share/osteomill/$(basename "$package").no_more"
     dpkg-deb -Znone --root-owner-group --build "$older" "$older.$(basename "$package")" >/dev/null
