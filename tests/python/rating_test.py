@@ -54,7 +54,7 @@ class CariesPreparations(unittest.TestCase):
 
 class RatingTest(CariesPreparations):
     def test_the_best_one_between_and_the_worst(self):
-        found = self.check((4.4, 5.5, 6.5), (2.6,), different=3)
+        found = self.check((4.4, 5.5, 7.0), (2.6,), different=3)
 
         report = self.folder / "report"
         subprocess.run([program("packet_replay"), self.folder / "0.pcap", "--report", report], check=True, capture_output=True)
