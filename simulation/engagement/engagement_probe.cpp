@@ -9,6 +9,16 @@
 
 namespace osteomill {
 
+namespace {
+
+/// Bone that begins no farther than this before uncut bone is a wall.
+constexpr float wall_from_voxels = 0.5f;
+/// The half level of a rim's fractions lies so far behind it. Nothing cuts what a burr enters there, so a
+/// wall begins that much before uncut bone, on the safe side of a flat one.
+constexpr double rim_recedes_voxels = 0.4;
+
+}  // namespace
+
 EngagementProbe::EngagementProbe(const Burr& burr, double spacing_mm, const EdgeShares& edge_shares,
                                  const UncutTissues& uncut)
     : radius_mm_(burr.radius_mm()),
@@ -72,6 +82,7 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
         engaged.is_wall = false;
         if (uncut_.has_any && is_uncut(surface, outward, crossing)) {
             engaged.is_wall = out.has_walls = true;
+            engaged.gap_mm += (voxels_over_uncut(surface, outward, crossing) - rim_recedes_voxels) * h;
             engaged.cutting_n_s_per_mm = glm::dvec3(0.0);
         } else if (has_edge_force_) {
             const std::uint8_t label = bricks_.tissue(surface + (crossing.offset_voxels + 1.0f) * outward);
@@ -84,7 +95,19 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
 bool EngagementProbe::is_uncut(const glm::vec3& surface, const glm::vec3& outward,
                                const PatchCrossing& crossing) const noexcept {
     // The label is read where bone begins, not behind: a layer on top of uncut bone is still to be cut.
-    return uncut_.of_label[bricks_.tissue(surface + (crossing.offset_voxels + 0.5f) * outward)];
+    return uncut_.of_label[bricks_.tissue(surface + (crossing.offset_voxels + wall_from_voxels) * outward)];
+}
+
+double EngagementProbe::voxels_over_uncut(const glm::vec3& surface, const glm::vec3& outward,
+                                          const PatchCrossing& crossing) const noexcept {
+    constexpr int steps = 5;
+    constexpr float step_voxels = wall_from_voxels / steps;
+    for (int i = 1; i < steps; ++i) {
+        const float ahead = crossing.offset_voxels + static_cast<float>(i) * step_voxels;
+        if (uncut_.of_label[bricks_.tissue(surface + ahead * outward)])
+            return static_cast<double>(static_cast<float>(i - 1) * step_voxels);
+    }
+    return static_cast<double>(wall_from_voxels - step_voxels);
 }
 
 }  // namespace osteomill

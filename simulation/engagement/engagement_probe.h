@@ -42,6 +42,10 @@ class EngagementProbe {
     bool is_uncut(const glm::vec3& surface, const glm::vec3& outward,
                   const PatchCrossing& crossing) const noexcept;
 
+    /// Thickness of what is still to be cut before the uncut bone of such a crossing, to a tenth of a voxel.
+    double voxels_over_uncut(const glm::vec3& surface, const glm::vec3& outward,
+                             const PatchCrossing& crossing) const noexcept;
+
     double radius_mm_;
     bool has_edge_force_;
     EdgeShares edge_shares_;

@@ -1,13 +1,17 @@
 // A hand presses a turning burr through bone onto tissue that no burr cuts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <string>
 
 #include "common/bone/bone_builder.h"
 #include "devices/simulated/simulated_device.h"
+#include "simulation/coupling/couplings.h"
 #include "simulation/force_models/force_models.h"
+#include "simulation/force_models/milling_model.h"
 #include "simulation/loop/milling_session.h"
 
 namespace osteomill {
@@ -78,6 +82,55 @@ TEST(UncutTissue, HoldsAHeadThatIsNoBall) {
     EXPECT_GT(report.peak_force_n, 0.6);
     EXPECT_LT(report.most_energy_to_hand_mj, 1.0);
     for (const std::uint64_t count : report.fault_counts) EXPECT_EQ(count, 0U);
+}
+
+/// A screw of 3.5 mm that stands out of bone by 1 mm, and the depth to which an arm with 1.5 N/mm presses a
+/// turning ball into its rim, at an angle about it.
+double entered_at_the_rim_mm(double ball_radius_mm, double angle_rad) {
+    constexpr double screw_radius_mm = 1.75;
+    const Grid grid{.size_voxels = {80, 80, 32}, .spacing_mm = 0.1, .origin_mm = {-3.95, -3.95, -3.15}};
+    const Bone bone =
+        filled(BoneBuilder::homogeneous(grid, 1.0, true), grid, [&](const glm::ivec3& voxel) -> VoxelValues {
+            const glm::dvec3 centre_mm = centre_of_voxel_mm(grid, voxel);
+            if (centre_mm.z < 0.0 && std::hypot(centre_mm.x, centre_mm.y) < screw_radius_mm)
+                return {.fraction = 255, .tissue = implant_label};
+            if (centre_mm.z < implant_top_mm) return {.fraction = 255, .tissue = bone_label};
+            return {.fraction = 0};
+        });
+    const Scene scene = implant_scene({.name = "ball", .diameter_mm = 2.0 * ball_radius_mm});
+    MillingModel model(bone, scene.burrs, scene.tissues);
+    const auto coupling = make_coupling("implicit", {});
+    ForgottenChanges changes;
+    const auto latest = std::make_unique<MillingResult>();
+    const glm::dvec3 outward(std::cos(angle_rad), std::sin(angle_rad), 0.0);
+    const glm::dvec3 way = -glm::normalize(outward + glm::dvec3(0.0, 0.0, 1.0));
+    glm::dvec3 hand_mm = screw_radius_mm * outward - (ball_radius_mm + 0.2) * way;
+    glm::dvec3 burr_mm = hand_mm;
+    double entered_mm = 0.0;
+    for (int tick = -1; tick < 400; ++tick) {
+        const double now_s = 0.001 * tick;
+        model.step({.pose = {burr_mm, {0.0, 0.0, 1.0}}, .spindle_on = tick >= 0, .elapsed_s = 0.001}, now_s,
+                   changes, *latest);
+        if (tick < 0) continue;
+        hand_mm += 0.006 * way;
+        burr_mm =
+            coupling->tick({.now_s = now_s, .pose = {hand_mm, {0.0, 0.0, 1.0}}, .spindle_on = true}, *latest)
+                .burr_pose.position_mm;
+        const double beside_mm = std::hypot(burr_mm.x, burr_mm.y) - screw_radius_mm;
+        const double away_mm = std::hypot(std::max(beside_mm, 0.0), std::max(burr_mm.z, 0.0)) +
+                               std::min(0.0, std::max(beside_mm, burr_mm.z));
+        entered_mm = std::max(entered_mm, ball_radius_mm - away_mm);
+    }
+    return entered_mm;
+}
+
+TEST(UncutTissue, IsEnteredAtItsRimByATenthOfAMillimetreAtMost) {
+    for (const double ball_radius_mm : {1.0, 1.5})
+        for (const double angle_rad : {0.0, 0.37, 0.74, 1.11, 1.48}) {
+            const double entered_mm = entered_at_the_rim_mm(ball_radius_mm, angle_rad);
+            EXPECT_LT(entered_mm, 0.1) << ball_radius_mm << " mm at " << angle_rad;
+            EXPECT_GT(entered_mm, -0.05) << "it is met";
+        }
 }
 
 TEST(UncutTissue, ThatNobodyForbidsToCutIsCut) {
