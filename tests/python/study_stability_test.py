@@ -200,7 +200,7 @@ class OnsetTest(unittest.TestCase):
         self.assertAlmostEqual(table["felt_late_ms"][0], 5.0)
         self.assertEqual(stability_onset.bar_line_of(table), f"MISSED {len(plunges) - 1} of {len(plunges)} plunges within 3 points of the "
                          "ideal spring's share")
-        self.assertIn("plunge, prescribed, 1.5 N/mm, implicit      0.47 (0.50)  -5.0 to +0.0  +3 to +3", stability_onset.lines_of(table))
+        self.assertIn("plunge, prescribed, 1.5 N/mm, implicit      0.47 (0.50)  -5.0 to +0.0     +3 to +3", stability_onset.lines_of(table))
 
     def test_prints_and_keeps_its_table(self):
         with run_of("stability", stability, "--onset", "--quick") as (out, said):

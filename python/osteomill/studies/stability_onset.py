@@ -76,14 +76,14 @@ def lines_of(table: pd.DataFrame) -> list[str]:
     over all of them by how many points the felt one misses the ideal, and how much later half of the peak is there."""
     speeds = list(dict.fromkeys(table["speed_mm_per_s"]))
     of_speeds = "".join(f"{f'{speed:g} mm/s':>14}" for speed in speeds)
-    lines = [f"{'share of the exact peak: felt (ideal)':<41}{of_speeds}{'points':>14}{'ms later':>10}"]
+    lines = [f"{'share of the exact peak: felt (ideal)':<41}{of_speeds}{'points':>14}{'ms later':>13}"]
     by = ["method", table["kind"].str.split().str[0], "hand", "stiffness_n_per_mm"]
     for (method, way, hand, stiffness), rows in table.groupby(by, sort=False):
         means = rows.groupby("speed_mm_per_s")[["felt_share", "ideal_share"]].mean()
         shares = "".join(f"{f'{means.felt_share[speed]:.2f} ({means.ideal_share[speed]:.2f})':>14}" for speed in speeds)
         off = f"{rows['points'].min():+.1f} to {rows['points'].max():+.1f}"
         late = rows["felt_late_ms"] - rows["ideal_late_ms"]
-        lines.append(f"{f'{way}, {hand}, {stiffness:g} N/mm, {method}':<41}{shares}{off:>14}{f'{late.min():+g} to {late.max():+g}':>10}")
+        lines.append(f"{f'{way}, {hand}, {stiffness:g} N/mm, {method}':<41}{shares}{off:>14}{f'{late.min():+g} to {late.max():+g}':>13}")
     return lines
 
 
