@@ -99,7 +99,7 @@ double entered_at_the_rim_mm(double ball_radius_mm, double angle_rad) {
         });
     const Scene scene = implant_scene({.name = "ball", .diameter_mm = 2.0 * ball_radius_mm});
     MillingModel model(bone, scene.burrs, scene.tissues);
-    const auto coupling = make_coupling("implicit", {});
+    const auto coupling = make_coupling(coupling_named("implicit"), {});
     ForgottenChanges changes;
     const auto latest = std::make_unique<MillingResult>();
     const glm::dvec3 outward(std::cos(angle_rad), std::sin(angle_rad), 0.0);
