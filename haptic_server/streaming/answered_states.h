@@ -49,7 +49,7 @@ class AnsweredStates {
         std::uint64_t number = 0;
         Time true_until;
     };
-    /// Older states are dropped, and count as too old: a OutgoingFrames makes that many in a tenth of a
+    /// Older states are dropped, and count as too old: OutgoingFrames makes that many in a tenth of a
     /// second at most.
     static constexpr std::size_t most_kept = 1024;
 
