@@ -9,9 +9,9 @@ namespace osteomill {
 namespace {
 
 /// Share of a patch that touches the bone.
-double touching_share(double gap_voxels) {
-    constexpr double width = BurrProxy::surely_apart_voxels - BurrProxy::surely_touching_voxels;
-    return std::clamp((BurrProxy::surely_apart_voxels - gap_voxels) / width, 0.0, 1.0);
+double touching_share(double gap_voxels, const TouchingGaps& gaps) {
+    return std::clamp((gaps.apart_voxels - gap_voxels) / (gaps.apart_voxels - gaps.touching_voxels), 0.0,
+                      1.0);
 }
 
 /// Energy with which bone separates the burr that it drives from the hand; below 0 if it does not.
@@ -52,6 +52,7 @@ void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
     apart_mj_ = 0.0;
     pulled_n_ = glm::dvec3(0.0);
     map_step_ = 0;
+    map_period_s_ = 0.0;
     walls_ = {};
     correction_.reset();
     cut_mm_.fill(0.0);
@@ -60,6 +61,8 @@ void BurrProxy::place(const glm::dvec3& position_mm) noexcept {
 void BurrProxy::take_over(const MillingResult& latest) noexcept {
     if (latest.step == map_step_) return;
     map_step_ = latest.step;
+    map_period_s_ = latest.time_s - map_time_s_;
+    map_time_s_ = latest.time_s;
     if (latest.spindle_on) correction_.compare(latest.force_n, latest.time_s, latest.pose.spindle_axis);
     const Engagement& engagement = latest.engagement;
     std::fill_n(cut_mm_.begin(), engagement.count, 0.0);
@@ -70,6 +73,7 @@ std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double st
                                                     const glm::dvec3& pull_n,
                                                     const Engagement& engagement) noexcept {
     std::size_t count = 0;
+    const TouchingGaps& gaps = map_period_s_ > longest_quick_period_s ? slow_gaps : quick_gaps;
     const double most_out_mm = scale_.speed_mm_per_s(most_push_out_mm_per_s) * step_s;
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
     const double yields_mm = engagement.has_edge_force && meets == Meets::chips ? edge_yields_mm : 0.0;
@@ -92,7 +96,7 @@ std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double st
             continue;
         }
         if (meets == Meets::walls_only) continue;
-        const double share = touching_share(patch.gap_mm / engagement.spacing_mm);
+        const double share = touching_share(patch.gap_mm / engagement.spacing_mm, gaps);
         const double begins = cut_mm_[i] - along;
         const double begins_beyond_gap = std::max(patch.gap_mm, cut_mm_[i]) - along;
         if ((share > 0.0 ? begins : begins_beyond_gap) > longest_mm) continue;

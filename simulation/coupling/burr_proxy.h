@@ -72,6 +72,12 @@
 
 namespace osteomill {
 
+/// Between these gaps a patch counts as touching by a share.
+struct TouchingGaps {
+    double touching_voxels;
+    double apart_voxels;
+};
+
 class BurrProxy {
   public:
     /// `wall_friction`: Coulomb's coefficient with the spindle off. `arm`: on whose spring the burr is.
@@ -107,9 +113,11 @@ class BurrProxy {
     /// Moment of the push on the shank about the burr's centre, N mm, patient axes.
     const glm::dvec3& shank_torque_n_mm() const { return walls_.torque_n_mm; }
 
-    /// Between these gaps a patch counts as touching by a share.
-    static constexpr double surely_touching_voxels = 0.04;
-    static constexpr double surely_apart_voxels = 0.11;
+    /// Of a milling loop at 300 Hz or more; and of a slower one, whose burr meets many voxels between two
+    /// maps, and feels the lattice as a ripple unless it is smoothed.
+    static constexpr TouchingGaps quick_gaps{0.04, 0.11};
+    static constexpr TouchingGaps slow_gaps{0.1, 0.3};
+    static constexpr double longest_quick_period_s = 0.004;
     /// Depth by which a patch gives way before its edges cut, and how far the carving burr may trail, since a
     /// patch that lies nearly along the motion yields, too.
     static constexpr double edge_yields_mm = 0.001;
@@ -181,6 +189,8 @@ class BurrProxy {
     glm::dvec3 hand_mm_{0.0};    // of the last tick
     double apart_mj_ = 0.0;      // that bone lately spent on setting burr and hand apart
     std::uint64_t map_step_ = 0;
+    double map_time_s_ = 0.0;    // session time of the map
+    double map_period_s_ = 0.0;  // since the map before; 0: not known
     ForceCorrection correction_;
     SolveCounts counts_;
     int iterations_ = 0;
