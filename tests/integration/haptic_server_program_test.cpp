@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "tests/support/folder_test.h"
 
@@ -57,6 +58,21 @@ TEST_F(HapticServerProgram, MillsOnTheVirtualClockAndWritesWhatItMeasured) {
     long count = 0;
     for (std::string line; std::getline(lines, line);) ++count;
     EXPECT_EQ(count, 1 + 3001);
+}
+
+TEST_F(HapticServerProgram, SaysInOneLineWhyItMeasuresNoArm) {
+    const std::string into = " --save-profile " + file("nowhere") + "/arm.toml";
+    for (const auto& [arguments, why] :
+         {std::pair<std::string, std::string>{"--device client", "is no arm"},
+          {"--json " + file("a.json"), "which runs no session"},
+          {"--clock virtual" + into, "there is no folder"},
+          {"--device hid --save-profile " + file("arm.toml"), "is it plugged in and powered?"}}) {
+        const Outcome outcome = run("--measure-arm " + arguments);
+        EXPECT_GT(outcome.exit_code, 0) << arguments;
+        EXPECT_THAT(outcome.err, HasSubstr(why));
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(file("arm.toml")));
+    }
 }
 
 TEST_F(HapticServerProgram, FeelsAShankAndIsRepeatable) {
