@@ -113,7 +113,7 @@ class BurrProxy {
     /// Moment of the push on the shank about the burr's centre, N mm, patient axes.
     const glm::dvec3& shank_torque_n_mm() const { return walls_.torque_n_mm; }
 
-    /// Of a milling loop at 300 Hz or more; and of a slower one, whose burr meets many voxels between two
+    /// For a milling loop at 250 Hz or more; and for a slower one, whose burr meets many voxels between two
     /// maps, and feels the lattice as a ripple unless it is smoothed.
     static constexpr TouchingGaps quick_gaps{0.04, 0.11};
     static constexpr TouchingGaps slow_gaps{0.1, 0.3};
