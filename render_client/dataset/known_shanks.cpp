@@ -13,7 +13,7 @@ void KnownShanks::take_in(const SessionInfo* session) {
         for (const Burr& burr : parse_scene(scene_toml_, "the session's scene").burrs)
             shanks_.push_back(burr.shank);
     } catch (const SceneError&) {
-        // Of a server that knows more than this client: its burrs have the usual shank.
+        // A server that knows more than this client sent it: burrs have the usual shank.
         shanks_.clear();
     }
     if (shanks_.size() != session->burrs.size()) shanks_.clear();

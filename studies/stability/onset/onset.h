@@ -25,7 +25,7 @@ enum class OnsetKind {
 struct Onset {
     Burr burr;  ///< a ball, whose edges do not rub
     OnsetKind kind = OnsetKind::plunge;
-    /// Of a plunge: out of the bone, unit; anything but an axis lies aslant in the lattice.
+    /// Way out of the bone, of a plunge; unit. Anything but an axis lies aslant in the lattice.
     glm::dvec3 up{0.0, 0.0, 1.0};
     double depth_mm = 0.45;         ///< of an entry: the burr's lowest point's under the top
     double way_mm = 0.5;            ///< beyond the first touch, which the hand means to go; up to 3
@@ -53,7 +53,7 @@ class ImpulseByWay {
   public:
     explicit ImpulseByWay(const Onset& onset);
 
-    /// Of the bone on the burr from the start of the line to `way_mm` (0 or more), N s, patient axes.
+    /// Impulse of the bone on the burr from the start of the line to `way_mm` (0 or more), N s, patient axes.
     glm::dvec3 at(double way_mm) const;
     /// Its part along the line, negative where bone resists.
     double along(double way_mm) const;
