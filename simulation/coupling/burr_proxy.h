@@ -113,11 +113,11 @@ class BurrProxy {
     /// Moment of the push on the shank about the burr's centre, N mm, patient axes.
     const glm::dvec3& shank_torque_n_mm() const { return walls_.torque_n_mm; }
 
-    /// For a milling loop at 250 Hz or more; and for a slower one, whose burr meets many voxels between two
+    /// For a milling loop at 500 Hz or more; and for a slower one, whose burr meets many voxels between two
     /// maps, and feels the lattice as a ripple unless it is smoothed.
     static constexpr TouchingGaps quick_gaps{0.04, 0.11};
     static constexpr TouchingGaps slow_gaps{0.1, 0.3};
-    static constexpr double longest_quick_period_s = 0.004;
+    static constexpr double longest_quick_period_s = 0.002;
     /// Depth by which a patch gives way before its edges cut, and how far the carving burr may trail, since a
     /// patch that lies nearly along the motion yields, too.
     static constexpr double edge_yields_mm = 0.001;
