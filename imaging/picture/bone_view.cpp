@@ -271,7 +271,7 @@ void draw_outline(RgbPicture& picture, const BoneView& view, const glm::dvec3& r
                 std::ranges::copy(colour, picture.rgb.begin() + 3 * (row * size + column));
 }
 
-/// Of a region of voxels, as a rule for places.
+/// A region of voxels as a rule for places.
 std::function<bool(const glm::dvec3& place_mm)> outlined(const Grid& grid, const BoneView& view,
                                                          const SectionMarks& marks) {
     if (!marks.is_outlined_voxel) return marks.is_outlined;

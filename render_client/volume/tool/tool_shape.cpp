@@ -22,7 +22,7 @@ constexpr glm::vec3 grip_grey(0.075f, 0.08f, 0.09f);
 constexpr double turbine_shank_radius_mm = 0.8;
 constexpr double handpiece_shank_radius_mm = 1.175;
 constexpr double shank_length_mm = 18.0;
-/// What is thicker in a burr's profile is the handpiece, which does not turn.
+/// A thicker part of a burr's profile is the handpiece, which does not turn.
 constexpr double thickest_shank_radius_mm = 3.0;
 
 /// A closed grid of quads: `columns` round the z axis, one row a station, each point given by a function.
