@@ -1,6 +1,6 @@
 // Recorder of a session, which acts as one more client: a client's frames go into a file.
 //
-// It uses a OutgoingFrames like any client, so on a slow disk changes are merged and sent later, and the
+// It uses OutgoingFrames like any client, so on a slow disk changes are merged and sent later, and the
 // streaming thread never waits. A full disk acts like a slow one: the session goes on, and once there is
 // space the next frame contains all changes since. Poses of that time are missing, bone is not. Ticks wait in
 // their queue until it is full; lost ticks are counted.

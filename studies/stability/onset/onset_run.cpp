@@ -11,13 +11,13 @@
 #include "simulation/coupling/implicit_coupling.h"
 #include "simulation/force_models/milling_model.h"
 #include "studies/stability/scene/held_tool.h"
+#include "studies/stability/scene/scene_plan.h"
 
 namespace osteomill::study {
 namespace {
 
-constexpr double onset_tick_s = 0.001;
 constexpr int substeps = 50;
-constexpr double substep_s = onset_tick_s / substeps;
+constexpr double substep_s = tick_s / substeps;
 constexpr double after_stop_s = 0.1;
 constexpr int mean_over_ticks = 5;
 
@@ -31,7 +31,7 @@ struct Plan {
     /// A prescribed hand that stops takes its force away; a guided one still pushes.
     int ticks(bool is_guided) const {
         return static_cast<int>(
-            std::ceil((end_mm / speed_mm_per_s + (is_guided ? after_stop_s : 0.0)) / onset_tick_s));
+            std::ceil((end_mm / speed_mm_per_s + (is_guided ? after_stop_s : 0.0)) / tick_s));
     }
 
     double end_mm;
@@ -112,7 +112,7 @@ std::vector<glm::dvec3> exact_forces(const Onset& onset, const ImpulseByWay& imp
             });
             deepest_mm = std::max(deepest_mm, hand.way_mm());
         }
-        forces_n.push_back((impulse.at(deepest_mm) - before_n_s) / onset_tick_s);
+        forces_n.push_back((impulse.at(deepest_mm) - before_n_s) / tick_s);
     }
     return forces_n;
 }
@@ -126,11 +126,11 @@ class IdealBurr {
     }
 
     glm::dvec3 tick(double hand_mm) {
-        const LinearPull pull = spring_.follow_hand({hand_mm, 0.0, 0.0}, onset_tick_s);
+        const LinearPull pull = spring_.follow_hand({hand_mm, 0.0, 0.0}, tick_s);
         const auto excess_n = [&](double step_mm) {
             const double to_mm = std::max(way_mm_ + step_mm, deepest_mm_);
             return pull.offset_n.x - pull.stiffness_n_per_mm * step_mm +
-                   (impulse_.along(to_mm) - impulse_.along(deepest_mm_)) / onset_tick_s;
+                   (impulse_.along(to_mm) - impulse_.along(deepest_mm_)) / tick_s;
         };
         const double free_mm = pull.offset_n.x / pull.stiffness_n_per_mm;
         if (impulse_.along(std::max(way_mm_ + free_mm, deepest_mm_)) == impulse_.along(deepest_mm_)) {
@@ -146,9 +146,9 @@ class IdealBurr {
             way_mm_ += high;
         }
         const double cut_to_mm = std::max(way_mm_, deepest_mm_);
-        const glm::dvec3 bone_n = (impulse_.at(cut_to_mm) - impulse_.at(deepest_mm_)) / onset_tick_s;
+        const glm::dvec3 bone_n = (impulse_.at(cut_to_mm) - impulse_.at(deepest_mm_)) / tick_s;
         deepest_mm_ = cut_to_mm;
-        const double along_n = spring_.follow_burr({way_mm_, 0.0, 0.0}, onset_tick_s).x;
+        const double along_n = spring_.follow_burr({way_mm_, 0.0, 0.0}, tick_s).x;
         return along_n * direction_ + bone_n - glm::dot(bone_n, direction_) * direction_;
     }
 
@@ -173,7 +173,7 @@ class CoupledBurr {
     glm::dvec3 tick(const HandOnLine& hand, double now_s) {
         const CouplingOutput out =
             coupling_->tick({.now_s = now_s,
-                             .tick_s = onset_tick_s,
+                             .tick_s = tick_s,
                              .pose = {line_.at(hand.way_mm()), line_.spindle_axis},
                              .velocity_mm_per_s = hand.speed_mm_per_s() * line_.direction,
                              .spindle_on = true},
@@ -184,9 +184,8 @@ class CoupledBurr {
 
   private:
     void mill(const glm::dvec3& to_mm, bool spindle_on, double now_s) {
-        model_.step(
-            {.pose = {to_mm, line_.spindle_axis}, .spindle_on = spindle_on, .elapsed_s = onset_tick_s}, now_s,
-            changes_, *latest_);
+        model_.step({.pose = {to_mm, line_.spindle_axis}, .spindle_on = spindle_on, .elapsed_s = tick_s},
+                    now_s, changes_, *latest_);
     }
 
     OnsetLine line_;
@@ -205,7 +204,7 @@ std::vector<glm::dvec3> sampled_forces(const Onset& onset, const OnsetLine& line
     std::vector<glm::dvec3> forces_n;
     for (int i = 0; i < Plan(onset).ticks(is_guided); ++i) {
         for (int k = 0; k < substeps; ++k) hand.move(glm::dot(force_n, line.direction));
-        force_n = tick(hand, (i + 1) * onset_tick_s);
+        force_n = tick(hand, (i + 1) * tick_s);
         forces_n.push_back(force_n);
     }
     return forces_n;
@@ -239,7 +238,7 @@ OnsetRun run_onset(const Onset& onset, const OnsetHand& hand) {
 }
 
 OnsetPeak peak_of(const std::vector<glm::dvec3>& forces_n, double of_peak_n) {
-    OnsetPeak found{.half_ms = static_cast<double>(forces_n.size()) * onset_tick_s * 1e3};
+    OnsetPeak found{.half_ms = static_cast<double>(forces_n.size()) * tick_s * 1e3};
     bool is_half = false;
     glm::dvec3 sum_n(0.0);
     for (std::size_t i = 0; i < forces_n.size(); ++i) {
@@ -249,7 +248,7 @@ OnsetPeak peak_of(const std::vector<glm::dvec3>& forces_n, double of_peak_n) {
         found.peak_n = std::max(found.peak_n, mean_n);
         if (!is_half && mean_n > 0.5 * of_peak_n) {
             is_half = true;
-            found.half_ms = static_cast<double>(i + 1) * onset_tick_s * 1e3;
+            found.half_ms = static_cast<double>(i + 1) * tick_s * 1e3;
         }
     }
     return found;

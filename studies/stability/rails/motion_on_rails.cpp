@@ -8,11 +8,11 @@
 #include "simulation/force_models/milling_model.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/random_motions.h"
+#include "studies/stability/scene/scene_plan.h"
 
 namespace osteomill::study {
 namespace {
 
-constexpr double rail_tick_s = 0.001;
 constexpr double rail_voxel_mm = 0.1;
 constexpr int ticks_to_get_there = 750;
 constexpr int measured_ticks = 250;
@@ -42,8 +42,7 @@ std::vector<SteadyCase> motions_on_rails(int count, std::uint64_t seed) {
 
 OnRails run_on_rails(const SteadyCase& c, const std::string& coupling_name) {
     const glm::dvec3 start_mm = (c.burr.radius_mm() - c.depth_mm) * c.up;
-    const glm::dvec3 end_mm =
-        start_mm + (ticks_to_get_there + measured_ticks) * rail_tick_s * c.velocity_mm_per_s;
+    const glm::dvec3 end_mm = start_mm + (ticks_to_get_there + measured_ticks) * tick_s * c.velocity_mm_per_s;
     // The burr yields: it lags, and is pushed out and aside by some tenths of a millimetre.
     const double margin_mm = c.burr.radius_mm() + 3.0;
     const BoneBlock block{.low_mm = glm::min(start_mm, end_mm) - margin_mm,
@@ -54,19 +53,18 @@ OnRails run_on_rails(const SteadyCase& c, const std::string& coupling_name) {
     ForgottenChanges changes;
     const auto latest = std::make_unique<MillingResult>();
     const auto mill = [&](const ToolPose& pose, bool spindle_on, double now_s) {
-        model.step({.pose = pose, .spindle_on = spindle_on, .elapsed_s = rail_tick_s}, now_s, changes,
-                   *latest);
+        model.step({.pose = pose, .spindle_on = spindle_on, .elapsed_s = tick_s}, now_s, changes, *latest);
     };
     const ToolPose start{start_mm, c.spindle_axis};
-    mill(start, false, -rail_tick_s);
+    mill(start, false, -tick_s);
     mill(start, true, 0.0);
 
     OnRails run;
     std::uint64_t damped_before = 0;
     for (int tick = 0; tick < ticks_to_get_there + measured_ticks; ++tick) {
-        const double now_s = tick * rail_tick_s;
+        const double now_s = tick * tick_s;
         const HandState hand{.now_s = now_s,
-                             .tick_s = rail_tick_s,
+                             .tick_s = tick_s,
                              .pose = {start_mm + now_s * c.velocity_mm_per_s, c.spindle_axis},
                              .velocity_mm_per_s = c.velocity_mm_per_s,
                              .spindle_on = true};

@@ -10,12 +10,12 @@
 #include "devices/simulated/simulated_device.h"
 #include "simulation/force_models/milling_model.h"
 #include "simulation/loop/milling_session.h"
+#include "studies/stability/scene/scene_plan.h"
 #include "studies/stability/sites/site_bone.h"
 
 namespace osteomill::study {
 namespace {
 
-constexpr double site_tick_s = MillingSession::tick_s;
 constexpr double most_patience = 3.0;
 constexpr int rigid_steps_per_tick = 50;
 
@@ -68,7 +68,7 @@ void mill_along(const Bone& bone, const Burr& burr, std::vector<SiteTick>& ticks
     MillingModel model(bone, {burr}, {});
     ForgottenChanges changes;
     const auto result = std::make_unique<MillingResult>();
-    const double step_s = site_tick_s / steps_per_tick;
+    const double step_s = tick_s / steps_per_tick;
     for (std::size_t i = 0; i < ticks.size(); ++i) {
         const glm::dvec3 from_mm = ticks[i > 0 ? i - 1 : 0].*path_mm;
         const glm::dvec3 way_mm = ticks[i].*path_mm - from_mm;
@@ -79,7 +79,7 @@ void mill_along(const Bone& bone, const Burr& burr, std::vector<SiteTick>& ticks
                         .spindle_on = ticks[i].spindle_on,
                         .elapsed_s = step_s,
                         .wants_engagement = false},
-                       site_tick_s * static_cast<double>(i), changes, *result);
+                       tick_s * static_cast<double>(i), changes, *result);
             sum_n += result->force_n;
         }
         ticks[i].*force_n = sum_n / static_cast<double>(steps_per_tick);
