@@ -12,6 +12,7 @@
 #include "common/bone/bone_ray.h"
 #include "imaging/picture/smooth_border.h"
 #include "imaging/picture/voxel_share.h"
+#include "imaging/resampling/voxel_order.h"
 
 namespace osteomill {
 
@@ -66,12 +67,7 @@ class TissueBorders {
                 }
         const auto of_label = [&](std::size_t label) {
             return [&, label](const glm::ivec3& voxel) {
-                const glm::ivec3 place = voxel - about.first;
-                return labels[static_cast<std::size_t>(place.x) +
-                              static_cast<std::size_t>(size.x) *
-                                  (static_cast<std::size_t>(place.y) +
-                                   static_cast<std::size_t>(size.y) * static_cast<std::size_t>(place.z))] ==
-                       static_cast<std::int16_t>(label);
+                return labels[voxel_index(voxel - about.first, size)] == static_cast<std::int16_t>(label);
             };
         };
         // One tissue alone has no border.

@@ -172,11 +172,7 @@ SmoothBorder::SmoothBorder(const VoxelBounds& box, const std::function<bool(cons
         for (int y = 0; y < size_.y; ++y)
             for (int x = 0; x < size_.x; ++x) {
                 const glm::ivec3 there = glm::ivec3(x, y, z) + reach_voxels;
-                const std::size_t i =
-                    static_cast<std::size_t>(there.x) +
-                    static_cast<std::size_t>(wide_size.x) *
-                        (static_cast<std::size_t>(there.y) +
-                         static_cast<std::size_t>(wide_size.y) * static_cast<std::size_t>(there.z));
+                const std::size_t i = voxel_index(there, wide_size);
                 distances_.push_back(set[i] != 0 ? std::min(smooth[i], -least_distance)
                                                  : std::max(smooth[i], least_distance));
             }

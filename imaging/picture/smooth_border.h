@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "common/bone/structure_mask.h"
+#include "imaging/resampling/voxel_order.h"
 
 namespace osteomill {
 
@@ -36,13 +37,7 @@ class SmoothBorder {
     bool holds(const glm::dvec3& place) const { return distance(place) < 0.0; }
 
   private:
-    double at(const glm::ivec3& place) const {
-        return double{
-            distances_[static_cast<std::size_t>(place.x) +
-                       static_cast<std::size_t>(size_.x) *
-                           (static_cast<std::size_t>(place.y) +
-                            static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(place.z))]};
-    }
+    double at(const glm::ivec3& place) const { return double{distances_[voxel_index(place, size_)]}; }
 
     glm::ivec3 first_{0};
     glm::ivec3 size_{0};
