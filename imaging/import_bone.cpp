@@ -203,8 +203,8 @@ bool read_part(const ImportOptions& options, const OpenedImage& opened, const Im
     const std::string doubt = is_windowed ? std::string() : histogram.doubt();
     if (!doubt.empty())
         surroundings.messages << fmt::format("{}: warning: {}\n", options.input.string(), doubt);
-    // Before the long part: a threshold that no voxel of the scan reaches, none of the result reaches but by
-    // overshoot.
+    // Checked before the long part: if no voxel of the scan reaches the threshold, a voxel of the result can
+    // reach it only by overshoot.
     if (options.threshold_hu && histogram.highest_hu() < *options.threshold_hu)
         throw no_bone(options, histogram.highest_hu());
     return not_measured == 0 && !histogram.fill_hu();
@@ -328,7 +328,7 @@ std::uint64_t write_refined(const ImportOptions& options, const SliceSource& sou
     return near ? near->bone_voxels() : 0;
 }
 
-/// That there is nothing but bone is what a threshold far too low makes.
+/// A result of nothing but bone comes from a threshold that is far too low.
 void say_if_all_is_bone(const ImportOptions& options, const Grid& grid, std::uint64_t bone_voxels,
                         std::ostream& messages) {
     if (bone_voxels < voxel_count(grid)) return;

@@ -3,7 +3,7 @@
 
     scripts/bill_of_materials.py PROGRAM... > osteomill.spdx.json
 
-Of each package: version, licences as its debian/copyright states them, and the SHA-256 of each library that is loaded. The
+For each package: version, licences as its debian/copyright states them, and the SHA-256 of each library that is loaded. The
 time is SOURCE_DATE_EPOCH's, else that of the newest commit, so that the same programs on the same machine give the same bytes.
 Reads what ldd and dpkg say; a library that belongs to no package is an error, for nobody could say what it is.
 """

@@ -43,7 +43,7 @@ class CsvFile {
 
   private:
     void fail(const std::string& why);
-    /// "; what there is lies in FILE", of a log that has a file beside its own until it is whole.
+    /// "; what there is lies in FILE", for a log that is written to a file beside its own until it is whole.
     std::string where_it_lies() const;
 
     SessionFile file_;

@@ -25,8 +25,8 @@ inline constexpr std::array<double, 3> thin_mm{0.5, 1.0, 2.0};
 
 struct ExposureMetrics {
     std::string name;
-    double bare_share = 0.0;                          ///< that nothing is over any more
-    std::array<double, thin_mm.size()> thin_share{};  ///< over which there is less than thin_mm
+    double bare_share = 0.0;                          ///< without any bone over it
+    std::array<double, thin_mm.size()> thin_share{};  ///< under less than thin_mm of bone
 };
 
 /// The exposure of each structure that is somewhere, in the scene's order, at the end of the session.

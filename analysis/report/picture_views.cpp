@@ -94,7 +94,7 @@ NamedView section_from_below(const glm::dvec3& centre_mm, double half_width_mm) 
     return {tr("section, from below"), {centre_mm, {0, 0, 1.0}, {0, -1.0, 0}, half_width_mm, true}};
 }
 
-/// The anatomical section whose plane the direction leaves least.
+/// The anatomical section whose plane is closest to the direction.
 NamedView section_along(const glm::dvec3& direction, const glm::dvec3& centre_mm, double half_width_mm) {
     const glm::dvec3 size = glm::abs(direction);
     if (size.y <= size.x && size.y <= size.z) return section_from_front(centre_mm, half_width_mm);

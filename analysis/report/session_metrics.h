@@ -47,8 +47,7 @@ struct MetricRow {
 
 std::vector<MetricRow> metric_rows(const SessionMetrics& metrics);
 
-/// Value of the metric with this key, added up over tissues, burrs or structures; nothing if none has a
-/// value.
+/// The sum of the metric with this key over tissues, burrs or structures; nothing if none has a value.
 std::optional<double> sum_of(std::span<const MetricRow> rows, std::string_view key);
 
 }  // namespace osteomill

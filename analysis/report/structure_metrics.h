@@ -22,7 +22,7 @@ struct StructureMetrics {
     double touched_s = 0.0;        ///< in all
     double dose_mm3 = 0.0;         ///< bone of it that is gone at the end
     double undone_dose_mm3 = 0.0;  ///< that was milled and given back
-    double entered_mm3 = 0.0;      ///< of it, bone or not, where the burr's head was
+    double entered_mm3 = 0.0;      ///< voxels of it, bone or not, that the burr's head entered
 };
 
 /// Metrics of every protected tissue of the scene.

@@ -50,7 +50,7 @@ void require_carved_from(const ExportOptions& options, const Bone& before, const
 
 void export_removed(const ExportOptions& options, const BoneOfFile& carved,
                     const std::function<void(const std::string&)>& say, const ReportProgress& progress) {
-    // The threshold that the carved bone was built with is the one that its original has to be.
+    // The original is built with the threshold of the carved bone.
     const BoneOfFile original =
         read(*options.original, options.threshold_hu ? options.threshold_hu : carved.threshold_hu);
     require_carved_from(options, original.bone, carved.bone);
@@ -81,7 +81,8 @@ ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const
         "Writes the surface of a bone, carved or not, for other programs; or what was removed of it.",
         "bone_export");
     app.set_version_flag("--version", fmt::format("bone_export {}", version));
-    app.add_option("BONE.nrrd", options.bone, "Of bone_import or haptic_server --save-bone")->required();
+    app.add_option("BONE.nrrd", options.bone, "A bone file of bone_import or haptic_server --save-bone")
+        ->required();
     app.add_option("OUT", options.output,
                    "OUT.stl, OUT.ply or OUT.obj: the surface, closed, in mm of patient LPS; with --removed "
                    "OUT.nrrd")

@@ -51,8 +51,7 @@ bool any_below(const fs::path& folder, const Visit& visit) {
     return false;
 }
 
-/// A file that is written into a folder that is read would be read the next time, if it is not one of its
-/// files now.
+/// An output in a folder that is read as input would become part of the input of the next run.
 bool lies_in_what_is_read(const fs::path& written, const fs::path& folder) {
     std::error_code failed;
     if (fs::exists(written, failed) && !fs::is_regular_file(written, failed)) return false;

@@ -24,9 +24,10 @@ class RevocationLists {
     /// Shortest time between two checks of the file for changes.
     static constexpr std::chrono::seconds look_period{1};
 
-    /// `context` has its CAs already; from now on it accepts nobody whom these lists name, nor whose CA none
-    /// of them is of. Throws std::runtime_error, in one line, where the file holds no list, or one that is
-    /// not of a CA of `ca_file`, has expired or does not hold yet. `context` outlives this.
+    /// `context` already knows its CAs. From now on it refuses a certificate that a list names, and every
+    /// certificate of a CA that has no list here. Throws std::runtime_error, in one line, if the file holds
+    /// no list, or one that is not of a CA of `ca_file`, has expired or does not hold yet. `context` outlives
+    /// this.
     RevocationLists(std::filesystem::path file, const std::filesystem::path& ca_file, SSL_CTX& context);
     ~RevocationLists();
     RevocationLists(const RevocationLists&) = delete;
@@ -51,8 +52,8 @@ class RevocationLists {
     /// Throws as the constructor does.
     Lists read() const;
     void require_good(X509_CRL& list) const;
-    /// Throws std::runtime_error, in one line, where a list is older than the one of its CA that holds: it
-    /// would bring back whom the newer one revoked.
+    /// Throws std::runtime_error, in one line, if a list is older than the one of its CA that holds: it would
+    /// accept again the certificates that the newer one revoked.
     void require_not_older(const Lists& lists) const;
     void install(Lists lists);
 

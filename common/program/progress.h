@@ -28,7 +28,7 @@ class ProgressLine {
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// Says the percentage and, once the work has taken two seconds, the time left: by the pace since the
+    /// Shows the percentage and, once the work has taken two seconds, the time left: by the pace since the
     /// first report, which may begin above 0 if a part was done before.
     void report(double done);
     ReportProgress reporter() {

@@ -41,7 +41,7 @@ RecordingOutline outline_of(const std::filesystem::path& file) {
             if (touches > before) outline.moments.push_back({time_s, Kind::touch});
         }
     } catch (const RecordingError&) {
-        // Who reads it comes upon this, too, and says it then.
+        // The reader of the recording meets the same error and reports it.
     }
     outline.duration_s = time.last_s();
     return outline;

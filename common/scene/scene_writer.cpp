@@ -200,7 +200,7 @@ std::string trajectory_text(const TrajectorySpec& trajectory, SceneText extent) 
         .add("speed_mm_per_s", trajectory.speed_mm_per_s, usual.speed_mm_per_s)
         .add("depth_mm", trajectory.depth_mm, usual.depth_mm)
         .add("width_mm", trajectory.width_mm, usual.width_mm);
-    return keys.below("\n# What a simulated hand does.\n[trajectory]\n");
+    return keys.below("\n# The motion of a simulated hand.\n[trajectory]\n");
 }
 
 void add_region(Keys& keys, const PlanRegion& region) {
@@ -218,11 +218,11 @@ std::string plan_text(const Plan& plan, SceneText extent) {
     Keys keys(extent);
     add_region(keys, plan.region);
     keys.add("margin_mm", plan.margin_mm, Plan().margin_mm);
-    return keys.below("\n# What is to be removed.\n[plan]\n");
+    return keys.below("\n# The bone to remove.\n[plan]\n");
 }
 
 std::string rating_text(const Rating& rating, SceneText extent) {
-    std::string text = rating.empty() ? "" : "\n# What earns a session points.\n";
+    std::string text = rating.empty() ? "" : "\n# Items that earn a session points.\n";
     for (const RatingItem& item : rating) {
         Keys keys(extent);
         keys.add("name", item.name).add("points", item.points, RatingItem().points).add("when", item.when);
@@ -291,9 +291,9 @@ std::string write_scene(const Scene& scene, SceneText extent) {
     if (scene.plan) text += plan_text(*scene.plan, extent);
     Keys pass(extent);
     for (const auto& [metric, mark] : scene.pass) pass.add(metric.c_str(), mark);
-    text += pass.below("\n# What a session has to reach.\n[pass]\n");
+    text += pass.below("\n# The marks that a session has to reach.\n[pass]\n");
     text += rating_text(scene.rating, extent);
-    if (!scene.fixtures.empty()) text += "\n# What helps the hand by force.\n";
+    if (!scene.fixtures.empty()) text += "\n# Fixtures that help the hand by force.\n";
     for (const Fixture& fixture : scene.fixtures) text += fixture_text(fixture, extent);
     return text;
 }

@@ -7,10 +7,10 @@
 // - Grain, noise of the chips, in a band that follows the tissue: dark in soft bone, bright in enamel. -
 // Growl of a motor that is held, at mains' pitch; all that is left of a stall.
 //
-// The spindle runs up, slows down and coasts as a motor does, and everything else follows its cue within
-// some hundredths of a second, so that cues thirty times a second make no clicks. Nothing sounds above 20
-// kHz: a harmonic that would, is left out. Loudness is taste, not measurement: it rises with the logarithm
-// of the force, and high notes are turned down, as an ear is keenest there.
+// The spindle runs up, slows down and coasts as a motor does, and everything else follows its cue within some
+// hundredths of a second, so that cues thirty times a second make no clicks. Nothing sounds above 20 kHz: a
+// harmonic that would, is left out. Loudness is taste, not measurement: it rises with the logarithm of the
+// force, and high notes are softer, since an ear is keenest there.
 //
 // The same cues give the same samples. Noise comes from a generator that starts alike each time.
 #pragma once

@@ -28,7 +28,7 @@ class BoneReplica {
     /// which then stays as it was.
     [[nodiscard]] bool apply(const BrickChange& change, BrickFractions fractions);
     /// Takes over a change that came over the wire or out of a recording, where this replica may be wrong:
-    /// voxels may rise. Says why not, with the replica as it was.
+    /// voxels may rise. Returns why not, with the replica unchanged.
     std::variant<Correction, WireError> correct(const ChangedBrick& changed);
     /// Gives a stored brick other fractions, as when a recording is wound back.
     void set_fractions(BrickIndex brick, BrickFractions fractions);

@@ -18,7 +18,8 @@ constexpr auto nap = std::chrono::milliseconds(5);
 constexpr std::uint64_t ns_per_ms = 1'000'000;
 /// A pose that no force of the loop has answered by then is answered with the one before.
 constexpr std::uint64_t longest_answer_ns = 3 * ns_per_ms;
-/// So long one that was refused is the reason: it says hello some times a second.
+/// For so long the last refusal counts as the reason for the wait: an arm that is refused sends a new hello
+/// several times a second.
 constexpr std::uint64_t stranger_lasts_ns = 3000 * ns_per_ms;
 
 glm::dvec3 vector_of(const double (&values)[3]) {

@@ -54,8 +54,8 @@ class BridgeHost {
     static constexpr std::uint64_t between_arms_ns = 50'000'000;
     /// A pose that answers an older force is too old to act on, and so is the answer to it.
     static constexpr std::uint64_t latest_round_trip_ns = 50'000'000;
-    /// Most that an arm is believed to have kept a force before its pose. Its clock may run at any rate: by
-    /// ours a pose never seems fresher than it is by more than this.
+    /// An arm states how long it kept a force before it sent its pose. No more than this is believed, since
+    /// its clock may run at any rate: so a pose is older than it seems by at most this much.
     static constexpr std::uint64_t longest_kept_ns = 50'000'000;
     /// Round trips that the delay is taken from.
     static constexpr std::size_t round_trips_kept = 256;

@@ -55,7 +55,8 @@ void ClientDevice::set_mapping(const DeviceMapping& mapping) noexcept {
 }
 
 DeviceState ClientDevice::read(double now_s) noexcept {
-    // Also before a message is taken that comes with a tick that is late itself.
+    // Checked before a message is taken, too: if this tick is late, the permission has run out meanwhile,
+    // though a fresh message waits.
     if (!permission_.holds(now_s)) end_permission();
     take_over_command(now_s);
     if (!permission_.holds(now_s)) end_permission();

@@ -195,7 +195,8 @@ void HaplyArm::take_grip(const std::optional<HaplyGrip>& grip) {
         newest_.state.burr = (*newest_.state.burr + 1) % parts_.burr_count;
     was_next_pressed_ = next_pressed;
     newest_.state.pedal.is_down = grip && grip->button_a;
-    // Held through the clutch it permits nothing, then and afterwards: the hand was elsewhere.
+    // A pedal that is held while the clutch closes and opens permits nothing afterwards, since the hand has
+    // moved meanwhile.
     if (is_clutch_) ++newest_.state.pedal.speaker;
 }
 
@@ -225,7 +226,7 @@ void HaplyArm::consider_force(Clock::time_point now) noexcept {
     const bool is_fresh = has_force_ && now - forced_ <= longest_force_age;
     const bool is_small = is_fresh && glm::length(forces_.front()) <= small_force_n;
     const bool may_drive = is_fresh && is_arm_able_ && !is_clutch_;
-    // Neither a loop that stood still nor one that thinks its force is felt goes on where it was.
+    // A loop that stood still, or believes that its force is felt, must not go on from its old place.
     if ((drives_ && !is_fresh) || (may_drive && !drives_ && !is_small)) was_lost_ = true;
     if (is_small && is_arm_able_) was_lost_ = false;
     drives_ = may_drive && !was_lost_ && (drives_ || is_small);

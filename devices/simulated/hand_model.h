@@ -5,7 +5,7 @@
 //     dc/dt  = 2 pi f a a^T (x_target - x)                     f = correction_hz, a = spindle axis
 //
 // u points along v_target: a hand used to its arm adds the share g of the friction F_f to its push. Without
-// that the tool of a light hand trails a millimetre behind and cuts corners.
+// this the tool trails a light hand by a millimetre and cuts corners.
 //
 // Sources. The form, a second-order lump, is that of Hajian and Howe (J. Biomech. Eng. 119:109, 1997: the
 // finger in extension, a few hundred N/m, 2 to 7 N s/m, a few grams), Kuchenbecker, Park and Niemeyer (ASME

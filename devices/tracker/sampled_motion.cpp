@@ -18,7 +18,7 @@ constexpr double lateness_margin = 1.1;
 constexpr double longest_step_s = 1.0;
 /// And so are those that step back by more than a measurement's noise: a stream is in order.
 constexpr double longest_step_back_s = 0.05;
-/// So long a clock that ran ahead has to keep to ours, about, before it is trusted again.
+/// For so long a clock that ran ahead has to keep pace with ours before it is trusted again.
 constexpr double gain_memory_s = 1.0;
 constexpr double most_gain_s = 2.0 * SampledMotion::longest_behind_s;
 constexpr double silent_periods = 5.0;

@@ -12,8 +12,8 @@
 // the parabolas through each and its neighbours (Catmull-Rom, for uneven times); the orientation is slerp.
 // The slopes need one sample more than those two, hence the second period. On a circle of 2 mm, once a
 // second, sampled at 20 Hz, the cubic is off by 0.5 um; straight lines would be off by 25. Slopes are no
-// steeper than a hand is fast, and the cubic stays within most_bulge_mm of the straight line: the burr goes
-// nowhere where no sample was near.
+// steeper than a hand is fast, and the cubic stays within most_bulge_mm of the straight line: the burr never
+// goes far from a sample.
 //
 // Samples less than least_apart_s apart count as one, the first: the difference is the tracker's noise, not
 // motion. A sample that a hand cannot have reached is skipped; if the next confirms it, the marker really is

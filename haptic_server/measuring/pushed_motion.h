@@ -1,5 +1,5 @@
-// Mass, damping, stiffness and friction of what moves when an arm pushes a hand along one axis, and how late
-// the force comes.
+// Mass, damping, stiffness and friction of arm and hand when the arm pushes along one axis, and the delay of
+// the force.
 //
 //     m x'' + b x' + k x + c + F_c sgn(x') = u(t - d)     u the written force, held from tick to tick
 //
@@ -23,7 +23,7 @@
 namespace osteomill {
 
 struct PushedMotion {
-    double mass_kg = 0.0;      ///< arm and what of the hand moves with it
+    double mass_kg = 0.0;      ///< of the arm and the part of the hand that moves with it
     double friction_n = 0.0;   ///< Coulomb's
     double delay_ticks = 0.0;  ///< beyond the tick in which a written force begins to act
     double explained = 0.0;    ///< share of the force's variance, 0 to 1

@@ -134,7 +134,7 @@ class MetricsPage::Impl {
             if (error) return pause();
             const auto visit = std::make_shared<Visit>(std::move(socket), text_, names_);
             visit->begin();
-            // Who asks for half of it and waits keeps nobody out.
+            // A visitor that sends half a request and waits keeps nobody out.
             if (const auto oldest = std::exchange(visits_[next_], visit).lock()) oldest->break_off();
             next_ = (next_ + 1) % visits_.size();
             accept();

@@ -9,7 +9,7 @@
 namespace osteomill {
 
 /// Throws std::runtime_error with one line if there is no arm or the measurement ended before there was a
-/// spring; nothing is written then. What was found is on standard output by then.
+/// spring; no profile is written then, but the findings are on standard output.
 void run_measuring(const ServerOptions& options, const std::atomic<bool>& stop, const ProgramOutput& output);
 
 }  // namespace osteomill

@@ -19,7 +19,7 @@ namespace osteomill {
 
 namespace {
 
-/// Writes one thing after the other although one of them fails, keeps the first failure and says the others.
+/// Writes one thing after the other although one of them fails; keeps the first failure and logs the others.
 class FirstFailure {
   public:
     template <typename Write>

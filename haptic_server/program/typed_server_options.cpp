@@ -27,7 +27,7 @@ std::string force_model_help() {
 
 std::string coupling_help() {
     std::string text = fmt::format(
-        "What stands between the model and the hand ({}; {} with a force model that has no cutting law",
+        "The coupling between the model and the hand ({}; {} with a force model that has no cutting law",
         name_of(usual_coupling(true, devices().front())), name_of(usual_coupling(false, devices().front())));
     for (const DeviceEntry& device : devices())
         if (device.coupling)
@@ -71,7 +71,7 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
         ->check(one_of({"light", "firm", rails_name}))
         ->capture_default_str();
     app.add_option("--trajectory", to.scene.trajectory,
-                   "What the simulated hand follows, instead of the scene's")
+                   "The motion that the simulated hand follows, instead of the scene's")
         ->type_name("FILE.csv");
     app.add_option("--coupling", typed.coupling, coupling_help())->type_name("NAME");
     app.add_option("--force-model", to.session.force_model, force_model_help())
@@ -127,9 +127,10 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
     app.add_option("--record", to.record,
                    "Write what a client is sent, for packet_replay and render_client --replay; a pcap file")
         ->type_name("FILE");
-    app.add_option("--record-rate-hz", typed.record_rate_hz,
-                   "What a recording holds: 1000, every tick of the haptic loop (packet_replay --csv is then "
-                   "the log of --log-csv), or 30, only the states that clients are sent")
+    app.add_option(
+           "--record-rate-hz", typed.record_rate_hz,
+           "The rate of a recording: 1000, every tick of the haptic loop (packet_replay --csv is then "
+           "the log of --log-csv), or 30, only the states that clients are sent")
         ->check(one_of({"1000", "30"}))
         ->capture_default_str();
     app.add_option("--save-bone", to.outputs.save_bone,
@@ -142,7 +143,7 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
            "Record the session into this folder and, at its end, write its report: report.html, metrics.csv, "
            "metrics.json; a folder that holds a session already is refused")
         ->type_name("DIR");
-    app.add_option("--language", to.outputs.report_language, "Of the report")
+    app.add_option("--language", to.outputs.report_language, "Language of the report")
         ->check(one_of(languages()))
         ->capture_default_str();
     app.add_option("--trainee", to.trainee, "Whose session it is, for the recording and the report")

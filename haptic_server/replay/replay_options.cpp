@@ -124,11 +124,11 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     auto* of_hdf5 =
         app.add_option(
                "--layout", layout,
-               "Of --hdf5: our own, or that of FIVRS's recordings for its analysis programs; fivrs-v3 "
+               "Layout of --hdf5: our own, or that of FIVRS's recordings for its analysis programs; fivrs-v3 "
                "writes a second file beside it, in the folder v3")
             ->check(one_of({hdf5_layout_names.begin(), hdf5_layout_names.end()}))
             ->capture_default_str();
-    auto* of_report = app.add_option("--language", options.report_language, "Of --report")
+    auto* of_report = app.add_option("--language", options.report_language, "Language of --report")
                           ->check(one_of(languages()))
                           ->capture_default_str();
     if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};

@@ -38,7 +38,7 @@ class MeasuredDevice final : public HapticDevice {
 DeviceOption measured_profile_option() {
     return {.flag = device_profile_flag,
             .type_name = "NAME|FILE.toml",
-            .help = "What --measure-arm wrote about this arm",
+            .help = "The profile that --measure-arm wrote for this arm",
             .names_file = true,
             .is_replaced_by = save_profile_flag};
 }

@@ -31,7 +31,7 @@ std::vector<std::string> SessionKeeper::take_news() {
 }
 
 std::string SessionKeeper::save(const Bone& bone, const std::string& mesh_ending) {
-    // The rest of the name is the server's: no client says where on this disk is written.
+    // The server makes the rest of the name: no client chooses a path on this disk.
     if (!mesh_ending.empty() && !is_mesh_ending(mesh_ending))
         return fmt::format("a surface is saved as {}", mesh_endings);
     if (!save_) return "this server has no place for it; whoever starts the server can name one";

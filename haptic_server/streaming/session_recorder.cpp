@@ -110,7 +110,7 @@ void SessionRecorder::take_ticks(Wait wait) {
         if (outgoing_.waiting_ticks() > 0) return;
         outgoing_.note_missed_ticks(std::exchange(missed_ticks_, 0));
     }
-    // Dropped ticks found the queue full, so they come behind all that are in it.
+    // A tick is dropped when the queue is full, so dropped ticks are later than all that are in it.
     const std::uint64_t dropped = ticks_->dropped();
     ticks_->consume_all([this](const TickSample& tick) { outgoing_.note_tick(tick); });
     missed_ticks_ = dropped - std::exchange(dropped_ticks_, dropped);

@@ -28,8 +28,8 @@ class SessionRecorder {
 
     /// These work as for a client: see OutgoingFrames.
     void note(std::span<const BrickChange> changes) { outgoing_.note(changes); }
-    /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Nothing if it says no
-    /// more than the one before, of the same time.
+    /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Does nothing if the
+    /// state equals the one before, time included.
     void record(SessionState state, bool may_wait);
     /// Hands over the end, waits until all is written and makes it the file that was requested. Gives up on a
     /// disk that does not answer (see RecordingWriter).

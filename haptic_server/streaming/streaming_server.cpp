@@ -37,7 +37,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// How long stop() waits for clients that are slow to read the end: for 40 kB at 64 kbit/s.
+/// How long stop() waits for clients that are slow to read the end: the time that 40 kB take at 64 kbit/s.
 constexpr std::chrono::seconds longest_goodbye{5};
 constexpr const char* end_of_session = "the session has ended";
 

@@ -276,7 +276,7 @@ RestoredBone restore_carved_bone(const BoneFile& file) {
             builder.add_brick(brick_position(size_bricks, record.brick), record.fraction, &record.stiffness,
                               &record.tissue);
         } catch (const std::invalid_argument& error) {
-            misplaced = error.what();  // the digest says it better
+            misplaced = error.what();  // the digest's error is clearer
         }
     }
     require_digest(file, fraction_digest_key, digests.fraction, "fractions (what is left of each voxel) are");

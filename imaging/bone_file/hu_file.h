@@ -20,7 +20,7 @@
 
 namespace osteomill {
 
-/// Key under which a bone file says from which HU on there is bone.
+/// Key of the HU from which on a voxel of the file is bone.
 inline constexpr const char* threshold_key = "osteomill_threshold_hu";
 inline constexpr const char* hu_digest_key = "osteomill_hu_digest";
 inline constexpr const char* header_digest_key = "osteomill_header_digest";

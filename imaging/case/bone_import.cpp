@@ -223,7 +223,7 @@ void require_distinct_files(const ImportCommand& command) {
     require_distinct(files);
 }
 
-/// For labels, which have no CT numbers.
+/// The case of labels, which have no CT numbers.
 void parse_labels(const CLI::App& app, const Texts& texts, ImportCommand& command) {
     ImportOptions& options = command.options;
     if (!options.input.empty() && !options.output.empty())

@@ -24,7 +24,7 @@ namespace {
 }
 
 [[noreturn]] void run(const std::function<bool()>& step) {
-    // It outlives nobody who waits for it, and leaves no core if it falls.
+    // The child ends with its parent, and leaves no core if it crashes.
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit none{};
     ::setrlimit(RLIMIT_CORE, &none);

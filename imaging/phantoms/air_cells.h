@@ -9,7 +9,7 @@ namespace osteomill {
 /// The middle of a cell. A cell is all that lies nearer to its middle than to every other, less half a septum
 /// (Voronoi's cells of a jittered lattice).
 struct AirCell {
-    glm::ivec3 point{0};  ///< of the lattice; what tells which septa are open
+    glm::ivec3 point{0};  ///< of the lattice; decides which septa are open
     glm::dvec3 middle_mm{0.0};
 };
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double wide_deviation = 2.0;
 constexpr double narrow_deviation = 0.8;
-/// So far apart, voxels, wide and narrow smoothing may be for the wide one to hold alone; and from where on
-/// the narrow one does.
+/// Difference between wide and narrow smoothing, voxels: up to the first the wide one is taken, from the
+/// second on the narrow one.
 constexpr float apart_for_wide = 0.2f;
 constexpr float apart_for_narrow = 0.5f;
 /// Each voxel's centre stays at least so far on its side.

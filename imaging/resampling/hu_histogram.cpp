@@ -15,8 +15,8 @@ constexpr int highest_bin_hu = 8191;
 constexpr int highest_of_a_byte = 255;
 /// A segmentation of a head has a dozen labels; a scan has hundreds of values.
 constexpr int most_labels = 32;
-/// Noise takes air that is stored as 0 below it, or is cut off there: at -5 if the scanner has cut it off at
-/// -1024 and the offset is that, at -24 if the offset is 1000.
+/// Air that is stored as 0 goes below 0 by noise, unless it is cut off: at -5 if the scanner cut it off at
+/// -1024 and that is the offset, at -24 if the offset is 1000.
 constexpr int lowest_of_stored_air = -100;
 constexpr int lowest_of_air_cut_off = -5;
 constexpr int highest_of_stored_air = 100;

@@ -22,8 +22,8 @@ constexpr double far_apart_pixels = 1.5;
 /// the thickness of the slices has blurred by then.
 constexpr double reach_slices = 12.0;
 
-/// The factor by which a contour's way grows from slice to slice if its surface closes like a cap. For a
-/// paraboloid it is 1.4 to 2.4: its top lies just below the next slice or just above the last.
+/// If a surface closes like a cap, its contour moves farther from slice to slice, each time by this factor.
+/// For a paraboloid it is 1.4 to 2.4: its top lies just below the next slice or just above the last.
 constexpr double growth_of_last_way = 1.6;
 
 double rise(double from, double to, double at) {

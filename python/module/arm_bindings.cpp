@@ -68,7 +68,7 @@ it takes. BadInput: a figure is out of range.)")
         .def_property_readonly(
             "rendered_stiffness_n_per_mm",
             [](const ArmModel& arm) { return limits_of(arm).max_stiffness_n_per_mm; },
-            "Of the spring that a coupling puts on it.")
+            "Stiffness of the spring that a coupling puts on the arm.")
         .def(py::pickle(
             [](const ArmModel& arm) {
                 return py::make_tuple(arm.mass_kg, arm.max_stiffness_n_per_mm, arm.max_force_n,

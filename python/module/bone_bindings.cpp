@@ -207,7 +207,7 @@ To mill it, save it and name the file: bone.save("own.nrrd"), Case("cube", bone=
             },
             "Volume that is left, mm^3.")
         .def("fraction", &fraction, py::arg("box") = py::none(),
-             "What is left of each voxel, 0 (nothing) to 255 (all): uint8 (i, j, k).")
+             "The part that is left of each voxel, 0 (nothing) to 255 (all): uint8 (i, j, k).")
         .def("stiffness", &stiffness, py::arg("box") = py::none(),
              "Relative stiffness of each voxel's bone (1: the bone that a burr's coefficients hold for), "
              "whether it is left "
@@ -226,7 +226,8 @@ To mill it, save it and name the file: bone.save("own.nrrd"), Case("cube", bone=
                 look(view, [&](const Bone& bone) { sum = checksum(bone); });
                 return fmt::format("{:016x}", sum);
             },
-            "Of what is left, 16 hex digits: equal for equal bones, and the `bone_checksum` of haptic_server "
+            "Checksum of the remaining bone, 16 hex digits: equal for equal bones, and the `bone_checksum` "
+            "of haptic_server "
             "--json.")
         .def("__repr__", [](const BoneView& view) {
             const Grid& grid = view.bone().grid();

@@ -145,7 +145,8 @@ void bind_burr(py::module_& module) {
             "diameter_mm", [](const Burr& burr) { return burr.diameter_mm; }, "The largest of the head.")
         .def_property_readonly("edges", [](const Burr& burr) { return burr.edges; })
         .def_property_readonly(
-            "rpm", [](const Burr& burr) { return 60.0 * burr.spindle_rev_per_s; }, "Of the spindle, rev/min.")
+            "rpm", [](const Burr& burr) { return 60.0 * burr.spindle_rev_per_s; },
+            "Speed of the spindle, rev/min.")
         .def_property_readonly(
             "cutting_coefficients_n_per_mm2",
             [](const Burr& burr) { return array_of(burr.cutting_coefficients_n_per_mm2); },
@@ -166,7 +167,7 @@ void bind_case(py::module_& module) {
     bind_burr(module);
     py::class_<LoadedCase, std::shared_ptr<LoadedCase>>(
         module, "Case",
-        R"(What a session is made of: the bone, its tissues, the burrs, and where the tool starts.
+        R"(The start of a session: the bone, its tissues, the burrs, and where the tool starts.
 
 It is loaded once and never changes; any number of sessions, in any number of threads, are made of one. Positions are in
 patient LPS, mm.)")
@@ -227,7 +228,7 @@ tissue's stiffness or another bone loads it anew. Errors as Case.)")
             py::arg("place_mm"),
             "From a place (3,), patient LPS, to what shall be removed as the case's plan says, mm; below 0: "
             "within, so "
-            "deep; None: the case has no plan. Of a tissue the distance is to the centre of its nearest "
+            "deep; None: the case has no plan. For a tissue the distance is to the centre of its nearest "
             "voxel.")
         .def_property_readonly(
             "burrs", [](const LoadedCase& loaded) { return loaded.settings().burrs; },

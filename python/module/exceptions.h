@@ -47,7 +47,7 @@ inline void make_exceptions(pybind11::module_& module) {
     };
     make("BadInput", "osteomill.BadInput", "An argument is wrong; the line says what would be right.",
          PyExc_ValueError);
-    make("Fault", "osteomill.Fault", "What was asked for could not be done; the line says why.",
+    make("Fault", "osteomill.Fault", "The request could not be carried out; the message gives the reason.",
          PyExc_RuntimeError);
 }
 

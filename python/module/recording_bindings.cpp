@@ -156,7 +156,7 @@ py::object repeated(const std::filesystem::path& file) {
 }  // namespace
 
 void bind_recording(py::module_& module) {
-    module.def("_repeat", &repeated, py::arg("file"), "What osteomill.repeat says.");
+    module.def("_repeat", &repeated, py::arg("file"), "Backs osteomill.repeat.");
     py::class_<OpenedRecording, SharedRecording>(
         module, "Recording", R"(A recording of a session: its states, and its bone at any instant.
 
@@ -178,7 +178,7 @@ patient LPS.)")
         .def_property_readonly("hand_mm", column(&StateColumns::hand_mm, 3), "Where the hand is: (N, 3).")
         .def_property_readonly("burr_mm", column(&StateColumns::burr_mm, 3), "Centre of the burr: (N, 3).")
         .def_property_readonly("axis", column(&StateColumns::axis, 3),
-                               "Of the spindle, from tip to shank: (N, 3), unit.")
+                               "Direction of the spindle from tip to shank: (N, 3), unit.")
         .def_property_readonly("force_n", column(&StateColumns::force_n, 3), "On the hand: (N, 3).")
         .def_property_readonly("depth_mm", column(&StateColumns::depth_mm), "As Step.depth_mm: (N,).")
         .def_property_readonly("removed_mm3", column(&StateColumns::removed_mm3),
@@ -198,14 +198,14 @@ patient LPS.)")
              "The metrics of docs/metrics.md, by key, as metrics.json has them: a number or None; those of "
              "tissues, burrs or structures "
              "under KEY_of, by name.")
-        .def(
-            "rating", &rating,
-            "What the case's rating says of the session, as metrics.json has it: points, most_points, undos, "
-            "undone_mm3, and items with name, points, is_reached (None: not decided), when, source and "
-            "values. None: the case has no rating, or the recording is not complete.")
+        .def("rating", &rating,
+             "The outcome of the case's rating, as metrics.json has it: points, most_points, undos, "
+             "undone_mm3, and items with name, points, is_reached (None: not decided), when, source and "
+             "values. None: the case has no rating, or the recording is not complete.")
         .def("to_hdf5", &to_hdf5, py::arg("file"), py::arg("layout") = "osteomill",
              "Writes all of it into an HDF5 file (docs/hdf5.md); layout: \"osteomill\", \"fivrs\" or "
-             "\"fivrs-v3\". Of a torn recording, what can be read. RuntimeError: it cannot be written, or is "
+             "\"fivrs-v3\". A torn recording is written as far as it can be read. RuntimeError: it cannot be "
+             "written, or is "
              "damaged; ValueError: no such layout.")
         .def_property_readonly("ticks", &ticks,
                                "Every tick of the session, a millisecond each, as a dict of arrays of the "
@@ -217,9 +217,10 @@ patient LPS.)")
                                "same bone and forces to the bit; the first row is the tick that a session "
                                "begins with. Empty where the "
                                "recording holds none.")
-        .def("info", &info,
-             "What packet_replay --json says: duration_s, frames, removed_mm3 by tissue, bone_checksum, "
-             "error and more.")
+        .def(
+            "info", &info,
+            "The contents of packet_replay --json: duration_s, frames, removed_mm3 by tissue, bone_checksum, "
+            "error and more.")
         .def("__enter__", [](const SharedRecording& recording) { return recording; })
         .def("__exit__", [](const SharedRecording&, const py::args&) {})
         .def("__repr__", [](const SharedRecording& recording) {

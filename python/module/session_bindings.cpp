@@ -123,7 +123,7 @@ std::string html_of(const SharedSession& session) {
 
 void bind_session(py::module_& module) {
     module.def("_step_together", &step_together, py::arg("sessions"), py::arg("hands"), py::arg("axes"),
-               py::arg("pedals"), py::arg("threads"), "What osteomill.VectorEnv moves its sessions by.");
+               py::arg("pedals"), py::arg("threads"), "Backs osteomill.VectorEnv.");
     bind_tick(module);
     bind_state(module);
     py::class_<SteppedSession, SharedSession>(module, "Session",
@@ -175,7 +175,7 @@ A prescribed hand stays where it is, with the pedal up.)")
                 const std::unique_lock<std::mutex> held = taken(session->busy());
                 return Tick{session->state(), session->loaded()};
             },
-            "What the last tick knew: a Step.")
+            "The state after the last tick: a Step.")
         .def(
             "save_state",
             [](const SharedSession& session) {

@@ -100,8 +100,9 @@ void bind_tick(py::module_& module) {
     const auto vector = [](auto read) {
         return [read](const Tick& tick) { return array_of(read(tick.state)); };
     };
-    py::class_<Tick>(module, "Step",
-                     "What the last tick of a step knew. Vectors are (3,), in patient LPS; each is a copy.")
+    py::class_<Tick>(
+        module, "Step",
+        "The state after the last tick of a step. Vectors are (3,), in patient LPS; each is a copy.")
         .def_property_readonly(
             "time_s", [](const Tick& tick) { return tick.state.tool.time_s; }, "Session time of the tick.")
         .def_property_readonly("hand_mm", vector([](const TickState& s) { return s.tool.hand_position_mm; }),
@@ -109,7 +110,7 @@ void bind_tick(py::module_& module) {
         .def_property_readonly("burr_mm", vector([](const TickState& s) { return s.tool.burr_position_mm; }),
                                "Centre of the burr: (3,), mm.")
         .def_property_readonly("axis", vector([](const TickState& s) { return s.tool.spindle_axis; }),
-                               "Of the spindle, from tip to shank: (3,), unit.")
+                               "Direction of the spindle from tip to shank: (3,), unit.")
         .def_property_readonly("force_n", vector([](const TickState& s) { return s.tool.force_n; }),
                                "Force on the hand as the device gets it, within the arm's limit: (3,), N.")
         .def_property_readonly("torque_nmm", vector([](const TickState& s) {
@@ -117,17 +118,18 @@ void bind_tick(py::module_& module) {
                                }),
                                "Moment of what bone does to the shank, about the burr's centre: (3,), N mm; "
                                "0 where no burr has a shank.")
-        .def_property_readonly("milling_force_n",
-                               vector([](const TickState& s) { return s.milling_force_n; }),
-                               "Of the bone on the burr, mean over the newest milling step that the tick "
-                               "knew, limited by nothing: (3,), N.")
+        .def_property_readonly(
+            "milling_force_n", vector([](const TickState& s) { return s.milling_force_n; }),
+            "Force of the bone on the burr, mean over the newest milling step that the tick "
+            "knew, limited by nothing: (3,), N.")
         .def_property_readonly("fixture_force_n",
                                vector([](const TickState& s) { return s.fixture_force_n; }),
-                               "Of the scene's fixtures on the burr, which the hand feels through the "
+                               "Force of the scene's fixtures on the burr, which the hand feels through the "
                                "coupling: (3,), N; 0 without any.")
         .def_property_readonly(
             "depth_mm", [](const Tick& tick) { return tick.state.tool.depth_mm.value_or(0.0); },
-            "Of the burr below where it first met bone, along the spindle axis of that moment; 0 before.")
+            "Depth of the burr below the place where it first met bone, along the spindle axis of that "
+            "moment; 0 before.")
         .def_property_readonly(
             "removed_mm3", &removed,
             "Bone removed since the session began, mm^3, by tissue's name and in \"total\".")
@@ -144,7 +146,7 @@ void bind_tick(py::module_& module) {
             "0 while it stands, and of force models that do not cut.")
         .def_property_readonly(
             "spindle_power_w", [](const Tick& tick) { return tick.state.spindle_power_w; },
-            "Of that torque at the burr's speed, W.")
+            "Power of that torque at the burr's speed, W.")
         .def_property_readonly(
             "burr", [](const Tick& tick) { return tick.state.tool.burr; }, "Number in Case.burrs.")
         .def_property_readonly(
@@ -158,7 +160,7 @@ void bind_tick(py::module_& module) {
             "Why the force is off and the tool out of the bone; empty while all is well.")
         .def_property_readonly(
             "notice", [](const Tick& tick) { return std::string(tick.state.tool.notice.text()); },
-            "What something that was requested waits for, such as a pedal that was held too long; empty: "
+            "The reason for which a request waits, such as a pedal that was held too long; empty: "
             "nothing.")
         .def("__eq__", [](const Tick& tick, const Tick& other) { return said(tick).equal(said(other)); })
         .def("__eq__", [](const Tick&, const py::object&) { return false; })

@@ -60,11 +60,11 @@ void bind_arms(py::module_& module) {
         .def_readonly("resolution_mm", &ArmModel::resolution_mm)
         .def_property_readonly(
             "stiffness_n_per_mm", [](const ArmModel& arm) { return limits_of(arm).max_stiffness_n_per_mm; },
-            "Of the spring that it gets.")
+            "Stiffness of the spring that the arm gets.")
         .def_property_readonly(
             "limited_by",
             [](const ArmModel& arm) { return std::string(limits_of(arm).stiffness_is_limited_by); },
-            "What its stiffness is, or what keeps it from being all that the arm claims.");
+            "Its stiffness, and the reason if it is less than the arm claims.");
     module.def("shipped_arms", &study::shipped_arms, "Name and make of each.");
     module.def("forces_on_hand", &forces_of, py::arg("case"), py::arg("arm"), py::kw_only(),
                py::arg("hand") = std::array{0.5, 0.3, 0.005}, py::arg("coupling") = "implicit",
@@ -83,7 +83,8 @@ void bind_arms(py::module_& module) {
             return std::pair(found.response, found.rigid_n_s_per_m);
         },
         py::arg("coupling"), py::arg("stiffness_n_per_mm"), py::arg("hz"),
-        "Of a slot whose feed swings: the force on the hand over that of a burr that is the hand, complex, "
+        "The response in a slot whose feed swings: the force on the hand over that of a burr that is the "
+        "hand, complex, "
         "and "
         "N s/m of the latter.");
 }

@@ -63,10 +63,10 @@ void bind_files(py::module_& module) {
     module.def(
         "depth_of_json", [](const std::string& text) { return depth_of_json(text); }, py::arg("text"),
         "How deep lists and objects lie in one another.");
-    module.def(
-        "table_lines", &table_lines, py::arg("file"),
-        "Of a table in CSV, at most 64 MiB: the number of each line that is neither blank nor a comment, and "
-        "its cells, without blanks around them.");
+    module.def("table_lines", &table_lines, py::arg("file"),
+               "Reads a table in CSV, at most 64 MiB: the number of each line that is neither blank nor a "
+               "comment, and "
+               "its cells, without blanks around them.");
     module.def("write_file", &write_file, py::arg("file"), py::arg("text"),
                "Replaces a file as a whole; of a link, the link.");
     module.def("require_distinct_files", &require_distinct_files, py::arg("read"), py::arg("folder"),

@@ -182,7 +182,7 @@ void bind_models(py::module_& module) {
                     py::arg("box_voxels") = 0, py::call_guard<py::gil_scoped_release>(),
                     "Solid, its top face at z = 0, in a box of that edge; edges are multiples of 16.")
         .def_static("scene", &scene_bone, py::arg("name"), py::call_guard<py::gil_scoped_release>(),
-                    "Of a built-in scene.")
+                    "The bone of a built-in scene.")
         .def_property_readonly("box_mm3",
                                [](const Bone& bone) {
                                    const glm::dvec3 edges_mm =
@@ -218,8 +218,9 @@ void bind_steady(py::module_& module) {
         .def_property_readonly("feed_mm_per_s",
                                [](const SteadyCase& c) { return glm::length(c.velocity_mm_per_s); })
         .def_property_readonly(
-            "mean_force_n", [](const SteadyCase& c) { return array_of(c.mean_force_n); }, "Of the file.")
-        .def_readonly("removal_mm3_per_s", &SteadyCase::removal_mm3_per_s, "Of the file.")
+            "mean_force_n", [](const SteadyCase& c) { return array_of(c.mean_force_n); },
+            "As the file states it.")
+        .def_readonly("removal_mm3_per_s", &SteadyCase::removal_mm3_per_s, "As the file states it.")
         .def(
             "with_edges",
             [](SteadyCase c, const Vector& edges) {
@@ -285,7 +286,8 @@ void bind_forces(py::module_& module) {
     module.def("contact_models", &study::contact_models, "Force models without a cutting law.");
     module.def("resting_force_n", &study::resting_force_n, py::arg("model"), py::arg("depth_mm"),
                py::call_guard<py::gil_scoped_release>(),
-               "What such a model feels of a 5 mm burr that rests so deep in flat bone of 0.1 mm voxels, N.");
+               "The force that such a model feels of a 5 mm burr that rests so deep in flat bone of 0.1 mm "
+               "voxels, N.");
 }
 
 }  // namespace osteomill::python

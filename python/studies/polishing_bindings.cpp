@@ -20,7 +20,8 @@ void bind_polishing(py::module_& module) {
             "start_mm", [](const PolishingSlide& slide) { return array_of(slide.start_mm()); },
             "Where it begins, on the bone's surface: (3,).")
         .def_property_readonly("burr_radius_mm", &PolishingSlide::burr_radius_mm)
-        .def_property_readonly("meant_s", &PolishingSlide::meant_s, "Of the motion that the hand means.")
+        .def_property_readonly("meant_s", &PolishingSlide::meant_s,
+                               "Duration of the motion that the hand intends.")
         .def(
             "meant_mm",
             [](const PolishingSlide& slide, double time_s) { return array_of(slide.meant_mm(time_s)); },

@@ -131,7 +131,7 @@ void bind_rendering(py::module_& module) {
             return study::carved_sphere_psnr_db(px_per_voxel);
         },
         py::arg("px_per_voxel"), py::arg("gpu") = py::none(), py::call_guard<py::gil_scoped_release>(),
-        "Of a picture of a wall cut by a sphere, against the analytic one.");
+        "PSNR of the picture of a wall cut by a sphere, against the analytic one.");
     module.def("cut_wall_normals_p95_deg", &study::carved_sphere_normals_p95_deg,
                py::call_guard<py::gil_scoped_release>(),
                "95th percentile of the angle between the normals of such a wall and the sphere's.");

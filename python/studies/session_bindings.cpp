@@ -111,8 +111,9 @@ void bind_sessions(py::module_& module) {
     module.def("words_in", &translation_into, py::arg("language"),
                "Texts of window and report in one of languages(), by the English ones; none in English.");
     module.def("trainee_groups", &groups_of, py::arg("file"),
-               "Of groups.csv: the group, and the line that says so, by the trainee's name.");
-    module.def("digest_of_recording", &digest_of_recording, py::arg("file"), "Of its bytes.");
+               "Reads groups.csv: the group, and the line that says so, by the trainee's name.");
+    module.def("digest_of_recording", &digest_of_recording, py::arg("file"),
+               "Digest of the bytes of a file.");
     module.def(
         "read_session", &read_session, py::arg("file"),
         "Whose a whole recording is, of what, when, its metrics (key, of, value, unit, text), and what it "

@@ -58,7 +58,7 @@ std::vector<DatasetCamera> parse_cameras(std::string_view text, const std::strin
                                          const std::filesystem::path& folder);
 
 /// Throws std::runtime_error, in one line, if one follows a trainee and the recording has no such view.
-/// `has_view` says whether it has; called only if one does, since that may take a reading of the recording.
+/// `has_view` is called only if a camera follows the trainee, since it may have to read the whole recording.
 void require_view(std::span<const DatasetCamera> cameras, const std::function<bool()>& has_view,
                   const std::filesystem::path& recording);
 

@@ -39,8 +39,8 @@ class DatasetFrames {
     DatasetFrames(std::filesystem::path recording, DatasetContents contents,
                   std::function<void(const ImagedSession&)> on_session);
 
-    /// The next of this part; nothing at the recording's end, and where `stop_requested` says so, which is
-    /// asked at every state. Throws RecordingError if it cannot be read.
+    /// The next frame of this part; nothing at the end of the recording, or once `stop_requested`, asked at
+    /// every state, returns true. Throws RecordingError if it cannot be read.
     std::optional<DatasetFrame> next(const std::function<bool()>& stop_requested);
 
     /// The instant of the last frame.

@@ -25,7 +25,7 @@ class ImagedSession {
     /// Nothing before there is one.
     virtual const ToolState* tool() const = 0;
     virtual std::span<const Structure> structures() const = 0;
-    /// From where the trainee looks, if that is known.
+    /// The viewpoint of the trainee, if it is known.
     virtual const std::optional<Viewpoint>& view() const = 0;
     /// Changes of the bone since the last call.
     virtual std::vector<BrickChange> take_changes() = 0;

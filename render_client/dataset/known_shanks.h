@@ -15,7 +15,8 @@ class KnownShanks {
   public:
     /// Reads the scene's text, once; null: no session.
     void take_in(const SessionInfo* session);
-    /// By its index; empty for a burr without a profile, and where the text is not sent or no scene.
+    /// The shank of the burr of that index; empty if the burr has none, or the server sent no scene or one
+    /// that cannot be read.
     const ShankProfile& of(std::size_t burr) const;
 
   private:

@@ -10,7 +10,7 @@ namespace {
 /// defect.
 constexpr int most_searches = 2;
 
-/// One a second: who has not answered by then never will.
+/// One a second: a server that has not answered by then never will.
 constexpr int most_mismatches = 20;
 
 const WireError failed{"the bone differs from the server's and cannot be repaired"};

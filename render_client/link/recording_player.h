@@ -52,7 +52,7 @@ class RecordingPlayer final : public SessionSource {
     /// The time that it is at or, while it seeks, the time that it is going to.
     double time_s() const { return target_s_; }
     double duration_s() const { return outline_.duration_s; }
-    /// Whether it says from where the one who moved the tool looked.
+    /// Whether it states the viewpoint of the person who moved the tool.
     bool has_view() const { return outline_.has_view; }
     /// The moments worth seeing.
     const std::vector<RecordedMoment>& moments() const { return outline_.moments; }

@@ -340,7 +340,7 @@ void ServerConnection::reject(const std::string& line) {
 
 void ServerConnection::lose(const std::string& line) {
     disconnect();
-    // After a goodbye or a refusal that no one answers is no news.
+    // After a goodbye or a refusal, a server that does not answer is no news.
     if (announced_ != LinkStatus::finished && announced_ != LinkStatus::refused)
         announce(counters_.connections > 0 ? LinkStatus::lost : LinkStatus::connecting,
                  trf("{}; trying again", line));

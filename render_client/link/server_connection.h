@@ -58,7 +58,7 @@ class ServerConnection {
     /// Dropped if the server would not accept it, and beyond ClientOutbox::most_waiting_controls that wait to
     /// be written.
     void send(const SessionControl& control);
-    /// From where its operator looks, sent again on later connections; only to servers that record it.
+    /// The operator's viewpoint, sent again on later connections; only to servers that record it.
     void send(const Viewpoint& view);
     /// Asks for the CT; dropped if the server has none.
     void ask_for_ct();
@@ -108,7 +108,7 @@ class ServerConnection {
     void write_newest();
     void reject(const std::string& line);
     void lose(const std::string& line);
-    /// Nothing that this program does makes it come right, so that there is no hurry to try again.
+    /// This program cannot mend it, so it tries again at leisure.
     void refuse(std::string line);
     std::string describe_loss(boost::system::error_code error) const;
     void retry_later();

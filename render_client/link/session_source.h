@@ -48,7 +48,7 @@ struct LinkUpdate {
     std::vector<ControlEvent> events{};    ///< since the last poll
     /// The distances of protected structures that are near the burr or were touched, as of the newest tool.
     std::vector<StructureDistance> distances{};
-    /// From where the one who moves the tool looks, in a recording that says so.
+    /// The viewpoint of the person who moves the tool, if the recording states it.
     std::optional<Viewpoint> view{};
     SessionStatus controls{};  ///< the controls that the session accepts now
     /// How old the newest tool of this session was when a poll took it; nothing if the server does not
@@ -95,7 +95,7 @@ class SessionSource {
     virtual void connect_to(const ListenAddress&) {}
     /// Any thread: a request to the session; ignored if there is none to take it.
     virtual void send_control(const SessionControl&) {}
-    /// Any thread: from where the operator looks; nothing if nobody keeps it.
+    /// Any thread: sends the operator's viewpoint; ignored if the session does not keep it.
     virtual void send_view(const Viewpoint&) {}
     /// Any thread. The tool of the session that an operator may be at; nothing if there is none.
     virtual std::optional<ToolState> newest_tool() const { return std::nullopt; }

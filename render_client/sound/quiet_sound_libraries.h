@@ -1,5 +1,5 @@
-// Silence of OpenAL and ALSA on standard error: about a sound card that is not there they have ten lines, and
-// the program has one.
+// Keeps OpenAL and ALSA silent on standard error: they write ten lines about a missing sound card, the
+// program writes one.
 #pragma once
 
 namespace osteomill {

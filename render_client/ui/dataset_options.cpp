@@ -45,7 +45,7 @@ CLI::Option* add_dataset_options(CLI::App& app, DatasetOptions& dataset) {
     add_read(
         app, "--dataset-images",
         [&](const std::string& text) { dataset.images = images_named(cells_of(text)); },
-        "What is written, of colour, depth, ray-depth, labels, normals (all but ray-depth)")
+        "The images to write, of colour, depth, ray-depth, labels, normals (all but ray-depth)")
         ->type_name("KIND,...")
         ->needs(folder);
     app.add_option(

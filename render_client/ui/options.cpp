@@ -154,7 +154,7 @@ void add_microscope(CLI::App& app, RenderOptions& options) {
     for (const double step : magnification_steps) steps.push_back(fmt::format("{}", step));
     add_choice(app, "--magnification", steps,
                std::vector<double>(magnification_steps.begin(), magnification_steps.end()),
-               options.magnification, "Of the first view, in the steps of a microscope (1)");
+               options.magnification, "Magnification of the first view, in the steps of a microscope (1)");
     app.add_flag("--light-field", options.light_field, "Show only a microscope's round field");
     add_choice(app, "--inset", {"off", "endoscope", "axial"},
                std::vector{InsetKind::off, InsetKind::endoscope, InsetKind::axial}, options.inset,
@@ -284,7 +284,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
         ->type_name("NAME");
     options.language = language_of_environment();
     app.add_option("--language", options.language,
-                   "Of the window; unless given, that of LANG where it is there")
+                   "Language of the window; by default that of LANG, if there is a translation")
         ->check(one_of(languages()))
         ->type_name("NAME");
     app.add_option(

@@ -324,7 +324,8 @@ class Drawing {
 
     bool shows_start_page() const { return start_ && start_->is_due(session_.link().status); }
 
-    /// Leaves what is over the picture, or comes back to the page that was hidden: before the window ends.
+    /// Closes a panel over the picture, or shows the hidden page again. Only if there is neither does ESC end
+    /// the window.
     bool steps_back() {
         ViewSettings& view = session_.view();
         if (view.question != SessionQuestion::none) return false;

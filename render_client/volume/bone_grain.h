@@ -15,7 +15,7 @@ inline constexpr double fine_grain_mm = 0.25, coarse_grain_mm = 0.9;
 /// lighter or darker.
 using GrainTable = std::array<glm::vec2, 256>;
 
-/// Of bone of a relative stiffness, at least 0.
+/// The grain of bone of a relative stiffness (at least 0).
 glm::vec2 grain_of_stiffness(double relative_stiffness);
 
 }  // namespace osteomill

@@ -49,7 +49,7 @@ Camera camera_on(const glm::dvec3& centre_mm, double radius_mm);
 void look_along(Camera& camera, const glm::dvec3& forward);
 /// Turns round the target; elevation stays within a degree of straight up and down.
 void orbit(Camera& camera, double azimuth_change_rad, double elevation_change_rad);
-/// Moves target and eye so that what is at the target's depth follows the pointer (pixels, y down).
+/// Moves target and eye so that points at the target's depth follow the pointer (pixels, y down).
 void pan(Camera& camera, const glm::dvec2& moved_px, const glm::ivec2& size_px);
 /// Multiplies the distance, within the limits that keep the bone between near and far.
 void zoom(Camera& camera, double distance_factor);

@@ -30,7 +30,7 @@ struct TissueShades {
 std::optional<TissueShades> tissue_shades(const BoneContent& content, std::span<const TissueColour> tissues);
 
 /// The median relative stiffness of each label's bone, counted as for shades; 1 for a label that no bone has.
-/// Of a bone without stiffness codes it is the same everywhere.
+/// Without stiffness codes it is the same for the whole bone.
 std::array<double, 256> median_stiffness_by_label(const BoneContent& content);
 
 }  // namespace osteomill

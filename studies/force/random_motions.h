@@ -1,4 +1,4 @@
-// Steady motions drawn at random: none that anything was tuned to.
+// Steady motions drawn at random, so that nothing was tuned to them.
 #pragma once
 
 #include <cstdint>

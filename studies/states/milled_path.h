@@ -25,7 +25,7 @@ namespace osteomill::study {
 
 inline constexpr double path_step_s = 0.001;
 
-/// What a path is made of: a pose at the end of each millisecond.
+/// The parts of a path: a pose at the end of each millisecond.
 struct PathStep {
     ToolPose pose{};
     bool spindle_on = true;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What learners pay for: copies of sessions, steps of many environments, pictures. Each line says the clock's time and this process's CPU
+"""The costs of learning: copies of sessions, steps of many environments, pictures. Each line says the clock's time and this process's CPU
 time; on a busy machine the second is what counts.
 
     PYTHONPATH=build/release/python python3 tests/benchmarks/learning_benchmark.py [copies] [steps] [pictures]"""

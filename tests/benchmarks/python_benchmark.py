@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a session costs from Python and from C++, along the same motion: 2 s in which the tooth's burr plunges and circles. CPU time
+"""Costs of a session from Python and from C++, along the same motion: 2 s in which the tooth's burr plunges and circles. CPU time
 of this process, the least of several repeats taken in turn, so that other programs do not matter much.
 
     PYTHONPATH=build/release/python python3 tests/benchmarks/python_benchmark.py [--sessions 1000]

@@ -38,7 +38,7 @@ def upright(positions_mm):
 
 
 def down(from_z_mm, to_z_mm, feed=FEED_MM_PER_S):
-    """Of the burr's centre, over (0, 0)."""
+    """Height of the burr's centre over (0, 0)."""
     return upright(states_motions.polyline(np.array([[0.0, 0.0, from_z_mm], [0.0, 0.0, to_z_mm]]), [feed]))
 
 

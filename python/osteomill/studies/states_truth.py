@@ -1,4 +1,4 @@
-"""What is true of a burr on its path: the bone left in its way, what it is cutting, the state, the time to breakthrough.
+"""The truth about a burr on its path: the bone left in its way, what it is cutting, the state, the time to breakthrough.
 
 The *far side* is free space of the bone as it was before milling, from which the way back along the spindle leads through at least
 0.3 mm of bone: beyond a plate, in a cavity behind a wall. Free space in front of the bone is none, and what is milled is none. All
@@ -72,7 +72,7 @@ def truth_of(case: Case, positions_mm: Array, axes: Array, normals: Array, cut_s
 
 
 class FarSide:
-    """Of the bone about a path, seen along one axis, the mean one of the path."""
+    """The far side of the bone about a path, along one axis: the mean spindle axis of the path."""
 
     def __init__(self, case: Case, axis: Array, positions_mm: Array, radius_mm: float) -> None:
         from scipy import ndimage
@@ -135,7 +135,7 @@ def _channel(case: Case, name: str) -> NDArray[Any]:
 
 
 def sampled(case: Case, channel: str, places_mm: Array) -> Array:
-    """Of the nearest voxel; 0 (of `hu`: -1000) beyond the bone's grid."""
+    """The channel's value in the nearest voxel; 0 (-1000 for `hu`) beyond the bone's grid."""
     values = _channel(case, channel)
     at = np.rint((places_mm - case.bone.origin_mm) / case.bone.spacing_mm).astype(int)
     inside = ((at >= 0) & (at < values.shape)).all(axis=1)

@@ -49,7 +49,7 @@ def measure(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def swing_percent(force_n: NDArray[np.float64], teeth_hz: float) -> float:
-    """Of rows at RATE_HZ, (n, 3): rms about the mean over each tooth period, of the rms of those means. A tooth period is whole rows."""
+    """Rms of the force about its mean over each tooth period, in percent of the rms of these means. Rows at RATE_HZ, (n, 3)."""
     rows = round(RATE_HZ / teeth_hz)
     periods_n = force_n[: len(force_n) // rows * rows].reshape(-1, rows, 3)
     means_n = periods_n.mean(axis=1)

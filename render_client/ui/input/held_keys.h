@@ -15,7 +15,7 @@ class HeldKeys {
 
     // Times are of one clock, and do not decrease; keys are below WindowInput::most_keys.
 
-    /// Whether it goes down with that: not where it is down, or comes back.
+    /// Whether this press takes the key down: not if it is down, or returns within the gap.
     bool press(std::size_t key, double now_s) {
         settle(now_s);
         released_s_.erase(key);

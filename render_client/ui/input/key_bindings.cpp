@@ -127,7 +127,7 @@ const std::vector<KeyBinding>& table() {
     return bindings;
 }
 
-/// Those that change something there: nothing yet is to be looked at.
+/// The actions that have an effect there: no session can be seen yet.
 bool acts_on_start_page(Action action) {
     using enum Action;
     constexpr std::array acting{help, theme, sound, warnings, fullscreen, screenshot, end};

@@ -17,7 +17,7 @@ namespace osteomill {
 
 namespace {
 
-/// Nothing if there is none that can be read: a card without a picture is a card.
+/// Nothing if no picture can be read: the card is then drawn without one.
 std::optional<Picture> picture_of(const ShelvedCase& shelved) {
     try {
         if (shelved.is_built_in) {
@@ -36,7 +36,7 @@ float gap_in_card() {
     return 0.5f * ImGui::GetFontSize();
 }
 
-/// It has the height of a card with little text, whatever the others are.
+/// It has the height of a card with little text, however high the other cards are.
 ImVec2 picture_in_card() {
     const float height = 7.6f * ImGui::GetFontSize() - 2.0f * gap_in_card();
     return {1.4f * height, 1.4f / 1.5f * height};

@@ -6,7 +6,7 @@
 namespace osteomill {
 
 glm::vec2 cuts_panel_size(const PanelPainter& painter);
-/// `camera` says where a cut that comes on faces.
+/// A cut that is switched on faces `camera`.
 void draw_cuts_panel(CutSettings& cuts, const Camera& camera, const PanelPlace& place);
 
 }  // namespace osteomill

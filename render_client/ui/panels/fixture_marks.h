@@ -1,6 +1,6 @@
 // Guides of virtual fixtures as lines over the picture: they are information, not things, and bone does not
-// hide them. A line with its ends, a tube with a ring at each end, a plane with a ring under the burr; and
-// what leads from the burr to a guide that acts.
+// hide them. A line with its ends, a tube with a ring at each end, a plane with a ring under the burr; and a
+// line from the burr to each guide that acts.
 #pragma once
 
 #include "render_client/ui/panels/panel_painter.h"
@@ -10,7 +10,7 @@ namespace osteomill {
 /// The place of a guide's path that is nearest to the burr's centre.
 glm::dvec3 nearest_of_path(const Fixture& guide, const glm::dvec3& burr_mm);
 
-/// Of the session's guides that are on; needs content.tool.
+/// Marks the guides of the session that are on; needs content.tool.
 void draw_guides(const PanelPainter& painter, const OverlayContent& content, const glm::ivec2& size_px);
 
 }  // namespace osteomill

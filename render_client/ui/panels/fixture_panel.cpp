@@ -14,7 +14,7 @@ namespace osteomill {
 
 namespace {
 
-/// From the burr to where it begins to act; nothing where that is not known.
+/// Distance from the burr to the place at which the fixture begins to act; nothing if it is not known.
 std::optional<double> distance_mm(const OverlayContent& content, const Fixture& fixture) {
     if (fixture.kind == FixtureKind::guide) {
         const glm::dvec3& burr_mm = content.tool->burr_position_mm;

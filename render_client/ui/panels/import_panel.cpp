@@ -22,7 +22,7 @@ namespace {
 
 constexpr double mm_per_notch = 1.0;  // of the wheel
 
-/// True where a person changes it.
+/// True if a person changes it.
 bool number_field(const char* label, double& number, const char* format) {
     // Six of them stand in a row, with words for two more.
     const float letter = ImGui::GetFontSize();

@@ -10,7 +10,7 @@ namespace osteomill {
 /// All three plots, or the forces alone, or only the numbers.
 enum class PlotDetail { all, forces, numbers };
 
-/// `shows_solve`: below the three plots, a line says how well the coupling was solved.
+/// `shows_solve`: adds a line below the three plots about the residual of the coupling's solve.
 glm::vec2 live_plot_size(const PanelPainter& painter, PlotDetail detail, bool shows_solve);
 void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, const ToolState& tool,
                     PlotDetail detail, bool shows_solve, const PanelPlace& place);

@@ -71,7 +71,7 @@ class PanelList {
     std::vector<Draw> draws_;
 };
 
-/// There is no session, or it is over: nothing of it goes on, and nothing of it is to cover the page.
+/// There is no session, or it is over. Its panels are not drawn, since they would cover the page.
 bool shows_start_page(const OverlayContent& content) {
     return content.start != nullptr && content.start->is_due(content.link.status);
 }
@@ -225,7 +225,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         panels.add(Anchor::top, tool_bar_sizes(content, painter),
                    [&](const PanelPlace& place) { draw_tool_bar(content, place); });
     const bool alarms = is_alarm(content) && !starts;
-    // A fault is no harm to a structure, and does not look like it.
+    // A fault harms no structure, so its banner looks different.
     if (alarms && !structure_warnings(content).empty()) draw_alarm_frame(painter, size_px);
     if (const PanelText warnings = starts ? notice_text(content) : warning_text(content); !warnings.empty())
         panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin,

@@ -27,7 +27,7 @@ inline bool button(const char* text, bool is_enabled) {
     return pressed;
 }
 
-/// Room for a list above `lines` of other widgets.
+/// Height left for a list above `lines` of other widgets.
 inline ImVec2 list_size(float lines) {
     return {0.0f, ImGui::GetContentRegionAvail().y - lines * ImGui::GetFrameHeightWithSpacing()};
 }

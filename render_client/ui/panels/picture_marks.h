@@ -11,14 +11,14 @@ ScaleBar scale_bar_of(const Camera& camera, const glm::ivec2& size_px);
 glm::vec2 scale_bar_size(const PanelPainter& painter, const ScaleBar& bar);
 void draw_scale_bar(const PanelPainter& painter, const ScaleBar& bar, const PanelPlace& place);
 
-/// Beside the arrow's head, or where the panels leave it free near there. Nothing if there is no arrow;
+/// Beside the head of the arrow, or near it at a place that no panel covers. Nothing if there is no arrow;
 /// the plot has the force as well.
 void draw_force_label(const PanelPainter& painter, const ToolState& tool, double burr_radius_mm,
                       const Camera& camera, const glm::ivec2& size_px,
                       std::span<const std::optional<PanelPlace>> panels);
 
-/// On the bone that the burr's centre would meet along its spindle, as large as the burr: nothing if that
-/// is more than 20 mm away, and if it touches already.
+/// A circle of the burr's size on the bone that the burr's centre would meet along its spindle; none if that
+/// is more than 20 mm away or the burr touches it.
 void draw_touch_ring(const PanelPainter& painter, const Bone& bone, const ToolState& tool,
                      double burr_radius_mm, const Camera& camera, const glm::ivec2& size_px);
 

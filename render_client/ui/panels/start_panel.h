@@ -29,7 +29,7 @@ struct StartScreen {
 
     /// Whether there is nothing else to do: no session, or one that has ended.
     bool is_due(LinkStatus status) const { return has_no_session(status) && !page.is_hidden; }
-    /// It would be due, had a person not hidden it.
+    /// Whether it would be shown if the user had not hidden it.
     bool is_hidden(LinkStatus status) const { return has_no_session(status) && page.is_hidden; }
 
     StartPage page;

@@ -8,7 +8,7 @@ namespace osteomill {
 /// The nearest by name with its distance, and every structure that was touched, for as long as the session
 /// lasts; empty if the session protects nothing.
 PanelText structure_text(const OverlayContent& content);
-/// Those that the burr touches, or is nearer to than is to be warned of; mostly none.
+/// Those that the burr touches or is within the warning distance of; mostly none.
 PanelText structure_warnings(const OverlayContent& content);
 
 }  // namespace osteomill

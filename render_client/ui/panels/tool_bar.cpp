@@ -37,7 +37,7 @@ std::string burr_words(const Burr& burr) {
                              burr.diameter_mm);
 }
 
-/// The burr that was chosen; for an arm that chooses itself, the burr in the tool.
+/// The burr that the operator of this window chose; the burr in the tool if the tool is not theirs.
 std::optional<std::size_t> burr_in_use(const OverlayContent& content) {
     if (content.session == nullptr) return std::nullopt;
     std::optional<std::size_t> burr;

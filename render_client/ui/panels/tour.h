@@ -5,8 +5,8 @@
 
 namespace osteomill {
 
-/// The card that the page is at, if it is at one: buttons, Return and the arrow keys go on and back. Needs an
-/// ImGui window to be open.
+/// Draws the card that the page has reached, if any. Its buttons, Return and the arrow keys turn the cards.
+/// Needs an ImGui window to be open.
 void draw_tour(StartPage& page);
 
 }  // namespace osteomill

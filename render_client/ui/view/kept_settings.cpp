@@ -39,7 +39,7 @@ KeptSettings read_settings(const std::filesystem::path& file) {
 
 std::string text_of(const KeptSettings& settings) {
     return fmt::format(
-        "# Of render_client's window: F2, F9, N, F12\n"
+        "# Settings of render_client's window: F2, F9, N, F12\n"
         "theme = \"{}\"\nsound = {}\nwarnings = {}\nfigures = {}\ntour_seen = {}\n",
         theme_names[static_cast<std::size_t>(settings.theme)], settings.sound, settings.warns,
         settings.details_shown, settings.tour_seen);

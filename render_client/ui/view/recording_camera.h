@@ -14,7 +14,7 @@ class RecordingCamera {
   public:
     /// The one that --camera names; if it is not given, `by_default` says which (as cameras_named has it),
     /// and nothing is the person's own view. Throws std::runtime_error, in one line, if there are several, or
-    /// the recording does not say from where the trainee looked.
+    /// the recording does not state the trainee's viewpoint.
     RecordingCamera(const RenderOptions& options, const RecordingPlayer* player,
                     const std::string& by_default = {});
 

@@ -24,7 +24,7 @@
 
 namespace osteomill {
 
-/// Tiles of a picture that can show changes of these voxels of the bone's grid(), for shading that reads
+/// The tiles of a picture that can show changes of these voxels of the bone's grid(), if shading reads
 /// `reach_voxels` around a voxel (shading_reach.h).
 TileMask tiles_of_changes(std::span<const VoxelBox> changed, const BoneTextures& bone, const Camera& camera,
                           const glm::ivec2& size_px, int reach_voxels);

@@ -16,8 +16,9 @@ namespace osteomill {
 class LightField {
   public:
     LightField();
-    /// Draws into the bound framebuffer, a picture by that camera as large as `bone`, whose depth is the
-    /// bone's. What stands before the bone has its light; where there is none, that of the focus.
+    /// Draws into the bound framebuffer, which holds the picture of that camera and has the size of `bone`.
+    /// The depth in `bone` decides the light of each pixel, also of a tool in front of the bone; a pixel
+    /// without bone is lit as at the focus.
     void draw(const gl::Framebuffer& bone, const Camera& camera) const;
 
   private:

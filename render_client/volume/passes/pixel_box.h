@@ -8,8 +8,8 @@
 
 namespace osteomill {
 
-/// Pixels (from the lower left corner, as glScissor counts) that can show a box of patient space; none if it
-/// reaches behind the camera and could be anywhere.
+/// Pixels (from the lower left corner, as glScissor counts) that can show a box of patient space; nothing if
+/// the box reaches behind the camera, so that any pixel could show it.
 struct PixelBox {
     glm::ivec2 first{0};
     glm::ivec2 size{0};

@@ -27,7 +27,7 @@ PixelBox common_part(const PixelBox& a, const PixelBox& b) {
     return {first, glm::max(glm::min(a.first + a.size, b.first + b.size) - first, 0)};
 }
 
-/// Pixels that show bone, and one more on each side, where a silhouette may lie.
+/// Pixels that show bone, and one more on each side for silhouettes.
 PixelBox pixels_beside(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
     const Grid& grid = bone.grid();
     const VoxelBox& box = bone.box();

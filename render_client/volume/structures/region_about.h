@@ -6,7 +6,7 @@
 namespace osteomill {
 
 /// The places within `distance_mm` of the structure, on a grid of their own: as fine as the structure's, or
-/// coarser where that would be more than some million voxels. Empty for an empty structure. Allocates.
+/// coarser if that would be more than some million voxels. Empty for an empty structure. Allocates.
 StructureMask region_about(const StructureMask& structure, double distance_mm);
 
 }  // namespace osteomill

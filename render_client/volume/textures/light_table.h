@@ -14,7 +14,7 @@ class LightTable {
   public:
     LightTable();
 
-    /// Display RGB of an open white surface; it exceeds 1 where a white one is overexposed. `outward` need
+    /// Display RGB of an open white surface; it exceeds 1 if a white surface is overexposed. `outward` need
     /// not be unit but must not be zero. Since the display's curve is a power, that of a colour is the
     /// product of this and display(colour).
     glm::vec3 towards(const glm::ivec3& outward) const;

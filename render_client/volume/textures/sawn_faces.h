@@ -21,8 +21,8 @@ struct SawnFaces {
     bool any() const;
 };
 
-/// Of the bone as it is; what was milled off a face counts as if it had not been there. None for a bone
-/// without voxels that are half full.
+/// Finds the faces of the bone in its present state: bone that was milled off a face does not count. A bone
+/// without a voxel that is at least half full has no face.
 SawnFaces sawn_faces(const Bone& bone);
 /// The two faces across one axis, 0 to 2, into `faces`: a part of that work.
 void find_sawn_faces(const Bone& bone, int axis, SawnFaces& faces);

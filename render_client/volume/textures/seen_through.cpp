@@ -252,7 +252,7 @@ void SeenThrough::find_nearest(const VoxelBox& places, const VoxelBox& voxels, i
             note(x, found);
         }
     }
-    // Then across: of whole rows, by window.
+    // Then across the rows, for whole rows at once, by window.
     const auto across = [&](std::size_t from, int rows_before, int rows, int planes, std::size_t row) {
         squares_[from + 1].assign(row * static_cast<std::size_t>(rows) * static_cast<std::size_t>(planes),
                                   no_square);

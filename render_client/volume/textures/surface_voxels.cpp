@@ -41,8 +41,8 @@ std::uint64_t top_bits_of_eight(std::uint64_t bytes) {
     return ((bytes & top_bit_of_each) >> 7U) * 0x0102040810204080U >> 56U;
 }
 
-/// Bits of a row's voxels that are less than half full; of at most 64 voxels, but it reads up to seven bytes
-/// beyond them.
+/// A bit for each voxel of a row, set if it is less than half full. A row has at most 64 voxels, and up to
+/// seven bytes behind it are read.
 std::uint64_t outside_of_row(const std::uint8_t* fractions, std::size_t count) {
     static_assert(std::endian::native == std::endian::little);
     std::uint64_t outside = 0;

@@ -11,8 +11,8 @@
 // median and 28 at the 95th percentile, which is seen as rings. With all neighbours and smoothed fractions it
 // is 0.5 and 0.8 (osteomill_study render, normals).
 //
-// Each voxel has a bit for being outside, a row of 62 and its borders in a word, so that surface voxels are
-// found a row at a time.
+// A bit marks each voxel that is outside. A 64-bit word holds 62 voxels of a row and one beyond each end, so
+// that surface voxels are found a row at a time.
 #pragma once
 
 #include <array>

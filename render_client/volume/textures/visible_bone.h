@@ -24,7 +24,7 @@ class VisibleBone {
     /// Copies all of the bone, once. Pass bricks that change meanwhile to follow afterwards.
     Steps fill(const Bone& bone);
 
-    /// Takes over the bricks that changed of `bone`, which is the bone of the constructor, carved since.
+    /// Copies the changed bricks of `bone`, the bone of the constructor in its present state.
     void follow(const Bone& bone, std::span<const BrickChange> changes);
 
     /// Only after fill().

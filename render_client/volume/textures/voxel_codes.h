@@ -31,7 +31,7 @@ struct VoxelCodes {
 void copy_codes(const Bone& bone, const VoxelCodes& codes, const VoxelBox& box,
                 std::span<std::uint8_t> voxels);
 
-/// Copies the codes within a box, of stiffness codes the largest of each voxel and its 26 neighbours: a voxel
+/// Copies the codes within a box. A stiffness code is the largest of the voxel and its 26 neighbours: a voxel
 /// at the edge of bone mixes bone and air, and its CT number makes it softer than the bone in it. With its
 /// own code, colour and opacity would change from voxel to voxel of a surface.
 void copy_stiffest_codes(const Bone& bone, const VoxelCodes& codes, const VoxelBox& box,

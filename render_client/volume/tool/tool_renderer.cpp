@@ -53,8 +53,8 @@ glm::dmat4 pose_of_handpiece(const DrawnTool& tool) {
     return glm::translate(glm::dmat4(1.0), tool.state.burr_position_mm) * z_to(tool.state.spindle_axis);
 }
 
-/// Draws a mesh that was placed over what is there: first the depth of its nearest surface, then its colour,
-/// so that it is seen through once, not twice.
+/// Draws a translucent mesh over the picture so far: first the depth of its nearest surface, then its colour,
+/// so that only one of its surfaces is seen.
 void draw_translucent(const gl::Mesh& mesh) {
     glEnable(GL_CULL_FACE);
     glDepthFunc(GL_LEQUAL);

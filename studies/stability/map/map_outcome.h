@@ -9,7 +9,7 @@ struct MapOutcome {
 
     bool is_stable = false;       ///< verdict.h
     double limit_cycle_n = 0.0;   ///< rms of the force's fast part, beyond the truth's
-    double injected_mj = 0.0;     ///< energy that the hand got beyond its own input
+    double injected_mj = 0.0;     ///< energy that the hand received beyond its own input
     double rms_error_n = 0.0;     ///< force against the truth's, tick by tick
     double mean_error_n = 0.0;    ///< |mean force - truth's mean force|
     double peak_n = 0.0;          ///< largest force on the hand

@@ -36,7 +36,7 @@ struct OnsetRun {
 
 /// Until a prescribed hand stops, or a tenth of a second after a guided one means to. Throws
 /// std::invalid_argument for an unknown coupling, a spring that is none, a speed or way that is not above 0,
-/// and what ImpulseByWay refuses.
+/// and as ImpulseByWay does.
 OnsetRun run_onset(const Onset& onset, const OnsetHand& hand);
 
 struct OnsetPeak {

@@ -17,8 +17,8 @@ constexpr std::size_t angle_count = 24;
 constexpr double path_spacing_mm = 0.01;
 constexpr std::size_t fine_points = 12;
 constexpr std::size_t coarse_stride = 4;
-/// Spheres of the past within this distance are looked at in each refresh; they are all that matters where
-/// the burr goes on. The others, which it meets again where it returns or goes deeper, in one of five.
+/// Each refresh checks the spheres of the past within this distance, which suffice while the burr goes on. It
+/// checks the others, which the burr meets again if it returns or goes deeper, once in five refreshes.
 constexpr double near_mm = 1.2;
 constexpr int refreshes_per_far_look = 5;
 /// The length of the slot that the burr begins in.
