@@ -266,7 +266,9 @@ void Commands::write_pictures(const gl::Framebuffer& picture, double now_s) {
         if (std::exchange(picture_wanted_, false))
             say(trf("written: {}", pictures_.write(picture.read_back()).string()), now_s);
         if (export_wanted_ && !pictures_.is_exporting())
-            say(trf("writing every frame into {} until O", pictures_.begin_frames().string()), now_s);
+            say(trf("writing every frame into {} until {}", pictures_.begin_frames().string(),
+                    key_of(Action::export_frames)),
+                now_s);
         if (!export_wanted_ && pictures_.is_exporting()) {
             pictures_.end_frames();
             say(tr("no more frames are written"), now_s);

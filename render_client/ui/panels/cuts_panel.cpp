@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/words/translation.h"
+#include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/panels/input_panel.h"
 
 namespace osteomill {
@@ -11,11 +12,14 @@ namespace osteomill {
 namespace {
 
 void draw_row(CutSettings& cuts, std::size_t index, const Camera& camera) {
-    const std::array<const char*, CutSettings::count> names{tr("left/right (X)"), tr("front/back (Y)"),
-                                                            tr("above/below (Z)"), tr("across the view (C)")};
+    const std::array<std::string, CutSettings::count> names{
+        trf("left/right ({})", key_of(Action::cut_x)), trf("front/back ({})", key_of(Action::cut_y)),
+        trf("above/below ({})", key_of(Action::cut_z)),
+        trf("across the view ({})", key_of(Action::cut_view))};
     const CutSettings::Cut& cut = cuts[index];
     bool is_on = cut.is_on;
-    if (ImGui::Checkbox(names[index], &is_on)) is_on ? cuts.step(index, camera) : cuts.switch_off(index);
+    if (ImGui::Checkbox(names[index].c_str(), &is_on))
+        is_on ? cuts.step(index, camera) : cuts.switch_off(index);
     auto position_mm = static_cast<float>(cut.position_mm);
     // One that was never on has no direction yet, and so no reach.
     const float reach_mm = std::max(static_cast<float>(cuts.reach_mm(index)), 0.1f);
@@ -47,7 +51,8 @@ void draw_cuts_panel(CutSettings& cuts, const Camera& camera, const PanelPlace& 
         draw_row(cuts, index, camera);
         ImGui::PopID();
     }
-    ImGui::TextDisabled("%s", tr("alt + wheel moves the last; F4 closes"));
+    ImGui::TextDisabled("%s",
+                        trf("alt + wheel moves the last; {} closes", key_of(Action::cuts_panel)).c_str());
 }
 
 }  // namespace osteomill

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/words/translation.h"
+#include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/panels/fixture_marks.h"
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/panels/tool_bar.h"
@@ -98,8 +99,11 @@ void draw_fixture_panel(const OverlayContent& content, const PanelText& text, co
         ImGui::TextUnformatted(words.text.c_str());
         ImGui::PopStyleColor();
         if (is_hovered)
-            ImGui::SetTooltip("%s", can.is_paused ? tr("help by force, on or off")
-                                                  : tr("pause first (H): then it is switched on or off"));
+            ImGui::SetTooltip(
+                "%s",
+                can.is_paused
+                    ? tr("help by force, on or off")
+                    : trf("pause first ({}): then it is switched on or off", key_of(Action::hold)).c_str());
         ImGui::PopID();
     }
 }

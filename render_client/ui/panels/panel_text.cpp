@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/words/translation.h"
+#include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/panels/fault_remedy.h"
 #include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/panels/structure_text.h"
@@ -70,10 +71,10 @@ PanelText session_text(const OverlayContent& content) {
         text.push_back(line(
             Tone::warning, trf("{} bad frames; {} bricks were repaired", bad, content.link.bricks_repaired)));
     if (content.start != nullptr && content.start->is_hidden(content.link.status))
-        text.push_back(line(Tone::plain, tr("ESC: back to the cases")));
+        text.push_back(line(Tone::plain, trf("{}: back to the cases", key_of(Action::end))));
     // In a film nobody can press it.
     if (!content.view->help_shown && content.view->playback_shown)
-        text.push_back(line(Tone::dim, tr("F1 help")));
+        text.push_back(line(Tone::dim, trf("{} help", key_of(Action::help))));
     return text;
 }
 
@@ -140,9 +141,11 @@ PanelText operator_text(const OverlayContent& content) {
             line(Tone::plain, tr("1. Drag with the left mouse button: the burr goes over the bone.")));
         text.push_back(line(Tone::plain, tr("2. Hold SPACE: the burr turns.")));
         text.push_back(line(Tone::plain, tr("3. The wheel, or W, pushes it into the bone; S pulls it out.")));
-        text.push_back(line(Tone::plain, tr("Right drag turns the view, ctrl + wheel zooms. F1: all keys.")));
+        text.push_back(line(Tone::plain, trf("Right drag turns the view, ctrl + wheel zooms. {}: all keys.",
+                                             key_of(Action::help))));
     } else {
-        text.push_back(line(Tone::dim, tr("left drag: hand   wheel, W/S: in/out   1-9 [ ]: burr")));
+        text.push_back(line(Tone::dim, trf("left drag: hand   wheel, W/S: in/out   1-9 {} {}: burr",
+                                           key_of(Action::previous_burr), key_of(Action::next_burr))));
     }
     return text;
 }

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include "common/words/translation.h"
+#include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/panels/case_card.h"
 #include "render_client/ui/panels/import_panel.h"
 #include "render_client/ui/panels/input_panel.h"
@@ -76,7 +77,7 @@ void draw_cases(StartPage& page, StartPicture& pictures) {
     ImGui::SameLine();
     if (ImGui::Button(tr("Tour"))) page.tour_card = 0;
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", tr("F1 help"));
+    ImGui::TextDisabled("%s", trf("{} help", key_of(Action::help)).c_str());
     draw_message(page);
     // The chosen card has the keyboard before anything is gone to.
     const bool is_return = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);

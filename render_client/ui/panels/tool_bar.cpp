@@ -63,7 +63,9 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
         buttons.push_back({.press = [](const OverlayContent&) { ImGui::OpenPopup("burrs"); },
                            .sign = "\u25CE",
                            .word = burr_words(content.session->burrs[*burr]),
-                           .tip = tr("choose a burr (1 to 9, [ ]) and the spindle's speed (, .)"),
+                           .tip = trf("choose a burr (1 to 9, {} {}) and the spindle's speed ({} {})",
+                                      key_of(Action::previous_burr), key_of(Action::next_burr),
+                                      key_of(Action::slower), key_of(Action::faster)),
                            .is_enabled = may});
     if (content.operator_command) {
         buttons.push_back({.action = Action::tilt,

@@ -4,34 +4,34 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "common/words/translation.h"
+#include "render_client/ui/input/key_bindings.h"
 
 namespace osteomill {
 
 namespace {
 
 struct TourCard {
-    const char* title;
-    const char* text;
+    std::string title, text;
 };
 
 std::array<TourCard, 3> cards() {
-    return {
-        {{tr("1 of 3: choose a case"),
-          tr("Each card is a piece of bone with a task. Click on one, or go there with the arrow keys; a "
-             "second "
-             "click, or RETURN, starts it.\n\nA CT of your own becomes a card by Import a scan ...")},
-         {tr("2 of 3: drill"), tr("Drag with the left mouse button: the burr goes over the bone. Hold SPACE: "
-                                  "it turns. The wheel, or "
-                                  "W, pushes it into the bone, S pulls it out.\n\nNear what is protected a "
-                                  "banner and a frame warn. "
-                                  "U undoes a stroke. F1 shows all keys.")},
-         {tr("3 of 3: read the report"),
-          tr("Finish, or F10, ends the session. Its report says how long it took, with which forces, what "
-             "was "
-             "removed and what was touched.\n\nIt stays under Sessions so far. Compare all sessions draws "
-             "learning curves.")}}};
+    return {{{tr("1 of 3: choose a case"),
+              tr("Each card is a piece of bone with a task. Click on one, or go there with the arrow keys; a "
+                 "second click, or RETURN, starts it.\n\n"
+                 "A CT of your own becomes a card by Import a scan ...")},
+             {tr("2 of 3: drill"),
+              trf("Drag with the left mouse button: the burr goes over the bone. Hold SPACE: it turns. The "
+                  "wheel, or W, pushes it into the bone, S pulls it out.\n\n"
+                  "Near what is protected a banner and a frame warn. {} undoes a stroke. {} shows all keys.",
+                  key_of(Action::undo), key_of(Action::help))},
+             {tr("3 of 3: read the report"),
+              trf("Finish, or {}, ends the session. Its report says how long it took, with which forces, "
+                  "what was removed and what was touched.\n\n"
+                  "It stays under Sessions so far. Compare all sessions draws learning curves.",
+                  key_of(Action::finish))}}};
 }
 
 bool is_pressed(ImGuiKey key) {
@@ -41,9 +41,9 @@ bool is_pressed(ImGuiKey key) {
 void draw_card(StartPage& page) {
     const std::size_t number = *page.tour_card;
     const bool is_last = number + 1 == cards().size();
-    ImGui::TextUnformatted(cards()[number].title);
+    ImGui::TextUnformatted(cards()[number].title.c_str());
     ImGui::Separator();
-    ImGui::TextWrapped("%s", cards()[number].text);
+    ImGui::TextWrapped("%s", cards()[number].text.c_str());
     ImGui::SetCursorPosY(ImGui::GetWindowHeight() - ImGui::GetFrameHeight() -
                          ImGui::GetStyle().WindowPadding.y);
     if (ImGui::Button(is_last ? tr("Begin") : tr("Next")) || is_pressed(ImGuiKey_Enter) ||
@@ -57,7 +57,7 @@ void draw_card(StartPage& page) {
     ImGui::SameLine();
     if (ImGui::Button(tr("Skip"))) page.tour_card.reset();
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", tr("RETURN: on   ESC: skip"));
+    ImGui::TextDisabled("%s", trf("RETURN: on   {}: skip", key_of(Action::end)).c_str());
 }
 
 /// Opaque, for the page is not to be read through it. ImGui would put a child's own background below the

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/words/translation.h"
+#include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/view/hu_axis.h"
 
@@ -210,7 +211,8 @@ void draw_transfer_panel(const PanelPainter& painter, ViewSettings& view, const 
     ImGui::Dummy({1.0f, letter});
     draw_point_controls(editor);
     ImGui::TextDisabled("%s", tr("opacity upwards; HU by the usual relation"));
-    ImGui::TextDisabled("%s", tr("double click: new point; F5 closes"));
+    ImGui::TextDisabled("%s",
+                        trf("double click: new point; {} closes", key_of(Action::transfer_panel)).c_str());
 }
 
 }  // namespace osteomill

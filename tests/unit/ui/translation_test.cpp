@@ -264,6 +264,34 @@ TEST(Translation, LeaveNoWordsOfThePanelsAside) {
                 ElementsAre("bare word"));
 }
 
+/// A key of an action within a text, as a person would type it there; "" if there is none.
+std::string key_in(const std::string& text) {
+    for (const KeyBinding& binding : key_bindings()) {
+        const std::string key = key_of(binding.action);
+        if (key == "N" || binding.situation == Situation::playing) continue;  // newtons; SPACE, the pedal
+        const bool is_name = !key.empty() && std::ranges::all_of(key, [](unsigned char letter) {
+            return std::isupper(letter) || std::isdigit(letter);
+        });
+        if (is_name && std::regex_search(text, std::regex("\\b" + key + "\\b"))) return key;
+    }
+    return text.find("[ ]") != std::string::npos ? "[ ]" : "";
+}
+
+TEST(Translation, NamesKeysAsTheirTableDoes) {
+    const std::map<std::string, std::string> sources = sources_in("render_client/ui");
+    for (const auto& [file, source] : sources) {
+        if (file == "key_bindings.cpp") continue;  // the table, and the help beside it
+        for (const char* function : {"tr", "trf"})
+            for (std::size_t arguments : calls_of(source, function)) {
+                const std::string text = literal_at(source, arguments);
+                EXPECT_EQ(key_in(text), "") << file << ": " << text;
+            }
+    }
+    EXPECT_EQ(key_in("Finish, or F10, ends it"), "F10");
+    EXPECT_EQ(key_in("pause first (H)"), "H");
+    EXPECT_EQ(key_in("Hold SPACE: 3 N, with {}"), "");
+}
+
 /// A literal, which may begin or end within a tag, without tags and the program's name.
 std::string without_tags(const std::string& literal) {
     return std::regex_replace(literal, std::regex("^[^<>]*>|<[^>]*>?|Osteomill"), "");
