@@ -17,7 +17,7 @@
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
 #include "haptic_server/streaming/outgoing_frames.h"
-#include "simulation/carving/carve.h"
+#include "studies/swept_changes.h"
 
 namespace osteomill::study {
 
@@ -25,19 +25,6 @@ namespace {
 
 /// Longer than any link needs that keeps up with milling.
 constexpr double longest_wait_for_rest_s = 60.0;
-
-class Nobody final : public RemovalSink {
-  public:
-    void take(const RemovedVoxels&) noexcept override {}
-};
-
-class BricksCarved final : public ChangeSink {
-  public:
-    void push(const BrickChange& change, BrickFractions) noexcept override {
-        voxels[change.brick] |= change.voxels;
-    }
-    std::map<BrickIndex, VoxelMask> voxels{};
-};
 
 /// Voxels in which two bones differ, kept up brick by brick.
 class Difference {
@@ -56,19 +43,6 @@ class Difference {
     std::map<BrickIndex, std::size_t> by_brick_{};
     std::size_t count_ = 0;
 };
-
-/// The voxels that a sweep removes from a bone, brick by brick.
-std::map<BrickIndex, VoxelMask> carved(Bone& bone, const glm::dvec3& from_mm, const glm::dvec3& to_mm,
-                                       double radius_mm) {
-    BricksCarved bricks;
-    Nobody nobody;
-    const Grid& grid = bone.grid();
-    carve(
-        bone,
-        {to_voxel_coordinates(grid, from_mm), to_voxel_coordinates(grid, to_mm), radius_mm / grid.spacing_mm},
-        CarveHistory::none, {}, bricks, nobody);
-    return std::move(bricks.voxels);
-}
 
 /// The far end: takes frames as they arrive, and keeps its copy of the bone.
 class Client {
@@ -106,9 +80,9 @@ class Client {
         shown_ = tool;
     }
     void carve_itself(const ToolState& tool, std::vector<BrickIndex>& changed) {
-        for (const auto& [brick, voxels] :
-             carved(*own_, shown_->burr_position_mm, tool.burr_position_mm, radius_mm_))
-            changed.push_back(brick);
+        for (const BrickChange& change :
+             swept_changes(*own_, shown_->burr_position_mm, tool.burr_position_mm, radius_mm_))
+            changed.push_back(change.brick);
     }
 
     LinkContent content_;
@@ -133,15 +107,15 @@ class Server {
     /// The bricks that it changed.
     std::vector<BrickIndex> mill(const glm::dvec3& from_mm, const glm::dvec3& to_mm) {
         std::vector<BrickIndex> changed;
-        for (const auto& [brick, voxels] : carved(bone_, from_mm, to_mm, radius_mm_)) {
-            waiting_[brick] |= voxels;
-            changed.push_back(brick);
+        for (const BrickChange& change : swept_changes(bone_, from_mm, to_mm, radius_mm_)) {
+            waiting_.add(change);
+            changed.push_back(change.brick);
         }
         return changed;
     }
     void show(const ToolState& tool, bool with_checksum) {
-        for (const auto& [brick, voxels] : std::exchange(waiting_, {}))
-            if (!mirror_.apply({.brick = brick, .voxels = voxels}, bone_.fractions(bone_.slot(brick))))
+        for (const BrickChange& change : waiting_.take())
+            if (!mirror_.apply(change, bone_.fractions(bone_.slot(change.brick))))
                 throw std::logic_error("what was milled does not fit the bone that is shown");
         std::vector<BrickChange> changes = mirror_.take_changes();
         if (content_ == LinkContent::bricks)
@@ -154,7 +128,7 @@ class Server {
 
   private:
     Bone bone_;
-    std::map<BrickIndex, VoxelMask> waiting_{};  // for the next frame
+    GatheredChanges waiting_;  // for the next frame
     BoneReplica mirror_;
     FramePackers packers_;
     OutgoingFrames outgoing_;

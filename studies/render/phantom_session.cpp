@@ -1,12 +1,11 @@
 #include "studies/render/phantom_session.h"
 
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "imaging/case/bone_source.h"
 #include "imaging/phantoms/phantom.h"
-#include "simulation/carving/carve.h"
+#include "studies/swept_changes.h"
 
 namespace osteomill {
 
@@ -16,19 +15,6 @@ constexpr double frame_s = 1.0 / 30.0;
 constexpr double feed_mm_per_s = 6.0;
 constexpr double circle_radius_mm = 1.5;
 constexpr std::size_t five_mm_burr = 5;
-
-class CarvedVoxels final : public ChangeSink {
-  public:
-    void push(const BrickChange& change, BrickFractions) noexcept override {
-        by_brick[change.brick] |= change.voxels;
-    }
-    std::map<BrickIndex, VoxelMask> by_brick;
-};
-
-class Nobody final : public RemovalSink {
-  public:
-    void take(const RemovedVoxels&) noexcept override {}
-};
 
 }  // namespace
 
@@ -59,14 +45,8 @@ void PhantomSession::step() {
     const double sunk_mm = way_mm_ / (2.0 * 3.14159265358979 * circle_radius_mm) * 0.5;
     tool_.burr_position_mm = middle_mm_ + glm::dvec3(circle_radius_mm * std::cos(angle_rad),
                                                      circle_radius_mm * std::sin(angle_rad), 2.0 - sunk_mm);
-    const Grid& grid = bone_.grid();
-    CarvedVoxels carved;
-    Nobody nobody;
-    carve(bone_,
-          {to_voxel_coordinates(grid, from_mm), to_voxel_coordinates(grid, tool_.burr_position_mm),
-           0.5 * info_.burrs[five_mm_burr].diameter_mm / grid.spacing_mm},
-          CarveHistory::none, {}, carved, nobody);
-    for (const auto& [brick, voxels] : carved.by_brick) changes_.push_back({brick, voxels});
+    changes_ = study::swept_changes(bone_, from_mm, tool_.burr_position_mm,
+                                    0.5 * info_.burrs[five_mm_burr].diameter_mm);
 }
 
 LinkUpdate PhantomSession::poll() {

@@ -1,9 +1,10 @@
 #include "render_client/volume/textures/coarse_bone.h"
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <utility>
+
+#include "common/bone/gathered_changes.h"
 
 namespace osteomill {
 
@@ -117,7 +118,7 @@ Steps CoarseBone::fill(const Bone& fine) {
 
 std::span<const BrickChange> CoarseBone::update(const Bone& fine, std::span<const BrickChange> changes) {
     const BoneContent& content = fine.content();
-    std::map<BrickIndex, VoxelMask> changed;
+    GatheredChanges changed;
     for (const auto& [index, voxels, kind] : changes) {
         const std::int32_t fine_slot = fine.slot(index);
         if (fine_slot == BoneContent::no_slot) continue;
@@ -125,14 +126,13 @@ std::span<const BrickChange> CoarseBone::update(const Bone& fine, std::span<cons
         const BrickIndex coarse =
             brick_index(bone_->content().size_bricks, coarse_brick_of(content, index, coarsening_));
         average_fractions(fine, brick, fine_slot, coarsening_, bone_->fractions(bone_->slot(coarse)));
-        VoxelMask& coarse_voxels = changed[coarse];
+        VoxelMask& coarse_voxels = changed.voxels(coarse);
         voxels.for_each([&](std::size_t offset) {
             coarse_voxels.set(
                 offset_in_brick((brick * brick_edge_voxels + voxel_in_brick(offset)) / coarsening_));
         });
     }
-    changed_.clear();
-    for (const auto& [brick, voxels] : changed) changed_.push_back({brick, voxels});
+    changed_ = changed.take();
     return changed_;
 }
 
