@@ -124,14 +124,15 @@ glm::dvec3 nearest_of_path(const Fixture& guide, const glm::dvec3& burr_mm) {
     return std::visit([&](const auto& path) { return nearest_of(path, burr_mm); }, guide.path);
 }
 
-void draw_guides(const PanelPainter& painter, const OverlayContent& content, const glm::ivec2& size_px) {
-    const ToolState& tool = *content.tool;
-    for (std::size_t i = 0; i < content.session->fixtures.size(); ++i) {
-        const Fixture& fixture = content.session->fixtures[i];
+void draw_guides(const PanelPainter& painter, const SeenSession& session, const Camera& camera,
+                 const glm::ivec2& size_px) {
+    const ToolState& tool = *session.tool;
+    for (std::size_t i = 0; i < session.info->fixtures.size(); ++i) {
+        const Fixture& fixture = session.info->fixtures[i];
         if (fixture.kind != FixtureKind::guide || !has_fixture(tool.fixtures_on, i)) continue;
         const bool acts = has_fixture(tool.fixtures_acting, i);
-        const LinePainter lines(painter, *content.camera, size_px, acts);
-        draw_guide(lines, fixture, tool.burr_position_mm, content.burr_radius_mm(), content.camera->eye_mm());
+        const LinePainter lines(painter, camera, size_px, acts);
+        draw_guide(lines, fixture, tool.burr_position_mm, session.burr_radius_mm(), camera.eye_mm());
         if (acts) lines.draw_line(tool.burr_position_mm, nearest_of_path(fixture, tool.burr_position_mm));
     }
 }

@@ -2,6 +2,7 @@
 // switch it while the session is paused.
 #pragma once
 
+#include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/layout.h"
 #include "render_client/ui/panels/panel_painter.h"
 #include "render_client/ui/panels/panel_text.h"
@@ -9,12 +10,11 @@
 namespace osteomill {
 
 /// A line for each of the session's fixtures; empty without any.
-PanelText fixture_text(const OverlayContent& content);
+PanelText fixture_text(const SeenSession& session);
 
-/// Whether boxes can be drawn: somebody is there to press them, and the server takes controls.
-bool has_fixture_boxes(const OverlayContent& content);
 glm::vec2 fixture_panel_size(const PanelText& text);
-/// The same lines, each with its box.
-void draw_fixture_panel(const OverlayContent& content, const PanelText& text, const PanelPlace& place);
+/// The same lines, each with its box; a pressed one goes into `requests`.
+void draw_fixture_panel(const SeenSession& session, const Theme& theme, const PanelText& text,
+                        const PanelPlace& place, SessionRequests& requests);
 
 }  // namespace osteomill

@@ -73,34 +73,34 @@ class PanelList {
 
 /// There is no session, or it is over. Its panels are not drawn, since they would cover the page.
 bool shows_start_page(const OverlayContent& content) {
-    return content.start != nullptr && content.start->is_due(content.link.status);
+    return content.start != nullptr && content.start->is_due(content.session.link.status);
 }
 
 void add_plot(PanelList& panels, const OverlayContent& content, const PanelPainter& painter) {
     std::vector<glm::vec2> sizes;
     for (const PlotDetail detail : {PlotDetail::all, PlotDetail::forces, PlotDetail::numbers})
-        sizes.push_back(live_plot_size(painter, detail, content.view->details_shown));
+        sizes.push_back(live_plot_size(painter, detail, content.view.details_shown));
     panels.add(Anchor::lower_right, sizes, [&](const PanelPlace& place) {
-        draw_live_plot(painter, *content.history, *content.tool, static_cast<PlotDetail>(place.choice),
-                       content.view->details_shown, place);
+        draw_live_plot(painter, content.history, *content.session.tool, static_cast<PlotDetail>(place.choice),
+                       content.view.details_shown, place);
     });
 }
 
 void add_inset(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                const glm::ivec2& size_px) {
-    const Burr* burr = content.burr_in_tool();
+    const Burr* burr = content.session.burr_in_tool();
     const double diameter_mm = burr ? burr->diameter_mm : 0.0;
-    const glm::dvec2 burr_px = pixel_of(*content.camera, content.tool->burr_position_mm, size_px);
+    const glm::dvec2 burr_px = pixel_of(content.camera, content.session.tool->burr_position_mm, size_px);
     panels.add(inset_anchor(burr_px, glm::vec2(size_px)), {glm::vec2(content.inset->size_px())},
                [&, diameter_mm](const PanelPlace& place) {
-                   draw_inset(painter, *content.inset, content.view->inset, diameter_mm, place);
+                   draw_inset(painter, *content.inset, content.view.inset, diameter_mm, place);
                });
 }
 
 /// The panels that the user works with.
 void add_controls(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                   const glm::vec2& picture, float side_width) {
-    ViewSettings& view = *content.view;
+    ViewSettings& view = content.view;
     const auto shrunk = [&](const glm::vec2& whole) {
         return shrinking_sizes(whole, picture, margin_px * painter.scale(),
                                ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y);
@@ -109,18 +109,20 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
         std::vector<glm::vec2> sizes = slices_panel_sizes(painter);
         const auto smaller = shrunk(sizes.back());
         sizes.insert(sizes.end(), smaller.begin() + 1, smaller.end());
-        panels.add_requested(Anchor::lower_left, std::move(sizes),
-                             [&](const PanelPlace& place) { draw_slices_panel(content, place); });
+        panels.add_requested(Anchor::lower_left, std::move(sizes), [&](const PanelPlace& place) {
+            draw_slices_panel(*content.slices, content.session, {content.bone, content.bone_version}, place,
+                              content.requests);
+        });
     }
     if (view.cuts_panel_shown)
         panels.add_requested(
             Anchor::upper_left, shrunk(cuts_panel_size(painter)),
-            [&](const PanelPlace& place) { draw_cuts_panel(view.cuts, *content.camera, place); });
+            [&](const PanelPlace& place) { draw_cuts_panel(view.cuts, content.camera, place); });
     if (view.transfer_panel_shown)
         panels.add_requested(Anchor::upper_left, shrunk(transfer_panel_size(painter)),
                              [&](const PanelPlace& place) { draw_transfer_panel(painter, view, place); });
-    if (content.operator_command)
-        panels.add_text(painter, Anchor::lower_left, operator_text(content), side_width);
+    if (content.session.operator_command)
+        panels.add_text(painter, Anchor::lower_left, operator_text(content.session), side_width);
     if (content.player != nullptr && view.playback_shown)
         panels.add(Anchor::lower_left, {playback_panel_size(painter, picture)},
                    [&](const PanelPlace& place) { draw_playback_panel(*content.player, painter, place); });
@@ -130,14 +132,14 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
 void add_readings(PanelList& panels, const OverlayContent& content, const PanelPainter& painter,
                   const glm::ivec2& size_px, float side_width) {
     // Length and force are read at any time, but not under a page or a question, which is to be seen whole.
-    const bool is_page_open = content.view->help_shown || content.view->question != SessionQuestion::none;
-    if (content.has_bone) {
-        const ScaleBar bar = scale_bar_of(*content.camera, size_px);
+    const bool is_page_open = content.view.help_shown || content.view.question != SessionQuestion::none;
+    if (content.is_bone_drawn) {
+        const ScaleBar bar = scale_bar_of(content.camera, size_px);
         panels.add(Anchor::bottom, {scale_bar_size(painter, bar)},
                    [&painter, bar](const PanelPlace& place) { draw_scale_bar(painter, bar, place); });
         if (!is_page_open) panels.keep_last();
     }
-    if (content.tool) {
+    if (content.session.tool) {
         add_plot(panels, content, painter);
         if (!is_page_open) panels.keep_last();
         panels.let_last_give_way();
@@ -146,104 +148,121 @@ void add_readings(PanelList& panels, const OverlayContent& content, const PanelP
         panels.add_text(painter, anchor, text, side_width);
         panels.let_last_give_way();
     };
-    add_text(Anchor::upper_left, session_text(content));
-    if (content.tool) add_text(Anchor::upper_right, tool_text(content));
-    if (const PanelText structures = structure_text(content); !structures.empty())
+    const SeenSession& session = content.session;
+    const bool is_page_hidden = content.start != nullptr && content.start->is_hidden(session.link.status);
+    add_text(Anchor::upper_left, session_text(session, content.picture, content.view, is_page_hidden));
+    if (session.tool) add_text(Anchor::upper_right, tool_text(session, content.bone));
+    if (const PanelText structures = structure_text(session); !structures.empty())
         add_text(Anchor::upper_right, structures);
-    if (const PanelText fixtures = fixture_text(content); !fixtures.empty()) {
-        if (has_fixture_boxes(content))
+    if (const PanelText fixtures = fixture_text(session); !fixtures.empty()) {
+        if (content.requests != nullptr && session.takes_controls())
             panels.add(Anchor::upper_right, {fixture_panel_size(fixtures)},
-                       [&content, fixtures](const PanelPlace& place) {
-                           draw_fixture_panel(content, fixtures, place);
+                       [&, fixtures](const PanelPlace& place) {
+                           draw_fixture_panel(session, painter.theme(), fixtures, place, *content.requests);
                        });
         else
             add_text(Anchor::upper_right, fixtures);
     }
-    if (content.has_bone) {
+    if (content.is_bone_drawn) {
         panels.add(Anchor::upper_right, {cube_size(painter)},
-                   [&](const PanelPlace& place) { draw_cube(painter, *content.camera, place); });
+                   [&](const PanelPlace& place) { draw_cube(painter, content.camera, place); });
         panels.let_last_give_way();
     }
     // A transfer function puts other colours in place of the tissues'.
-    if (content.session && !content.session->tissues.empty() && !content.view->transfer.function()) {
-        panels.add(Anchor::upper_left, {legend_size(painter, content.session->tissues)},
-                   [&](const PanelPlace& place) { draw_legend(painter, content.session->tissues, place); });
+    if (session.info && !session.info->tissues.empty() && !content.view.transfer.function()) {
+        panels.add(Anchor::upper_left, {legend_size(painter, session.info->tissues)},
+                   [&](const PanelPlace& place) { draw_legend(painter, session.info->tissues, place); });
         panels.let_last_give_way();
     }
 }
 
 /// The part of the picture that the burr covers; none if the burr is not in it.
 std::optional<PanelPlace> burr_in(const OverlayContent& content, const glm::ivec2& size_px) {
-    const Burr* burr = content.burr_in_tool();
-    if (burr == nullptr || !content.has_bone) return std::nullopt;
-    const glm::dvec3& burr_mm = content.tool->burr_position_mm;
-    if (!content.camera->has_in_front(burr_mm)) return std::nullopt;
+    const Burr* burr = content.session.burr_in_tool();
+    if (burr == nullptr || !content.is_bone_drawn) return std::nullopt;
+    const glm::dvec3& burr_mm = content.session.tool->burr_position_mm;
+    if (!content.camera.has_in_front(burr_mm)) return std::nullopt;
     const auto radius =
-        static_cast<float>(burr->radius_mm() / mm_per_px_at(*content.camera, burr_mm, size_px));
-    return PanelPlace{glm::vec2(pixel_of(*content.camera, burr_mm, size_px)) - radius,
+        static_cast<float>(burr->radius_mm() / mm_per_px_at(content.camera, burr_mm, size_px));
+    return PanelPlace{glm::vec2(pixel_of(content.camera, burr_mm, size_px)) - radius,
                       glm::vec2(2.0f * radius), 0};
 }
 
 }  // namespace
 
 void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
-    const PanelPainter painter(theme_of(content.view->theme), content.view->scale);
+    ViewSettings& view = content.view;
+    const SeenSession& session = content.session;
+    const PanelPainter painter(theme_of(view.theme), view.scale);
     const glm::vec2 picture(size_px);
-    draw_slices_cross(content, painter, size_px);
-    if (content.tool && content.session && content.has_bone) draw_guides(painter, content, size_px);
+    if (content.slices != nullptr) draw_slices_cross(*content.slices, content.camera, painter, size_px);
+    if (session.tool && session.info && content.is_bone_drawn)
+        draw_guides(painter, session, content.camera, size_px);
     const float margin = margin_px * painter.scale();
     const float side_width =
         glm::clamp(0.45f * picture.x, 200.0f * painter.scale(), 360.0f * painter.scale());
     PanelList panels;
     const bool starts = shows_start_page(content);
-    const SightElements elements = elements_of(content.sight);
-    if (elements.is_grey && content.has_bone) draw_veil(painter, size_px);
-    if (content.view->help_shown) {
-        const bool plays = content.player != nullptr;
-        const Situation situation = starts ? Situation::starting
-                                    : plays || elements.controls
-                                        ? situation_of(content.operator_command.has_value(), plays)
-                                        : Situation::waiting;
+    const SightElements elements = elements_of(session.sight);
+    if (elements.is_grey && content.is_bone_drawn) draw_veil(painter, size_px);
+    if (view.help_shown) {
+        const Situation situation =
+            starts ? Situation::starting
+            : session.is_recording || elements.controls
+                ? situation_of(session.operator_command.has_value(), session.is_recording)
+                : Situation::waiting;
         const HelpLayout help = lay_out_help(painter, situation, picture - 2.0f * margin);
         panels.add_page(Anchor::middle, help.size,
                         [&painter, help](const PanelPlace& place) { draw_help(painter, help, place); });
     }
-    if (content.start != nullptr && content.link.status == LinkStatus::finished)
+    if (content.start != nullptr && session.link.status == LinkStatus::finished)
         content.start->page.note_end_of_session();
     if (starts)
         panels.add_page(Anchor::middle, start_panel_size(content.start->page, picture - 2.0f * margin),
                         [&](const PanelPlace& place) {
                             draw_start_panel(content.start->page, content.start->picture, place);
                         });
-    if (elements.has_words && !starts && !content.view->help_shown &&
-        content.view->question == SessionQuestion::none)
-        panels.add_page(Anchor::middle, sight_panel_size(content, picture - 2.0f * margin),
-                        [&](const PanelPlace& place) { draw_sight_panel(content, place); });
+    if (elements.has_words && !starts && !view.help_shown && view.question == SessionQuestion::none) {
+        const bool has_buttons = session.sight == SessionSight::none && content.requests != nullptr;
+        const auto buttons = has_buttons
+                                 ? std::optional(SightButtons{*content.requests,
+                                                              content.start ? &content.start->page : nullptr})
+                                 : std::nullopt;
+        const SightWords words = words_of_sight(session, content.picture.preparation_percent);
+        panels.add_page(Anchor::middle, sight_panel_size(words, has_buttons, picture - 2.0f * margin),
+                        [=](const PanelPlace& place) { draw_sight_panel(words, buttons, place); });
+    }
     // Before the warnings, which come and go: a button must not slip away under the pointer.
-    const bool shows_panels = content.view->panels_shown && !starts;
-    if (shows_panels && has_tool_bar(content))
-        panels.add(Anchor::top, tool_bar_sizes(content, painter),
-                   [&](const PanelPlace& place) { draw_tool_bar(content, place); });
-    const bool alarms = is_alarm(content) && !starts;
+    const bool shows_panels = view.panels_shown && !starts;
+    if (shows_panels && content.requests != nullptr && session.takes_controls())
+        panels.add(Anchor::top, tool_bar_sizes(session, view),
+                   [&](const PanelPlace& place) { draw_tool_bar(session, view, place, *content.requests); });
+    const bool alarms = is_alarm(session) && !starts;
     // A fault harms no structure, so its banner looks different.
-    if (alarms && !structure_warnings(content).empty()) draw_alarm_frame(painter, size_px);
-    if (const PanelText warnings = starts ? notice_text(content) : warning_text(content); !warnings.empty())
+    if (alarms && !structure_warnings(session).empty()) draw_alarm_frame(painter, size_px);
+    if (const PanelText warnings = starts ? notice_text(view.notice)
+                                          : warning_text(session, content.picture.bone_problem, view.notice);
+        !warnings.empty())
         panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin,
                         alarms ? banner_letters : 1.0f);
-    if (content.view->question != SessionQuestion::none && content.requests != nullptr)
-        panels.add_page(Anchor::middle, session_dialog_size(content, painter),
-                        [&](const PanelPlace& place) { draw_session_dialog(content, place); });
-    if (content.inset != nullptr && content.tool && !starts) add_inset(panels, content, painter, size_px);
+    if (view.question != SessionQuestion::none && content.requests != nullptr) {
+        const bool started_session = content.start != nullptr && content.start->page.is_session_running();
+        panels.add_page(Anchor::middle, session_dialog_size(view, started_session),
+                        [&, started_session](const PanelPlace& place) {
+                            draw_session_dialog(view, started_session, place, *content.requests);
+                        });
+    }
+    if (content.inset != nullptr && session.tool && !starts) add_inset(panels, content, painter, size_px);
     if (shows_panels) {
         add_controls(panels, content, painter, picture, side_width);
         add_readings(panels, content, painter, size_px, side_width);
     }
-    if (content.tool && content.has_bone && content.bone && content.operator_command && !starts)
-        draw_touch_ring(painter, *content.bone, *content.tool, content.burr_radius_mm(), *content.camera,
+    if (session.tool && content.is_bone_drawn && content.bone && session.operator_command && !starts)
+        draw_touch_ring(painter, *content.bone, *session.tool, session.burr_radius_mm(), content.camera,
                         size_px);
     const auto places = panels.draw_in(picture, margin, burr_in(content, size_px));
-    if (content.tool && content.has_bone && shows_panels)
-        draw_force_label(painter, *content.tool, content.burr_radius_mm(), *content.camera, size_px, places);
+    if (session.tool && content.is_bone_drawn && shows_panels)
+        draw_force_label(painter, *session.tool, session.burr_radius_mm(), content.camera, size_px, places);
 }
 
 }  // namespace osteomill

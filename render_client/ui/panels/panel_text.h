@@ -1,10 +1,14 @@
 // The text of the panels, in colours: no drawing, no layout.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "render_client/ui/panels/overlay.h"
+#include "common/bone/bone.h"
+#include "render_client/ui/panels/seen_session.h"
+#include "render_client/ui/view/view_settings.h"
+#include "render_client/volume/picture_quality.h"
 
 namespace osteomill {
 
@@ -15,18 +19,30 @@ struct TextPiece {
 using TextLine = std::vector<TextPiece>;
 using PanelText = std::vector<TextLine>;
 
-/// Scene, connection, rates.
-PanelText session_text(const OverlayContent& content);
-/// Burr, spindle, removed volume; needs content.tool.
-PanelText tool_text(const OverlayContent& content);
+/// The state of the picture under the panels.
+struct PictureProgress {
+    double frames_per_s = 0.0;
+    PictureQuality quality{};
+    /// Of a new bone or appearance; nothing when all is shown.
+    std::optional<int> preparation_percent{};
+    /// The reason for a missing bone in the picture, if there is one.
+    std::string bone_problem{};
+};
+
+/// Scene, connection, rates. `is_page_hidden`: there is a page of cases to go back to.
+PanelText session_text(const SeenSession& session, const PictureProgress& picture, const ViewSettings& view,
+                       bool is_page_hidden);
+/// Burr, spindle, removed volume of a session with a tool. `bone`: null until one has come.
+PanelText tool_text(const SeenSession& session, const Bone* bone);
 /// Warnings that must not be overlooked, and the notice; empty without any.
-PanelText warning_text(const OverlayContent& content);
+PanelText warning_text(const SeenSession& session, const std::string& bone_problem,
+                       const std::string& notice);
 /// The notice alone: there may be no session.
-PanelText notice_text(const OverlayContent& content);
+PanelText notice_text(const std::string& notice);
 /// Whether there is a fault, or the burr is near a protected structure: a banner with a frame round the
 /// picture says so.
-bool is_alarm(const OverlayContent& content);
-/// Pedal, and the client that has the tool; needs content.operator_command.
-PanelText operator_text(const OverlayContent& content);
+bool is_alarm(const SeenSession& session);
+/// Pedal, and the client that has the tool, of a session with an operator_command.
+PanelText operator_text(const SeenSession& session);
 
 }  // namespace osteomill

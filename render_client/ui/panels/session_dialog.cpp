@@ -6,7 +6,6 @@
 
 #include "common/words/translation.h"
 #include "render_client/ui/panels/input_panel.h"
-#include "render_client/ui/panels/start_panel.h"
 
 namespace osteomill {
 
@@ -17,8 +16,8 @@ struct Question {
     const char* yes;
 };
 
-Question question_of(const OverlayContent& content) {
-    switch (content.view->question) {
+Question question_of(SessionQuestion question, bool started_session) {
+    switch (question) {
         case SessionQuestion::mark:
             return {tr("Mark this moment. A note, if you like:"), tr("Mark")};
         case SessionQuestion::reset:
@@ -29,7 +28,7 @@ Question question_of(const OverlayContent& content) {
             return {tr("Save the surface of the bone as it is, beside the bone that the server saves, as:"),
                     "STL"};
         case SessionQuestion::end:
-            if (content.start != nullptr && content.start->page.is_session_running())
+            if (started_session)
                 return {tr("End this program, and the session that it started? All is saved."), tr("End")};
             return {tr("End this program? The session goes on without it."), tr("End")};
         case SessionQuestion::none:
@@ -38,9 +37,7 @@ Question question_of(const OverlayContent& content) {
     return {"", ""};
 }
 
-void answer(const OverlayContent& content) {
-    SessionRequests& requests = *content.requests;
-    ViewSettings& view = *content.view;
+void answer(ViewSettings& view, SessionRequests& requests) {
     switch (view.question) {
         case SessionQuestion::mark:
             requests.controls.push_back({SessionAction::mark, view.note.data()});
@@ -66,44 +63,45 @@ void answer(const OverlayContent& content) {
 
 }  // namespace
 
-glm::vec2 session_dialog_size(const OverlayContent& content, const PanelPainter&) {
+glm::vec2 session_dialog_size(const ViewSettings& view, bool started_session) {
     const ImGuiStyle& style = ImGui::GetStyle();
-    const float lines = content.view->question == SessionQuestion::mark ? 3.0f : 2.0f;
-    const float width =
-        std::max(ImGui::CalcTextSize(question_of(content).text).x, 20.0f * ImGui::GetFontSize());
+    const float lines = view.question == SessionQuestion::mark ? 3.0f : 2.0f;
+    const float width = std::max(ImGui::CalcTextSize(question_of(view.question, started_session).text).x,
+                                 20.0f * ImGui::GetFontSize());
     return {width + 2.0f * style.WindowPadding.x,
             lines * ImGui::GetFrameHeightWithSpacing() + 2.0f * style.WindowPadding.y};
 }
 
-void draw_session_dialog(const OverlayContent& content, const PanelPlace& place) {
-    const bool takes_note = content.view->question == SessionQuestion::mark;
+void draw_session_dialog(ViewSettings& view, bool started_session, const PanelPlace& place,
+                         SessionRequests& requests) {
+    const bool takes_note = view.question == SessionQuestion::mark;
     // A panel that keys do not reach gives its field no keyboard (Dear ImGui 1.90).
     const InputPanel window("question", place, InputPanel::Background::filled, InputPanel::Size::whole,
                             takes_note ? InputPanel::Keys::reach_it : InputPanel::Keys::none);
-    const Question question = question_of(content);
+    const Question question = question_of(view.question, started_session);
     ImGui::TextUnformatted(question.text);
     bool is_answered = false;
     if (takes_note) {
         ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
         if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-        is_answered = ImGui::InputText("##note", content.view->note.data(), content.view->note.size(),
+        is_answered = ImGui::InputText("##note", view.note.data(), view.note.size(),
                                        ImGuiInputTextFlags_EnterReturnsTrue);
     }
     is_answered |= ImGui::Button(question.yes) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
     ImGui::SameLine();
-    if (content.view->question == SessionQuestion::surface)
+    if (view.question == SessionQuestion::surface)
         for (const auto& [kind, ending] : {std::pair("PLY", ".ply"), {"OBJ", ".obj"}}) {
             if (ImGui::Button(kind)) {
-                content.requests->controls.push_back({SessionAction::save, ending});
-                content.view->question = SessionQuestion::none;
+                requests.controls.push_back({SessionAction::save, ending});
+                view.question = SessionQuestion::none;
             }
             ImGui::SameLine();
         }
     const bool is_given_up = ImGui::Button(tr("Go on"));
     if (is_answered)
-        answer(content);
+        answer(view, requests);
     else if (is_given_up)
-        content.view->question = SessionQuestion::none;
+        view.question = SessionQuestion::none;
 }
 
 }  // namespace osteomill

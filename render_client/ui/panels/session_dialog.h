@@ -2,14 +2,17 @@
 // Drawn with Dear ImGui; needs an ImGui frame to be open.
 #pragma once
 
-#include "render_client/ui/panels/overlay.h"
-#include "render_client/ui/panels/panel_painter.h"
+#include "render_client/ui/input/session_requests.h"
+#include "render_client/ui/panels/layout.h"
+#include "render_client/ui/view/view_settings.h"
 
 namespace osteomill {
 
-/// The size of the dialog for content.view->question, which must be set.
-glm::vec2 session_dialog_size(const OverlayContent& content, const PanelPainter& painter);
-/// An answer goes into content.requests and ends the question.
-void draw_session_dialog(const OverlayContent& content, const PanelPlace& place);
+/// The size of the dialog for view.question, which must be set. `started_session`: this program runs a
+/// session, which ends with it.
+glm::vec2 session_dialog_size(const ViewSettings& view, bool started_session);
+/// An answer goes into `requests` and ends the question.
+void draw_session_dialog(ViewSettings& view, bool started_session, const PanelPlace& place,
+                         SessionRequests& requests);
 
 }  // namespace osteomill

@@ -7,7 +7,6 @@
 
 #include "common/words/translation.h"
 #include "render_client/ui/panels/input_panel.h"
-#include "render_client/ui/panels/start_panel.h"
 
 namespace osteomill {
 
@@ -21,10 +20,6 @@ std::string percent_received(const LinkUpdate& link) {
                std::uint64_t{100} * link.snapshot_bricks / link.snapshot_bricks_total);
 }
 
-bool has_buttons(const OverlayContent& content) {
-    return content.sight == SessionSight::none && content.requests != nullptr;
-}
-
 /// So that a line may be as long as a status line is.
 float height_of(const std::string& text, float width) {
     return text.empty()
@@ -34,9 +29,9 @@ float height_of(const std::string& text, float width) {
 
 }  // namespace
 
-SightWords words_of_sight(const OverlayContent& content) {
-    const LinkUpdate& link = content.link;
-    switch (content.sight) {
+SightWords words_of_sight(const SeenSession& session, std::optional<int> preparation_percent) {
+    const LinkUpdate& link = session.link;
+    switch (session.sight) {
         case SessionSight::none:
             return {
                 tr("No server has answered yet"), link.status_line,
@@ -45,9 +40,8 @@ SightWords words_of_sight(const OverlayContent& content) {
         case SessionSight::coming:
             return {percent_received(link), link.status_line, {}};
         case SessionSight::preparing:
-            return {content.preparation_percent
-                        ? trf("Preparing the bone: {} %", *content.preparation_percent)
-                        : tr("Preparing the bone"),
+            return {preparation_percent ? trf("Preparing the bone: {} %", *preparation_percent)
+                                        : tr("Preparing the bone"),
                     {},
                     tr("Nothing acts before it is there.")};
         case SessionSight::silent:
@@ -71,20 +65,19 @@ SightWords words_of_sight(const OverlayContent& content) {
     return {};
 }
 
-glm::vec2 sight_panel_size(const OverlayContent& content, const glm::vec2& available) {
+glm::vec2 sight_panel_size(const SightWords& words, bool has_buttons, const glm::vec2& available) {
     const ImGuiStyle& style = ImGui::GetStyle();
-    const SightWords words = words_of_sight(content);
     const glm::vec2 padding(2.0f * style.WindowPadding.x, 2.0f * style.WindowPadding.y);
     const float width = std::min(widest_letters * ImGui::GetFontSize(), available.x - padding.x);
     float height = 0.0f;
     for (const std::string& text : {words.title, words.cause, words.advice}) height += height_of(text, width);
-    if (has_buttons(content)) height += ImGui::GetFrameHeightWithSpacing();
+    if (has_buttons) height += ImGui::GetFrameHeightWithSpacing();
     return {width + padding.x, height + padding.y};
 }
 
-void draw_sight_panel(const OverlayContent& content, const PanelPlace& place) {
+void draw_sight_panel(const SightWords& words, const std::optional<SightButtons>& buttons,
+                      const PanelPlace& place) {
     const InputPanel window("sight", place);
-    const SightWords words = words_of_sight(content);
     ImGui::PushTextWrapPos(0.0f);
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_NavHighlight));
     ImGui::TextUnformatted(words.title.c_str());
@@ -92,12 +85,12 @@ void draw_sight_panel(const OverlayContent& content, const PanelPlace& place) {
     for (const std::string& text : {words.cause, words.advice})
         if (!text.empty()) ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
-    if (!has_buttons(content)) return;
-    if (content.start != nullptr) {
-        if (ImGui::Button(tr("Back to the cases"))) content.start->page.is_hidden = false;
+    if (!buttons) return;
+    if (buttons->page != nullptr) {
+        if (ImGui::Button(tr("Back to the cases"))) buttons->page->is_hidden = false;
         ImGui::SameLine();
     }
-    if (ImGui::Button(tr("End"))) content.requests->ends_program = true;
+    if (ImGui::Button(tr("End"))) buttons->requests.ends_program = true;
 }
 
 }  // namespace osteomill

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 
+#include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/layout.h"
-#include "render_client/ui/panels/overlay.h"
+#include "render_client/ui/panels/seen_session.h"
+#include "render_client/ui/start/start_page.h"
 
 namespace osteomill {
 
@@ -16,11 +19,17 @@ struct SightWords {
     std::string advice;  ///< may be empty
 };
 
-/// The text for a sight that has one.
-SightWords words_of_sight(const OverlayContent& content);
+/// The text for a sight that has one. `preparation_percent`: of the bone's textures, as far as known.
+SightWords words_of_sight(const SeenSession& session, std::optional<int> preparation_percent);
 
-glm::vec2 sight_panel_size(const OverlayContent& content, const glm::vec2& available);
-/// With buttons to end, and to go back to the page of cases, while no server has answered.
-void draw_sight_panel(const OverlayContent& content, const PanelPlace& place);
+/// Buttons to end the program and to go back to the page of cases.
+struct SightButtons {
+    SessionRequests& requests;
+    StartPage* page = nullptr;  ///< null if no session is started from here
+};
+/// `buttons`: nothing if nobody can press them, or none are needed.
+glm::vec2 sight_panel_size(const SightWords& words, bool has_buttons, const glm::vec2& available);
+void draw_sight_panel(const SightWords& words, const std::optional<SightButtons>& buttons,
+                      const PanelPlace& place);
 
 }  // namespace osteomill

@@ -52,25 +52,26 @@ std::string lps_text(const glm::dvec3& position_mm) {
                        axis(position_mm.z, 'S', 'I'));
 }
 
-void draw_marks(const OverlayContent& content, const SliceView& view, const ImVec2& first) {
+void draw_marks(const glm::dvec3& cross_mm, const SeenSession& session, const SliceView& view,
+                const ImVec2& first) {
     ImDrawList& canvas = *ImGui::GetWindowDrawList();
     const auto edge = static_cast<float>(view.edge_px);
     const ImU32 cross = IM_COL32(90, 200, 255, 160);
-    const glm::vec2 middle(view.pixel(*content.slices->cross_mm()));
+    const glm::vec2 middle(view.pixel(cross_mm));
     canvas.PushClipRect(first, {first.x + edge, first.y + edge}, true);
     canvas.AddLine({first.x, first.y + middle.y}, {first.x + edge, first.y + middle.y}, cross);
     canvas.AddLine({first.x + middle.x, first.y}, {first.x + middle.x, first.y + edge}, cross);
-    if (const Burr* in_tool = content.burr_in_tool()) {
+    if (const Burr* in_tool = session.burr_in_tool()) {
         const double radius_mm = in_tool->radius_mm();
-        const double away_mm = glm::dot(content.tool->burr_position_mm - view.centre_mm, view.across());
-        const glm::vec2 burr(view.pixel(content.tool->burr_position_mm));
+        const double away_mm = glm::dot(session.tool->burr_position_mm - view.centre_mm, view.across());
+        const glm::vec2 burr(view.pixel(session.tool->burr_position_mm));
         const ImU32 ink = IM_COL32(120, 255, 140, 255);
         if (std::abs(away_mm) < radius_mm)
             canvas.AddCircle(
                 {first.x + burr.x, first.y + burr.y},
                 static_cast<float>(std::sqrt(radius_mm * radius_mm - away_mm * away_mm) / view.mm_per_px),
                 ink, 0, 1.5f);
-        const glm::dvec3 up_mm = content.tool->burr_position_mm + 10.0 * content.tool->spindle_axis;
+        const glm::dvec3 up_mm = session.tool->burr_position_mm + 10.0 * session.tool->spindle_axis;
         const glm::vec2 up(view.pixel(up_mm));
         canvas.AddLine({first.x + burr.x, first.y + burr.y}, {first.x + up.x, first.y + up.y}, ink);
     }
@@ -106,8 +107,7 @@ void take_mouse(SlicesView& slices, const SliceView& view, const ImVec2& first) 
                         static_cast<double>(io.MouseWheel) * slices.ct()->grid.spacing_mm * view.across());
 }
 
-void draw_settings(const OverlayContent& content) {
-    SlicesView& slices = *content.slices;
+void draw_settings(SlicesView& slices, const SeenSession& session, SessionRequests* requests) {
     const float letter = ImGui::GetFontSize();
     auto level = static_cast<float>(slices.window().level_hu);
     auto width = static_cast<float>(slices.window().window_hu);
@@ -121,12 +121,12 @@ void draw_settings(const OverlayContent& content) {
                            trf("window {:.0f} HU", width).c_str(), ImGuiSliderFlags_NoInput))
         slices.window().window_hu = width;
     ImGui::SameLine();
-    const bool may = content.requests != nullptr && content.link.controls.may_control && content.tool;
+    const bool may = requests != nullptr && session.link.controls.may_control && session.tool;
     ImGui::BeginDisabled(!may);
     if (ImGui::Button(tr("Place the tool here")) && may)
-        content.requests->controls.push_back({.action = SessionAction::place,
-                                              .text = {},
-                                              .pose = {*slices.cross_mm(), content.tool->spindle_axis}});
+        requests->controls.push_back({.action = SessionAction::place,
+                                      .text = {},
+                                      .pose = {*slices.cross_mm(), session.tool->spindle_axis}});
     ImGui::EndDisabled();
 }
 
@@ -143,14 +143,13 @@ std::vector<glm::vec2> slices_panel_sizes(const PanelPainter&) {
     return sizes;
 }
 
-void draw_slices_panel(const OverlayContent& content, const PanelPlace& place) {
+void draw_slices_panel(SlicesView& slices, const SeenSession& session, const SlicedBone& bone,
+                       const PanelPlace& place, SessionRequests* requests) {
     const InputPanel window(
         "slices", place, InputPanel::Background::filled,
         place.choice < edges.size() ? InputPanel::Size::whole : InputPanel::Size::scrolls);
-    SlicesView& slices = *content.slices;
     if (slices.ct() == nullptr) {
-        const bool has_ct =
-            content.player == nullptr && content.session != nullptr && content.session->has_ct;
+        const bool has_ct = !session.is_recording && session.info != nullptr && session.info->has_ct;
         ImGui::TextWrapped("%s", has_ct ? tr("the CT is on its way")
                                         : tr("there is no CT to show: a recording, or a bone without one"));
         return;
@@ -162,25 +161,25 @@ void draw_slices_panel(const OverlayContent& content, const PanelPlace& place) {
         is_first = false;
         const SliceView view = slices.view(plane, edge);
         const ImVec2 first = ImGui::GetCursorScreenPos();
-        const GLuint id = slices.picture(plane, edge, content.bone, content.bone_version).id();
+        const GLuint id = slices.picture(plane, edge, bone.bone, bone.version).id();
         ImGui::GetWindowDrawList()->AddImage(
             texture_of(id), first, {first.x + static_cast<float>(edge), first.y + static_cast<float>(edge)});
         ImGui::InvisibleButton(name_of(plane), {static_cast<float>(edge), static_cast<float>(edge)});
-        draw_marks(content, view, first);
+        draw_marks(*slices.cross_mm(), session, view, first);
         take_mouse(slices, view, first);
     }
     ImGui::TextUnformatted(
         fmt::format("{}   {:.0f} HU", lps_text(*slices.cross_mm()), slices.ct()->hu_at(*slices.cross_mm()))
             .c_str());
-    draw_settings(content);
+    draw_settings(slices, session, requests);
 }
 
-void draw_slices_cross(const OverlayContent& content, const PanelPainter& painter,
+void draw_slices_cross(const SlicesView& slices, const Camera& camera, const PanelPainter& painter,
                        const glm::ivec2& size_px) {
-    if (content.slices == nullptr || !content.slices->cross_mm()) return;
-    const glm::dvec3 at_mm = *content.slices->cross_mm();
-    if (!content.camera->has_in_front(at_mm)) return;
-    const glm::vec2 at(pixel_of(*content.camera, at_mm, size_px));
+    if (!slices.cross_mm()) return;
+    const glm::dvec3 at_mm = *slices.cross_mm();
+    if (!camera.has_in_front(at_mm)) return;
+    const glm::vec2 at(pixel_of(camera, at_mm, size_px));
     const float arm = 10.0f * painter.scale();
     const ImU32 ink = IM_COL32(90, 200, 255, 255);
     painter.canvas().AddLine({at.x - arm, at.y}, {at.x + arm, at.y}, ink, 1.5f);

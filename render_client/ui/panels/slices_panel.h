@@ -5,16 +5,27 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "render_client/ui/panels/overlay.h"
+#include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/panel_painter.h"
+#include "render_client/ui/panels/seen_session.h"
+#include "render_client/ui/view/slices_view.h"
+#include "render_client/volume/camera.h"
 
 namespace osteomill {
 
 /// Best first.
 std::vector<glm::vec2> slices_panel_sizes(const PanelPainter& painter);
-void draw_slices_panel(const OverlayContent& content, const PanelPlace& place);
+/// A bone whose border they show: null until one has come; `version` changes with it.
+struct SlicedBone {
+    const Bone* bone = nullptr;
+    std::uint64_t version = 0;
+};
+/// `requests`: null if nobody can press buttons.
+void draw_slices_panel(SlicesView& slices, const SeenSession& session, const SlicedBone& bone,
+                       const PanelPlace& place, SessionRequests* requests);
 
 /// Marks, in the picture of the bone, the place where the slices cross.
-void draw_slices_cross(const OverlayContent& content, const PanelPainter& painter, const glm::ivec2& size_px);
+void draw_slices_cross(const SlicesView& slices, const Camera& camera, const PanelPainter& painter,
+                       const glm::ivec2& size_px);
 
 }  // namespace osteomill

@@ -26,12 +26,12 @@ void add_touches(PanelText& text, const StructureDistance& now, const Tissue& ti
 
 }  // namespace
 
-PanelText structure_text(const OverlayContent& content) {
+PanelText structure_text(const SeenSession& session) {
     PanelText text;
-    if (!content.session || !content.tool) return text;
-    const std::vector<Tissue>& tissues = content.session->tissues;
+    if (!session.info || !session.tool) return text;
+    const std::vector<Tissue>& tissues = session.info->tissues;
     if (std::ranges::none_of(tissues, &Tissue::is_protected)) return text;
-    if (const StructureDistance* nearest = nearest_structure(content.link.distances)) {
+    if (const StructureDistance* nearest = nearest_structure(session.link.distances)) {
         const Tissue& tissue = tissues[nearest->tissue];
         text.push_back({{warning_of(*nearest, tissue) != StructureWarning::none ? Tone::warning : Tone::plain,
                          *nearest->distance_mm <= 0.0
@@ -40,16 +40,16 @@ PanelText structure_text(const OverlayContent& content) {
     } else {
         text.push_back({{Tone::dim, tr("no protected structure near")}});
     }
-    for (const StructureDistance& now : content.link.distances)
+    for (const StructureDistance& now : session.link.distances)
         if (now.touches_so_far > 0) add_touches(text, now, tissues[now.tissue]);
     return text;
 }
 
-PanelText structure_warnings(const OverlayContent& content) {
+PanelText structure_warnings(const SeenSession& session) {
     PanelText text;
-    if (!content.session || !elements_of(content.sight).tool) return text;
-    for (const StructureDistance& now : content.link.distances) {
-        const Tissue& tissue = content.session->tissues[now.tissue];
+    if (!session.info || !elements_of(session.sight).tool) return text;
+    for (const StructureDistance& now : session.link.distances) {
+        const Tissue& tissue = session.info->tissues[now.tissue];
         if (now.touches)
             text.push_back({{Tone::warning,
                              trf("PROTECTED: the burr touches {}: pull back", tissue_words(tissue.name))}});
@@ -57,7 +57,7 @@ PanelText structure_warnings(const OverlayContent& content) {
             text.push_back({{Tone::warning, trf("CAREFUL: {} is {:.1f} mm away: go slowly",
                                                 tissue_words(tissue.name), *now.distance_mm)}});
     }
-    if (text.empty() && content.tool && content.tool->touches_protected)
+    if (text.empty() && session.tool && session.tool->touches_protected)
         text.push_back({{Tone::warning, tr("PROTECTED TISSUE: the burr touches it: pull back")}});
     return text;
 }

@@ -7,8 +7,8 @@ namespace osteomill {
 
 /// The nearest by name with its distance, and every structure that was touched, for as long as the session
 /// lasts; empty if the session protects nothing.
-PanelText structure_text(const OverlayContent& content);
+PanelText structure_text(const SeenSession& session);
 /// Those that the burr touches or is within the warning distance of; mostly none.
-PanelText structure_warnings(const OverlayContent& content);
+PanelText structure_warnings(const SeenSession& session);
 
 }  // namespace osteomill

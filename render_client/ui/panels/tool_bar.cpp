@@ -20,8 +20,8 @@ namespace osteomill {
 namespace {
 
 struct ToolButton {
-    Action action = Action::none;                    ///< as its key does it
-    void (*press)(const OverlayContent&) = nullptr;  ///< in its place
+    Action action = Action::none;                              ///< as its key does it
+    void (*press)(ViewSettings&, SessionRequests&) = nullptr;  ///< in its place
     std::string sign;
     std::string word;
     std::string tip;  ///< without the key, which is the action's
@@ -38,42 +38,43 @@ std::string burr_words(const Burr& burr) {
 }
 
 /// The burr that the operator of this window chose; the burr in the tool if the tool is not theirs.
-std::optional<std::size_t> burr_in_use(const OverlayContent& content) {
-    if (content.session == nullptr) return std::nullopt;
+std::optional<std::size_t> burr_in_use(const SeenSession& session) {
+    if (session.info == nullptr) return std::nullopt;
     std::optional<std::size_t> burr;
-    if (content.tool) burr = content.tool->burr;
-    if (content.operator_command) burr = content.operator_command->burr;
-    return burr && content.session->burr_of(*burr) ? burr : std::nullopt;
+    if (session.tool) burr = session.tool->burr;
+    if (session.operator_command) burr = session.operator_command->burr;
+    return burr && session.info->burr_of(*burr) ? burr : std::nullopt;
 }
 
-std::vector<ToolButton> buttons(const OverlayContent& content) {
-    const SessionStatus& can = content.link.controls;
+std::vector<ToolButton> buttons(const SeenSession& session, const ViewSettings& view) {
+    const SessionStatus& can = session.link.controls;
     const bool may = can.may_control;
     std::vector<ToolButton> buttons;
-    if (content.operator_command) {
-        const OperatorCommand& command = *content.operator_command;
-        buttons.push_back({.press = [](const OverlayContent& its) { its.requests->switches_pedal = true; },
-                           .sign = "\u25CF",
-                           .word = tr("Pedal"),
-                           .tip = tr("the spindle turns until you press again, or while SPACE is held"),
-                           .is_enabled = may && !can.is_paused,
-                           .is_on = command.pedal});
+    if (session.operator_command) {
+        const OperatorCommand& command = *session.operator_command;
+        buttons.push_back(
+            {.press = [](ViewSettings&, SessionRequests& requests) { requests.switches_pedal = true; },
+             .sign = "\u25CF",
+             .word = tr("Pedal"),
+             .tip = tr("the spindle turns until you press again, or while SPACE is held"),
+             .is_enabled = may && !can.is_paused,
+             .is_on = command.pedal});
     }
-    if (const std::optional<std::size_t> burr = burr_in_use(content))
-        buttons.push_back({.press = [](const OverlayContent&) { ImGui::OpenPopup("burrs"); },
+    if (const std::optional<std::size_t> burr = burr_in_use(session))
+        buttons.push_back({.press = [](ViewSettings&, SessionRequests&) { ImGui::OpenPopup("burrs"); },
                            .sign = "\u25CE",
-                           .word = burr_words(content.session->burrs[*burr]),
+                           .word = burr_words(session.info->burrs[*burr]),
                            .tip = trf("choose a burr (1 to 9, {} {}) and the spindle's speed ({} {})",
                                       key_of(Action::previous_burr), key_of(Action::next_burr),
                                       key_of(Action::slower), key_of(Action::faster)),
                            .is_enabled = may});
-    if (content.operator_command) {
+    if (session.operator_command) {
         buttons.push_back({.action = Action::tilt,
                            .sign = "\u2197",
                            .word = tr("Tilt"),
                            .tip = tr("left drag tilts the handpiece; the arrow keys do, too"),
                            .is_enabled = may,
-                           .is_on = content.view->drag_tilts});
+                           .is_on = view.drag_tilts});
     }
     buttons.push_back(
         {.action = Action::place,
@@ -81,21 +82,21 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
          .word = tr("Place"),
          .tip = tr("then click on bone: there the tool goes; with shift the handpiece is upright on it"),
          .is_enabled = may,
-         .is_on = content.view->click_places});
+         .is_on = view.click_places});
     buttons.push_back(
         {.action = Action::move_bone,
          .sign = "\u21C4",
-         .word = content.view->moves_bone ? tr("Let go") : tr("Move bone"),
+         .word = view.moves_bone ? tr("Let go") : tr("Move bone"),
          .tip = tr("left drag turns the bone under the tool, with shift it moves it, the wheel brings it "
                    "nearer; press again to go on there"),
          .is_enabled = may,
-         .is_on = content.view->moves_bone});
-    if (content.session != nullptr && content.session->has_ct)
+         .is_on = view.moves_bone});
+    if (session.info != nullptr && session.info->has_ct)
         buttons.push_back({.action = Action::slices,
                            .sign = "\u25A6",
                            .word = "CT",
                            .tip = tr("slices of the CT"),
-                           .is_on = content.view->slices_shown});
+                           .is_on = view.slices_shown});
     const auto counted = [](const char* word, std::uint32_t count) {
         return count > 0 ? fmt::format("{} {}", word, count) : std::string(word);
     };
@@ -110,7 +111,7 @@ std::vector<ToolButton> buttons(const OverlayContent& content) {
                        .tip = tr("the stroke that was undone last"),
                        .is_enabled = may && can.redo_steps > 0});
     buttons.push_back(
-        {.press = [](const OverlayContent& its) { its.view->question = SessionQuestion::reset; },
+        {.press = [](ViewSettings& view, SessionRequests&) { view.question = SessionQuestion::reset; },
          .sign = "\u21BA",
          .word = tr("Reset"),
          .tip = tr("undoes all strokes"),
@@ -165,8 +166,8 @@ glm::vec2 size_of(const std::vector<ToolButton>& buttons, bool has_words) {
     return {std::ceil(width), ImGui::GetFrameHeight() + 2.0f * style.WindowPadding.y};
 }
 
-void press(const ToolButton& button, const OverlayContent& content) {
-    button.press ? button.press(content) : content.requests->actions.push_back(button.action);
+void press(const ToolButton& button, ViewSettings& view, SessionRequests& requests) {
+    button.press ? button.press(view, requests) : requests.actions.push_back(button.action);
 }
 
 /// The head's section through the spindle, tip down, with its shank, to the scale of the largest of a set: a
@@ -223,8 +224,8 @@ float largest_mm(const std::vector<Burr>& burrs) {
 }
 
 /// Sends the speed when the slider is let go, not on its way.
-void draw_speed(const OverlayContent& content) {
-    const Burr* in_tool = content.burr_in_tool();
+void draw_speed(const SeenSession& session, SessionRequests& requests) {
+    const Burr* in_tool = session.burr_in_tool();
     if (in_tool == nullptr) return;
     constexpr float slowest_rpm = 1000.0f;
     constexpr float fastest_rpm = 100'000.0f;
@@ -234,14 +235,14 @@ void draw_speed(const OverlayContent& content) {
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     const ImGuiID dragged = ImGui::GetID("dragged rpm");
     float rpm = storage.GetFloat(dragged, 0.0f);
-    if (rpm == 0.0f) rpm = static_cast<float>(spindle_rpm(*content.tool, *in_tool));
+    if (rpm == 0.0f) rpm = static_cast<float>(spindle_rpm(*session.tool, *in_tool));
     ImGui::SetNextItemWidth(14.0f * ImGui::GetFontSize());
     ImGui::SliderFloat("##rpm", &rpm, std::min(slowest_rpm, static_cast<float>(own_rpm)),
                        std::max(fastest_rpm, static_cast<float>(own_rpm)), trf("{:.0f} rpm", rpm).c_str(),
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     storage.SetFloat(dragged, ImGui::IsItemActive() ? rpm : 0.0f);
     const auto choose = [&](double chosen_rpm) {
-        content.requests->controls.push_back({.action = SessionAction::speed, .spindle_rpm = chosen_rpm});
+        requests.controls.push_back({.action = SessionAction::speed, .spindle_rpm = chosen_rpm});
     };
     if (ImGui::IsItemDeactivatedAfterEdit())
         choose(std::clamp(100.0 * std::round(rpm / 100.0), least_spindle_rpm, most_spindle_rpm));
@@ -249,61 +250,57 @@ void draw_speed(const OverlayContent& content) {
     if (ImGui::Button(trf("its own: {:.0f}", own_rpm).c_str())) choose(0.0);
 }
 
-void draw_burr_list(const OverlayContent& content) {
+void draw_burr_list(const SeenSession& session, SessionRequests& requests) {
     if (!ImGui::BeginPopup("burrs")) return;
     const float height = 2.6f * ImGui::GetFontSize();
-    const float mm_per_px = 1.15f * largest_mm(content.session->burrs) / height;
-    for (std::size_t i = 0; i < content.session->burrs.size(); ++i) {
-        const Burr& burr = content.session->burrs[i];
+    const float mm_per_px = 1.15f * largest_mm(session.info->burrs) / height;
+    for (std::size_t i = 0; i < session.info->burrs.size(); ++i) {
+        const Burr& burr = session.info->burrs[i];
         const std::string text = fmt::format(
             "           {}: {}##{}", i + 1,
             trf("{}, {} edges, {:.0f} rpm", burr_words(burr), burr.edges, 60.0 * burr.spindle_rev_per_s), i);
         const ImVec2 place = ImGui::GetCursorScreenPos();
         ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0.0f, 0.5f});
         const auto flags =
-            content.operator_command ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
-        if (ImGui::Selectable(text.c_str(), burr_in_use(content) == i, flags, {0.0f, height}))
-            content.requests->burr = i;
+            session.operator_command ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+        if (ImGui::Selectable(text.c_str(), burr_in_use(session) == i, flags, {0.0f, height}))
+            requests.burr = i;
         ImGui::PopStyleVar();
         draw_burr(burr, {place.x, place.y + 1.0f}, {height, height - 2.0f}, mm_per_px);
     }
-    draw_speed(content);
+    draw_speed(session, requests);
     ImGui::EndPopup();
 }
 
 }  // namespace
 
-bool has_tool_bar(const OverlayContent& content) {
-    return content.requests != nullptr && content.player == nullptr && content.session != nullptr &&
-           content.session->accepts_controls && elements_of(content.sight).controls;
-}
-
-std::vector<glm::vec2> tool_bar_sizes(const OverlayContent& content, const PanelPainter&) {
-    const auto all = buttons(content);
+std::vector<glm::vec2> tool_bar_sizes(const SeenSession& session, const ViewSettings& view) {
+    const auto all = buttons(session, view);
     return {size_of(all, true), size_of(all, false), size_of(without_least_used(all), false)};
 }
 
-void draw_tool_bar(const OverlayContent& content, const PanelPlace& place) {
+void draw_tool_bar(const SeenSession& session, ViewSettings& view, const PanelPlace& place,
+                   SessionRequests& requests) {
     const InputPanel window("tool bar", place);
     const bool has_words = place.choice == 0;
     bool is_first = true;
-    const auto all = buttons(content);
+    const auto all = buttons(session, view);
     for (const ToolButton& button : place.choice < 2 ? all : without_least_used(all)) {
         if (!std::exchange(is_first, false)) ImGui::SameLine();
         ImGui::BeginDisabled(!button.is_enabled);
         if (button.is_on)
             ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        if (ImGui::Button(text_of(button, has_words).c_str())) press(button, content);
+        if (ImGui::Button(text_of(button, has_words).c_str())) press(button, view, requests);
         if (button.is_on) ImGui::PopStyleColor();
         ImGui::EndDisabled();
         if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
             std::string tip = button.word + ": " + button.tip;
             if (const std::string key = key_of(button.action); !key.empty()) tip += " (" + key + ")";
             ImGui::SetTooltip("%s%s", tip.c_str(),
-                              content.link.controls.may_control ? "" : tr("\nanother client has the seat"));
+                              session.link.controls.may_control ? "" : tr("\nanother client has the seat"));
         }
     }
-    draw_burr_list(content);
+    draw_burr_list(session, requests);
 }
 
 }  // namespace osteomill

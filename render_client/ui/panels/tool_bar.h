@@ -6,17 +6,16 @@
 #include <vector>
 
 #include "render_client/ui/input/session_requests.h"
-#include "render_client/ui/panels/overlay.h"
-#include "render_client/ui/panels/panel_painter.h"
+#include "render_client/ui/panels/layout.h"
+#include "render_client/ui/panels/seen_session.h"
+#include "render_client/ui/view/view_settings.h"
 
 namespace osteomill {
 
-/// Whether there is a session that can be controlled, by this client or another.
-bool has_tool_bar(const OverlayContent& content);
-
 /// With labels, with signs alone, and only the most used signs.
-std::vector<glm::vec2> tool_bar_sizes(const OverlayContent& content, const PanelPainter& painter);
-/// Pressed buttons set content.requests and content.view.
-void draw_tool_bar(const OverlayContent& content, const PanelPlace& place);
+std::vector<glm::vec2> tool_bar_sizes(const SeenSession& session, const ViewSettings& view);
+/// For a session that takes controls. Pressed buttons set `requests` and `view`.
+void draw_tool_bar(const SeenSession& session, ViewSettings& view, const PanelPlace& place,
+                   SessionRequests& requests);
 
 }  // namespace osteomill

@@ -32,37 +32,37 @@ class FixturePanel : public ::testing::Test {
         slow.name = "Slowly";
         slow.tissue = "Facial_Nerve";
         session_.fixtures = {tube, off, slow};
-        content_.session = &session_;
-        content_.tool = ToolState{.burr_position_mm = {3.0, 0.0, 5.0}, .fixtures_on = 0b111};
+        seen_.info = &session_;
+        seen_.tool = ToolState{.burr_position_mm = {3.0, 0.0, 5.0}, .fixtures_on = 0b111};
     }
     SessionInfo session_;
-    OverlayContent content_;
+    SeenSession seen_;
 };
 
 TEST_F(FixturePanel, SaysHowFarEachIs) {
-    EXPECT_THAT(lines_of(fixture_text(content_)),
+    EXPECT_THAT(lines_of(fixture_text(seen_)),
                 ElementsAre("Shaft: 1.5 mm away", "Off it: not near", "Slowly: not near"));
-    content_.link.distances = {{.tissue = 1, .distance_mm = 2.6}};
-    EXPECT_THAT(lines_of(fixture_text(content_)),
+    seen_.link.distances = {{.tissue = 1, .distance_mm = 2.6}};
+    EXPECT_THAT(lines_of(fixture_text(seen_)),
                 ElementsAre("Shaft: 1.5 mm away", "Off it: 1.6 mm away", "Slowly: 0.6 mm away"));
-    EXPECT_EQ(fixture_text(content_)[0][0].tone, Tone::plain);
+    EXPECT_EQ(fixture_text(seen_)[0][0].tone, Tone::plain);
 }
 
 TEST_F(FixturePanel, SaysWhichActAndWhichAreOff) {
-    content_.link.distances = {{.tissue = 1, .distance_mm = 0.8}};
-    content_.tool->fixtures_acting = 0b111;
-    EXPECT_THAT(lines_of(fixture_text(content_)),
+    seen_.link.distances = {{.tissue = 1, .distance_mm = 0.8}};
+    seen_.tool->fixtures_acting = 0b111;
+    EXPECT_THAT(lines_of(fixture_text(seen_)),
                 ElementsAre("Shaft: guides, 1.50 mm off", "Off it: holds Facial Nerve off", "Slowly: slows"));
-    EXPECT_EQ(fixture_text(content_)[1][0].tone, Tone::good);
-    content_.tool->fixtures_on = 0;
-    content_.tool->fixtures_acting = 0;
-    EXPECT_THAT(lines_of(fixture_text(content_)), ElementsAre("Shaft: off", "Off it: off", "Slowly: off"));
-    EXPECT_EQ(fixture_text(content_)[2][0].tone, Tone::dim);
+    EXPECT_EQ(fixture_text(seen_)[1][0].tone, Tone::good);
+    seen_.tool->fixtures_on = 0;
+    seen_.tool->fixtures_acting = 0;
+    EXPECT_THAT(lines_of(fixture_text(seen_)), ElementsAre("Shaft: off", "Off it: off", "Slowly: off"));
+    EXPECT_EQ(fixture_text(seen_)[2][0].tone, Tone::dim);
 }
 
 TEST_F(FixturePanel, IsNoneWhereThereAreNoFixtures) {
     session_.fixtures.clear();
-    EXPECT_THAT(fixture_text(content_), IsEmpty());
+    EXPECT_THAT(fixture_text(seen_), IsEmpty());
 }
 
 TEST(GuidesOnAPicture, LeadToTheNearestPlaceOfTheirPath) {

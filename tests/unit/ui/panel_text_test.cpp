@@ -31,113 +31,117 @@ class PanelTexts : public ::testing::Test {
     PanelTexts() {
         session_.scene_name = "tooth";
         session_.burrs = {{.name = "3 mm", .diameter_mm = 3.0, .edges = 8}};
-        content_.session = &session_;
-        content_.view = &view_;
-        content_.tool = ToolState{.removed_mm3 = 1.234};
-        content_.link.status = LinkStatus::live;
-        content_.link.status_line = "connected to 127.0.0.1:7010";
+        seen_.info = &session_;
+        seen_.tool = ToolState{.removed_mm3 = 1.234};
+        seen_.link.status = LinkStatus::live;
+        seen_.link.status_line = "connected to 127.0.0.1:7010";
     }
 
     SessionInfo session_;
     ViewSettings view_;
-    OverlayContent content_;
+    SeenSession seen_;
+    PictureProgress picture_;
+
+    PanelText session_lines() const { return session_text(seen_, picture_, view_, false); }
+    PanelText warning_lines() const { return warning_text(seen_, picture_.bone_problem, view_.notice); }
 };
 
 TEST_F(PanelTexts, SayInAWarningThatAnotherClientHasTheTool) {
-    content_.operator_command = OperatorCommand{};
-    EXPECT_FALSE(has_tone(operator_text(content_), Tone::warning));
-    content_.tool->driver = ToolDriver::another;
-    EXPECT_TRUE(has_tone(operator_text(content_), Tone::warning));
-    EXPECT_THAT(plain(operator_text(content_)), HasSubstr("another client moves the tool"));
+    seen_.operator_command = OperatorCommand{};
+    EXPECT_FALSE(has_tone(operator_text(seen_), Tone::warning));
+    seen_.tool->driver = ToolDriver::another;
+    EXPECT_TRUE(has_tone(operator_text(seen_), Tone::warning));
+    EXPECT_THAT(plain(operator_text(seen_)), HasSubstr("another client moves the tool"));
 }
 
 TEST_F(PanelTexts, NameNoKeyInAFilm) {
-    EXPECT_THAT(plain(session_text(content_)), HasSubstr("F1"));
+    EXPECT_THAT(plain(session_lines()), HasSubstr("F1"));
     view_.playback_shown = false;
-    EXPECT_THAT(plain(session_text(content_)), Not(HasSubstr("F1")));
+    EXPECT_THAT(plain(session_lines()), Not(HasSubstr("F1")));
 }
 
 TEST_F(PanelTexts, SayWhereForcesAreNotTheBones) {
-    EXPECT_FALSE(has_tone(session_text(content_), Tone::warning));
+    EXPECT_FALSE(has_tone(session_lines(), Tone::warning));
     session_.settings["force_scale"] = "2";
-    EXPECT_THAT(plain(session_text(content_)), HasSubstr("forces of cutting times 2"));
-    EXPECT_TRUE(has_tone(session_text(content_), Tone::warning));
+    EXPECT_THAT(plain(session_lines()), HasSubstr("forces of cutting times 2"));
+    EXPECT_TRUE(has_tone(session_lines(), Tone::warning));
 }
 
 TEST_F(PanelTexts, SayToOneWhoMayOnlyWatchThatItIsSo) {
-    EXPECT_TRUE(warning_text(content_).empty());
-    content_.tool->driver = ToolDriver::others_only;
-    EXPECT_THAT(plain(warning_text(content_)), HasSubstr("you watch"));
-    EXPECT_FALSE(has_tone(warning_text(content_), Tone::warning)) << "nothing is wrong";
+    EXPECT_TRUE(warning_lines().empty());
+    seen_.tool->driver = ToolDriver::others_only;
+    EXPECT_THAT(plain(warning_lines()), HasSubstr("you watch"));
+    EXPECT_FALSE(has_tone(warning_lines(), Tone::warning)) << "nothing is wrong";
 }
 
 TEST_F(PanelTexts, WarnOnlyWhereThereIsSomethingToWarnOf) {
-    EXPECT_TRUE(warning_text(content_).empty());
-    content_.tool->touches_protected = true;
-    content_.tool->fault = "the device is lost";
-    content_.bone_problem = "too large";
+    EXPECT_TRUE(warning_lines().empty());
+    seen_.tool->touches_protected = true;
+    seen_.tool->fault = "the device is lost";
+    picture_.bone_problem = "too large";
     view_.notice = "written: a.png";
-    const std::string text = plain(warning_text(content_));
+    const std::string text = plain(warning_lines());
     for (const char* part : {"PROTECTED", "FAULT: the device is lost", "too large", "written: a.png"})
         EXPECT_THAT(text, HasSubstr(part));
 }
 
 TEST_F(PanelTexts, TellWhatTheServerWaitsFor) {
-    content_.tool->notice = "the burr is changed in the air";
-    EXPECT_THAT(plain(warning_text(content_)), HasSubstr("changed in the air"));
-    EXPECT_FALSE(has_tone(warning_text(content_), Tone::warning)) << "nothing is wrong";
+    seen_.tool->notice = "the burr is changed in the air";
+    EXPECT_THAT(plain(warning_lines()), HasSubstr("changed in the air"));
+    EXPECT_FALSE(has_tone(warning_lines(), Tone::warning)) << "nothing is wrong";
 }
 
 TEST_F(PanelTexts, TellHowFarABoneHasComeAndIsPrepared) {
-    EXPECT_THAT(plain(session_text(content_)), ::testing::Not(HasSubstr("preparing")));
-    content_.link.status = LinkStatus::receiving_snapshot;
-    content_.link.status_line = "receiving the bone from 127.0.0.1:7010";
-    content_.link.snapshot_bricks = 300;
-    content_.link.snapshot_bricks_total = 400;
-    EXPECT_THAT(plain(session_text(content_)), HasSubstr("receiving the bone from 127.0.0.1:7010: 75 %\n"));
-    content_.link.status = LinkStatus::live;
-    content_.preparation_percent = 43;
-    EXPECT_THAT(plain(session_text(content_)), HasSubstr("preparing the bone: 43 %\n"));
-    EXPECT_FALSE(has_tone(session_text(content_), Tone::warning)) << "nothing is wrong";
+    EXPECT_THAT(plain(session_lines()), ::testing::Not(HasSubstr("preparing")));
+    seen_.link.status = LinkStatus::receiving_snapshot;
+    seen_.link.status_line = "receiving the bone from 127.0.0.1:7010";
+    seen_.link.snapshot_bricks = 300;
+    seen_.link.snapshot_bricks_total = 400;
+    EXPECT_THAT(plain(session_lines()), HasSubstr("receiving the bone from 127.0.0.1:7010: 75 %\n"));
+    seen_.link.status = LinkStatus::live;
+    picture_.preparation_percent = 43;
+    EXPECT_THAT(plain(session_lines()), HasSubstr("preparing the bone: 43 %\n"));
+    EXPECT_FALSE(has_tone(session_lines(), Tone::warning)) << "nothing is wrong";
 }
 
 TEST_F(PanelTexts, SayTheFirstStepsUntilBoneIsRemoved) {
-    content_.operator_command = OperatorCommand{};
-    content_.tool->removed_mm3 = 0.0;
-    EXPECT_THAT(plain(operator_text(content_)), HasSubstr("Hold SPACE: the burr turns."));
-    content_.tool->removed_mm3 = 0.01;
-    EXPECT_THAT(plain(operator_text(content_)), ::testing::Not(HasSubstr("Hold SPACE")));
+    seen_.operator_command = OperatorCommand{};
+    seen_.tool->removed_mm3 = 0.0;
+    EXPECT_THAT(plain(operator_text(seen_)), HasSubstr("Hold SPACE: the burr turns."));
+    seen_.tool->removed_mm3 = 0.01;
+    EXPECT_THAT(plain(operator_text(seen_)), ::testing::Not(HasSubstr("Hold SPACE")));
 }
 
 TEST_F(PanelTexts, KeepFiguresOfTheLinkForWhoAsks) {
-    content_.link.delay.emplace();
-    EXPECT_THAT(plain(session_text(content_)), ::testing::Not(HasSubstr("frames/s")));
+    seen_.link.delay.emplace();
+    EXPECT_THAT(plain(session_lines()), ::testing::Not(HasSubstr("frames/s")));
     view_.details_shown = true;
-    EXPECT_THAT(plain(session_text(content_)), AllOf(HasSubstr("frames/s"), HasSubstr("delay")));
+    EXPECT_THAT(plain(session_lines()), AllOf(HasSubstr("frames/s"), HasSubstr("delay")));
 }
 
 TEST_F(PanelTexts, AlarmForAFaultAndAProtectedStructureOnly) {
-    EXPECT_FALSE(is_alarm(content_));
-    content_.bone_problem = "too large";
+    EXPECT_FALSE(is_alarm(seen_));
+    picture_.bone_problem = "too large";
     view_.notice = "written: a.png";
-    EXPECT_FALSE(is_alarm(content_));
-    content_.tool->touches_protected = true;
-    EXPECT_TRUE(is_alarm(content_));
-    content_.tool->touches_protected = false;
-    content_.tool->fault = "the device is lost";
-    EXPECT_TRUE(is_alarm(content_));
-    content_.link.controls.is_paused = true;
-    EXPECT_FALSE(is_alarm(content_)) << "it waits for the person";
+    EXPECT_FALSE(is_alarm(seen_));
+    seen_.tool->touches_protected = true;
+    EXPECT_TRUE(is_alarm(seen_));
+    seen_.tool->touches_protected = false;
+    seen_.tool->fault = "the device is lost";
+    EXPECT_TRUE(is_alarm(seen_));
+    seen_.link.controls.is_paused = true;
+    EXPECT_FALSE(is_alarm(seen_)) << "it waits for the person";
 }
 
 TEST_F(PanelTexts, TellTheToolAndTheSession) {
-    EXPECT_THAT(plain(tool_text(content_)), HasSubstr("burr 3.0 mm, 8 edges\nspindle off\nremoved 1.23 mm"));
-    EXPECT_FALSE(has_tone(session_text(content_), Tone::warning));
-    content_.link.status = LinkStatus::lost;
-    EXPECT_TRUE(has_tone(session_text(content_), Tone::warning));
-    EXPECT_THAT(plain(session_text(content_)), HasSubstr("connected to 127.0.0.1:7010"));
-    content_.sight = SessionSight::silent;
-    EXPECT_THAT(plain(session_text(content_)), ::testing::Not(HasSubstr("connected")));
+    EXPECT_THAT(plain(tool_text(seen_, nullptr)),
+                HasSubstr("burr 3.0 mm, 8 edges\nspindle off\nremoved 1.23 mm"));
+    EXPECT_FALSE(has_tone(session_lines(), Tone::warning));
+    seen_.link.status = LinkStatus::lost;
+    EXPECT_TRUE(has_tone(session_lines(), Tone::warning));
+    EXPECT_THAT(plain(session_lines()), HasSubstr("connected to 127.0.0.1:7010"));
+    seen_.sight = SessionSight::silent;
+    EXPECT_THAT(plain(session_lines()), ::testing::Not(HasSubstr("connected")));
 }
 
 }  // namespace

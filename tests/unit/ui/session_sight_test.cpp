@@ -5,7 +5,6 @@
 #include "render_client/ui/panels/panel_text.h"
 #include "render_client/ui/panels/sight_panel.h"
 #include "render_client/ui/panels/structure_text.h"
-#include "render_client/ui/panels/tool_bar.h"
 
 namespace osteomill::session_sight_test {
 namespace {
@@ -43,8 +42,6 @@ TEST(SessionSight, ShowsInEachStateOnlyWhatIsSo) {
     session.scene_name = "jaw";
     session.tissues = {{.label = 1, .name = "nerve", .is_protected = true}};
     session.accepts_controls = true;
-    SessionRequests requests;
-    ViewSettings view;
     for (const State& state : states) {
         SCOPED_TRACE(state.name);
         LinkUpdate link;
@@ -56,26 +53,22 @@ TEST(SessionSight, ShowsInEachStateOnlyWhatIsSo) {
         const SessionSight sight = sight_of(link, state.has_bone, state.is_recording);
         EXPECT_EQ(sight, state.sight);
         const SightElements elements = elements_of(sight);
-        OverlayContent content;
-        content.link = link;
-        content.session = &session;
-        content.view = &view;
-        content.requests = &requests;
-        content.sight = sight;
+        const SeenSession seen{
+            .link = link, .info = &session, .sight = sight, .is_recording = state.is_recording};
         const bool is_now = sight == SessionSight::now;
         const bool is_over = sight == SessionSight::over;
         EXPECT_EQ(elements.tool, is_now || is_over) << "burr, spindle, force";
         EXPECT_EQ(elements.controls, is_now);
         EXPECT_EQ(elements.is_grey, !is_now && !is_over && sight != SessionSight::none);
-        EXPECT_EQ(has_tool_bar(content), is_now) << "buttons";
-        EXPECT_EQ(is_alarm(content), is_now || is_over) << "the alarm";
-        EXPECT_EQ(structure_warnings(content).empty(), !is_now && !is_over) << "warnings";
-        EXPECT_EQ(warning_text(content).empty(), !is_now && !is_over) << "banners";
+        EXPECT_EQ(seen.takes_controls(), is_now && !state.is_recording) << "buttons";
+        EXPECT_EQ(is_alarm(seen), is_now || is_over) << "the alarm";
+        EXPECT_EQ(structure_warnings(seen).empty(), !is_now && !is_over) << "warnings";
+        EXPECT_EQ(warning_text(seen, "", "").empty(), !is_now && !is_over) << "banners";
         EXPECT_EQ(elements.has_words, !is_now && !is_over);
-        EXPECT_EQ(words_of_sight(content).title.empty(), !elements.has_words);
+        EXPECT_EQ(words_of_sight(seen, std::nullopt).title.empty(), !elements.has_words);
         if (sight == SessionSight::silent || sight == SessionSight::lost || sight == SessionSight::none) {
-            EXPECT_THAT(words_of_sight(content).cause, Not(IsEmpty()));
-            EXPECT_THAT(words_of_sight(content).advice, Not(IsEmpty()));
+            EXPECT_THAT(words_of_sight(seen, std::nullopt).cause, Not(IsEmpty()));
+            EXPECT_THAT(words_of_sight(seen, std::nullopt).advice, Not(IsEmpty()));
         }
     }
 }

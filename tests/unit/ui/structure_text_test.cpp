@@ -20,50 +20,50 @@ class StructureTexts : public ::testing::Test {
         session_.tissues = {{.label = 1, .name = "bone"},
                             {.label = 2, .name = "facial nerve", .is_protected = true, .warn_mm = 1.0},
                             {.label = 3, .name = "sinus", .is_protected = true, .warn_mm = 0.5}};
-        content_.session = &session_;
-        content_.tool = ToolState{};
+        seen_.info = &session_;
+        seen_.tool = ToolState{};
     }
     SessionInfo session_;
-    OverlayContent content_;
+    SeenSession seen_;
 };
 
 TEST_F(StructureTexts, NameTheNearestWithItsDistance) {
-    EXPECT_THAT(lines_of(structure_text(content_)), ElementsAre("no protected structure near"));
-    content_.link.distances = {{.tissue = 1, .distance_mm = 1.4}, {.tissue = 2, .distance_mm = 0.83}};
-    EXPECT_THAT(lines_of(structure_text(content_)), ElementsAre("sinus: 0.83 mm away"));
-    EXPECT_EQ(structure_text(content_)[0][0].tone, Tone::plain);
-    EXPECT_THAT(structure_warnings(content_), IsEmpty());
+    EXPECT_THAT(lines_of(structure_text(seen_)), ElementsAre("no protected structure near"));
+    seen_.link.distances = {{.tissue = 1, .distance_mm = 1.4}, {.tissue = 2, .distance_mm = 0.83}};
+    EXPECT_THAT(lines_of(structure_text(seen_)), ElementsAre("sinus: 0.83 mm away"));
+    EXPECT_EQ(structure_text(seen_)[0][0].tone, Tone::plain);
+    EXPECT_THAT(structure_warnings(seen_), IsEmpty());
 }
 
 TEST_F(StructureTexts, WarnWithinTheDistanceOfEachStructure) {
-    content_.link.distances = {{.tissue = 1, .distance_mm = 0.93}, {.tissue = 2, .distance_mm = 0.83}};
-    EXPECT_THAT(lines_of(structure_warnings(content_)),
+    seen_.link.distances = {{.tissue = 1, .distance_mm = 0.93}, {.tissue = 2, .distance_mm = 0.83}};
+    EXPECT_THAT(lines_of(structure_warnings(seen_)),
                 ElementsAre("CAREFUL: facial nerve is 0.9 mm away: go slowly"));
-    EXPECT_EQ(structure_warnings(content_)[0][0].tone, Tone::warning);
+    EXPECT_EQ(structure_warnings(seen_)[0][0].tone, Tone::warning);
 }
 
 TEST_F(StructureTexts, KeepATouchOnTheScreen) {
-    content_.link.distances = {
+    seen_.link.distances = {
         {.tissue = 1, .distance_mm = -0.1, .touches = true, .touches_so_far = 1, .first_touch_s = 3.14}};
-    EXPECT_THAT(lines_of(structure_text(content_)),
+    EXPECT_THAT(lines_of(structure_text(seen_)),
                 ElementsAre("facial nerve: touching", "touched: facial nerve", "at 3.1 s, for 0.0 s"));
-    EXPECT_THAT(lines_of(structure_warnings(content_)),
+    EXPECT_THAT(lines_of(structure_warnings(seen_)),
                 ElementsAre("PROTECTED: the burr touches facial nerve: pull back"));
-    content_.link.distances = {
+    seen_.link.distances = {
         {.tissue = 1, .touches_so_far = 2, .first_touch_s = 3.14, .touched_s = 1.5, .entered_mm3 = 0.25}};
-    EXPECT_THAT(lines_of(structure_text(content_)),
+    EXPECT_THAT(lines_of(structure_text(seen_)),
                 ElementsAre("no protected structure near", "touched: facial nerve, 2 times",
                             "first at 3.1 s, for 1.5 s in all, 0.25 mm\u00b3"));
-    EXPECT_THAT(structure_warnings(content_), IsEmpty());
+    EXPECT_THAT(structure_warnings(seen_), IsEmpty());
 }
 
 TEST_F(StructureTexts, AreNoneWhereNothingIsProtected) {
     session_.tissues = {{.label = 1, .name = "bone"}};
-    EXPECT_THAT(structure_text(content_), IsEmpty());
-    EXPECT_THAT(structure_warnings(content_), IsEmpty());
+    EXPECT_THAT(structure_text(seen_), IsEmpty());
+    EXPECT_THAT(structure_warnings(seen_), IsEmpty());
     // An older server says no more than that.
-    content_.tool->touches_protected = true;
-    EXPECT_THAT(lines_of(structure_warnings(content_)),
+    seen_.tool->touches_protected = true;
+    EXPECT_THAT(lines_of(structure_warnings(seen_)),
                 ElementsAre("PROTECTED TISSUE: the burr touches it: pull back"));
 }
 

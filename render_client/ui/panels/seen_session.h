@@ -1,0 +1,28 @@
+// The session as the panels show it.
+#pragma once
+
+#include <optional>
+
+#include "render_client/link/session_source.h"
+#include "render_client/ui/view/session_sight.h"
+
+namespace osteomill {
+
+struct SeenSession {
+    LinkUpdate link{};
+    const SessionInfo* info = nullptr;                  ///< null until a server has said hello
+    std::optional<ToolState> tool{};                    ///< nothing if it is not known how the tool is now
+    std::optional<OperatorCommand> operator_command{};  ///< nothing if this client may not drill now
+    SessionSight sight = SessionSight::now;
+    bool is_recording = false;
+
+    /// Null if there is no tool, or the server has announced no such burr.
+    const Burr* burr_in_tool() const { return info && tool ? info->burr_of(tool->burr) : nullptr; }
+    double burr_radius_mm() const { return burr_in_tool() != nullptr ? burr_in_tool()->radius_mm() : 0.0; }
+    /// Whether the session can be controlled, by this client or another.
+    bool takes_controls() const {
+        return !is_recording && info != nullptr && info->accepts_controls && elements_of(sight).controls;
+    }
+};
+
+}  // namespace osteomill
