@@ -3,6 +3,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "common/scene/scene_file.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::camera_file_test {
@@ -15,12 +16,7 @@ class CameraFileTest : public ::testing::Test {
         return read_cameras(folder_.path() / "cameras.toml");
     }
     std::string refusal(const std::string& text) const {
-        try {
-            read(text);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "nothing is wrong";
+        return testing::message_of<std::runtime_error>([&] { read(text); });
     }
 
     testing::TemporaryFolder folder_;

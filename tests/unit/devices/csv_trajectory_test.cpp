@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/support/message_of.h"
+
 namespace osteomill::csv_trajectory_test {
 namespace {
 
@@ -20,12 +22,7 @@ std::vector<Waypoint> read(const std::string& text) {
 }
 
 std::string error_of(const std::string& text) {
-    try {
-        read(text);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "no error";
+    return testing::message_of<std::runtime_error>([&] { read(text); });
 }
 
 TEST(CsvTrajectory, ReadsPosesAndPedal) {

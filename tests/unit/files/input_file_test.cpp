@@ -7,6 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -21,12 +22,7 @@ constexpr InputKind small_kind{"a small file", 10};
 
 template <typename Read>
 std::string failure_of(const Read& read) {
-    try {
-        read();
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
+    return testing::message_of<std::runtime_error>([&] { read(); });
 }
 
 TEST(InputFile, IsReadAsItIs) {

@@ -7,6 +7,7 @@
 
 #include "common/scene/scene_file.h"
 #include "devices/hid/profile_file.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -39,12 +40,7 @@ struct File {
 
     explicit File(const std::string& text) { std::ofstream(path) << text; }
     std::string error() const {
-        try {
-            load_measured_profile(path);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
-        return "no error";
+        return testing::message_of<SceneError>([&] { load_measured_profile(path); });
     }
 };
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tests/support/lab_certificates.h"
+#include "tests/support/message_of.h"
 
 namespace osteomill {
 namespace {
@@ -15,12 +16,7 @@ using ::testing::StartsWith;
 using Role = TlsContext::Role;
 
 std::string failure_of(const TlsFiles& files, Role role) {
-    try {
-        TlsContext context(files, role);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
+    return testing::message_of<std::runtime_error>([&] { TlsContext context(files, role); });
 }
 
 TEST(OwnCertificate, IsRefusedWhereItIsForTheOtherRoleHasExpiredOrSaysNoRole) {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "tests/support/lab_certificates.h"
+#include "tests/support/message_of.h"
 
 namespace osteomill {
 namespace {
@@ -12,12 +13,8 @@ namespace {
 using testing::LabCertificates;
 
 std::string failure_of(const TlsFiles& files) {
-    try {
-        TlsContext context(files, TlsContext::Role::server);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
+    return testing::message_of<std::runtime_error>(
+        [&] { TlsContext context(files, TlsContext::Role::server); });
 }
 
 TEST(TlsContext, SaysInOneLineWhichFileIsNoGood) {

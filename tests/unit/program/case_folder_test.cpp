@@ -18,6 +18,7 @@
 #include "imaging/segmentation/bone_of_labels.h"
 #include "imaging/segmentation/segmentation_file.h"
 #include "tests/support/block_file.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -250,13 +251,10 @@ TEST_F(CaseFolder, OfLabelsSaysWhatIsWrongWithThem) {
     const std::filesystem::path labels = where / "jaw.seg.nrrd";
     write_jaw_labels(labels);
     const auto refusal = [](const CaseParts& parts) {
-        try {
+        return testing::message_of<std::runtime_error>([&] {
             std::ostringstream messages;
             scan_of_labels(read_case_parts(parts), messages);
-        } catch (const std::runtime_error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        });
     };
     EXPECT_THAT(refusal({.labels = {labels}, .materials = {{"thing", "enamle"}}}),
                 HasSubstr("did you mean \"enamel\"?"));

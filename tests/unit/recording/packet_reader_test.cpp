@@ -4,6 +4,7 @@
 
 #include "common/recording/packet_writer.h"
 #include "tests/support/made_recording.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -26,14 +27,11 @@ class PacketReaderTest : public ::testing::Test {
     /// The message on these bytes as a file; empty if all packets can be read.
     std::string complaint(const std::string& bytes) const {
         testing::write_bytes(file_, bytes);
-        try {
+        return testing::message_of<RecordingError>([&] {
             PacketReader reader(file_);
             while (reader.next()) {
             }
-        } catch (const RecordingError& error) {
-            return error.what();
-        }
-        return "";
+        });
     }
     /// The good file with a 32-bit number put somewhere.
     std::string with(std::size_t offset, std::uint32_t number) const {

@@ -6,6 +6,7 @@
 #include "common/wire/frame.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/made_recording.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -17,12 +18,7 @@ using ::testing::HasSubstr;
 const Stamp noon{std::chrono::seconds(1'800'000'000) + std::chrono::nanoseconds(123'456'789)};
 
 std::string failure_of(const std::filesystem::path& file) {
-    try {
-        const PacketWriter writer(file);
-    } catch (const RecordingError& error) {
-        return error.what();
-    }
-    return "";
+    return testing::message_of<RecordingError>([&] { const PacketWriter writer(file); });
 }
 
 TEST(PacketWriter, WritesPcapWithNanosecondsAndLinkTypeUser0) {

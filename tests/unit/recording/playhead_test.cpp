@@ -9,6 +9,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 #include "tests/support/made_recording.h"
+#include "tests/support/message_of.h"
 #include "tests/support/packed.h"
 #include "tests/support/temporary_folder.h"
 
@@ -23,14 +24,11 @@ constexpr double for_ever = std::numeric_limits<double>::infinity();
 
 /// Goes to the end; returns the error that stops it, or nothing.
 std::string complaint(const std::filesystem::path& file) {
-    try {
+    return testing::message_of<RecordingError>([&] {
         Playhead playhead(file);
         while (playhead.step(for_ever) != Playhead::Step::end) {
         }
-    } catch (const RecordingError& error) {
-        return error.what();
-    }
-    return "";
+    });
 }
 
 class PlayheadTest : public ::testing::Test {

@@ -7,6 +7,7 @@
 #include "analysis/report/metric_files.h"
 #include "analysis/report/report_html.h"
 #include "analysis/report/trainee_groups.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"
 
@@ -121,12 +122,7 @@ TEST(TraineeGroups, AreALineEach) {
     std::ofstream(file) << "trainee,group\r\n\r\nEva,expert\r\n";
     EXPECT_EQ(trainee_groups(file).at("Eva"), (TraineeGroup{"expert", 3}));
     const auto error_of = [&](const std::string& text) {
-        try {
-            (void)written(text);
-        } catch (const std::runtime_error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return testing::message_of<std::runtime_error>([&] { (void)written(text); });
     };
     EXPECT_THAT(error_of("Eva,expert\nAnna\n"), HasSubstr("groups.csv:2: a line is TRAINEE,GROUP"));
     EXPECT_THAT(error_of("trainee,group,note\nEva,expert,left-handed\n"),

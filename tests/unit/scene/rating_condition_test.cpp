@@ -6,6 +6,7 @@
 #include <map>
 
 #include "common/scene/rating_quantities.h"
+#include "tests/support/message_of.h"
 
 namespace osteomill {
 namespace {
@@ -28,12 +29,7 @@ std::optional<bool> rating_holds(const std::string& text) {
 }
 
 std::string wrong_in(const std::string& text) {
-    try {
-        const RatingCondition condition(text);
-    } catch (const ConditionError& error) {
-        return error.what();
-    }
-    return {};
+    return testing::message_of<ConditionError>([&] { const RatingCondition condition(text); });
 }
 
 TEST(RatingCondition, ComparesNumbers) {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "common/scene/scene_file.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -14,12 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string refusal(const std::string& text) {
-    try {
-        parse_toml(text, "x.toml");
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return testing::message_of<SceneError>([&] { parse_toml(text, "x.toml"); });
 }
 
 std::string dotted(int parts) {
@@ -29,11 +25,10 @@ std::string dotted(int parts) {
 }
 
 TEST(TomlText, AcceptsWhatScenesHold) {
-    EXPECT_EQ(refusal("name = \"a.b.c\"\n[stiffness]\nknots = [[150.0, 0.02], [1600.5, 1.0]] # ...\n"),
-              "accepted");
-    EXPECT_EQ(refusal(dotted(32) + " = 1"), "accepted");
-    EXPECT_EQ(refusal("dots = \"" + std::string(500, '.') + "\" # " + std::string(500, '.')), "accepted");
-    EXPECT_EQ(refusal("long = '''\n" + std::string(500, '.') + "\n'''"), "accepted");
+    EXPECT_EQ(refusal("name = \"a.b.c\"\n[stiffness]\nknots = [[150.0, 0.02], [1600.5, 1.0]] # ...\n"), "");
+    EXPECT_EQ(refusal(dotted(32) + " = 1"), "");
+    EXPECT_EQ(refusal("dots = \"" + std::string(500, '.') + "\" # " + std::string(500, '.')), "");
+    EXPECT_EQ(refusal("long = '''\n" + std::string(500, '.') + "\n'''"), "");
 }
 
 TEST(TomlText, RefusesKeysOfManyPartsWhereverTheyStand) {
@@ -54,7 +49,7 @@ TEST(TomlText, RefusesATableWithoutAName) {
         EXPECT_THAT(refusal(text), HasSubstr("x.toml:")) << text;
     for (const char* text : {"[a]", "[[ a ]]", "[\"b\"]", "[ 'c' ]", "[-_9.d]", "a = [[1], [2],\n[3]]",
                              "a = [\n[[1]]\n]", "[a]\nb = '[['\n# [[!"})
-        EXPECT_EQ(refusal(text), "accepted") << text;
+        EXPECT_EQ(refusal(text), "") << text;
 }
 
 TEST(TomlText, SaysWhereItIsNoToml) {

@@ -4,6 +4,8 @@
 
 #include <sstream>
 
+#include "tests/support/message_of.h"
+
 namespace osteomill {
 namespace {
 
@@ -12,12 +14,7 @@ ControlScript read(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-    try {
-        (void)read(text);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return {};
+    return testing::message_of<std::runtime_error>([&] { (void)read(text); });
 }
 
 TEST(ControlScript, IsReadLineByLine) {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -19,12 +20,7 @@ class OperatorListTest : public ::testing::Test {
         return OperatorList(folder_ / "operators");
     }
     std::string failure_of(const std::string& text) const {
-        try {
-            list(text);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
+        return testing::message_of<std::runtime_error>([&] { list(text); });
     }
 
     testing::TemporaryFolder folder_;

@@ -15,6 +15,7 @@
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/answered_states.h"
 #include "render_client/link/bone_link.h"
+#include "tests/support/message_of.h"
 #include "tests/support/replica.h"
 #include "tests/support/served_bone.h"
 #include "tests/support/temporary_folder.h"
@@ -105,14 +106,11 @@ std::string failure_of(const StreamingOptions& options, const std::string& burr_
     TripleBuffer<ToolState> tool;
     Scene scene;
     scene.burrs = {Burr{.name = burr_name}};
-    try {
+    return testing::message_of<std::exception>([&] {
         LiveSession shown(tool, changes);
         StreamingServer server(options, session_info(scene, false, 3.3, "0.0.test"), bone, shown);
         server.start();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "";
+    });
 }
 
 TEST(StreamingServer, SaysInOneLineWhyItCannotListen) {
@@ -369,7 +367,8 @@ TEST(StreamingServer, RecordsAsIfForOneMoreClient) {
     EXPECT_TRUE(has_goodbye);
     EXPECT_EQ(playhead.bone_checksum(), served.mirror_checksum());
     EXPECT_GE(playhead.counts().checksums_verified, 3U);
-    // A state of a time that others had has one of its own, 0.1 ms after the last of them: many have, where the loop gets no processor.
+    // A state of a time that others had has one of its own, 0.1 ms after the last of them: many have, where
+    // the loop gets no processor.
     EXPECT_GE(playhead.time_s(), playhead.tool()->time_s - 1e-5);
     EXPECT_LE(playhead.time_s(), playhead.tool()->time_s + 1e-4 * states);
 }

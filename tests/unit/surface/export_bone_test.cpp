@@ -9,6 +9,7 @@
 #include "imaging/bone_file/hu_file.h"
 #include "imaging/formats/image_reader.h"
 #include "tests/support/hu_volume.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/whole_image.h"
 
@@ -23,12 +24,7 @@ ParseResult<ExportOptions> parse(std::vector<const char*> arguments) {
 }
 
 std::string refusal(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "nothing was refused";
+    return testing::message_of<std::exception>([&] { act(); });
 }
 
 TEST(ExportCommandLine, TakesASurfaceOrWhatWasRemoved) {

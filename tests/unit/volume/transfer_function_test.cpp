@@ -7,6 +7,7 @@
 
 #include "common/scene/stiffness_relation.h"
 #include "render_client/volume/bone_colours.h"
+#include "tests/support/message_of.h"
 
 namespace osteomill::transfer_function_test {
 namespace {
@@ -22,12 +23,7 @@ TEST(TransferFunction, RunsAlongLinesAndHoldsItsEnds) {
 
 TEST(TransferFunction, RefusesWhatIsNoFunctionAndNamesThePoint) {
     const auto message = [](const TransferFunction& function) -> std::string {
-        try {
-            require_valid(function);
-        } catch (const std::invalid_argument& error) {
-            return error.what();
-        }
-        return "";
+        return testing::message_of<std::invalid_argument>([&] { require_valid(function); });
     };
     EXPECT_EQ(message(ramp), "");
     EXPECT_NE(message({.name = "none"}).find("'none' has no control point"), std::string::npos);

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -59,12 +60,8 @@ TEST(DatagramSocket, RemovesNothingOfOthers) {
     const testing::TemporaryFolder folder;
     const std::filesystem::path path = folder / "arm";
     const auto refusal = [&]() -> std::string {
-        try {
-            const DatagramSocket taken{BridgeAddress(BridgePath{path})};
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
+        return testing::message_of<std::runtime_error>(
+            [&] { const DatagramSocket taken{BridgeAddress(BridgePath{path})}; });
     };
     for (const int type : {SOCK_STREAM, SOCK_DGRAM, SOCK_SEQPACKET}) {
         for (const bool listens : {false, true}) {

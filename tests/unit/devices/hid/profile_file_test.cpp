@@ -7,6 +7,7 @@
 
 #include "common/scene/scene_file.h"
 #include "devices/hid/shipped_profiles.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -29,12 +30,7 @@ std::string changed(const std::string& from, const std::string& to) {
 }
 
 std::string error_of(const std::string& toml) {
-    try {
-        parse_arm_profile(toml, "arm.toml");
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "no error";
+    return testing::message_of<SceneError>([&] { parse_arm_profile(toml, "arm.toml"); });
 }
 
 TEST(ProfileFile, ShipsThePublishedArms) {

@@ -12,6 +12,7 @@
 #include "imaging/imaging_error.h"
 #include "tests/support/dense_bone_file.h"
 #include "tests/support/file_size_limit.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/whole_image.h"
 
@@ -57,12 +58,7 @@ Bone carved(const HuVolume& volume) {
 class CarvedBone : public ::testing::TestWithParam<bool> {
   protected:
     std::string refusal() {
-        try {
-            restore_carved_bone(BoneFile(path_));
-        } catch (const ImagingError& error) {
-            return error.what();
-        }
-        return "accepted";
+        return testing::message_of<ImagingError>([&] { restore_carved_bone(BoneFile(path_)); });
     }
     testing::TemporaryFolder folder_;
     std::filesystem::path path_ = folder_ / "carved.nrrd";

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "imaging/dicom/dicom_pixels.h"
+#include "tests/support/message_of.h"
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
 
@@ -18,12 +19,9 @@ std::optional<DicomScan> scan(const std::string& file) {
 }
 
 std::string refusal(const std::string& file) {
-    try {
+    return testing::message_of<std::invalid_argument>([&] {
         if (const auto found = scan(file)) require_sound_pixels(*found);
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "accepted";
+    });
 }
 
 std::string with_elements(const std::string& elements) {
@@ -47,7 +45,7 @@ TEST(DicomScan, FindsWhatTheImageIs) {
     EXPECT_EQ(found.bits_allocated, 16);
     EXPECT_EQ(found.pixel_bytes, 24u);
     EXPECT_FALSE(found.is_encapsulated);
-    EXPECT_EQ(refusal(file), "accepted");
+    EXPECT_EQ(refusal(file), "");
 }
 
 TEST(DicomScan, ReadsEveryCoding) {
@@ -78,9 +76,9 @@ TEST(DicomScan, RefusesDamageWithinASequenceThatStatesItsLength) {
     const auto refusal_around = [](const std::string& content) {
         return refusal(with_elements(dicom_element(0x0040, 0xa730, "SQ", content)));
     };
-    EXPECT_EQ(refusal_around(dicom_item(dicom_number(0x0028, 0x0010, 77))), "accepted");
+    EXPECT_EQ(refusal_around(dicom_item(dicom_number(0x0028, 0x0010, 77))), "");
     const std::string swapped_item("\xff\xfe\xe0\0\0\0\0\x0a\0\x28\0\x10US\0\x02\0\x07", 18);
-    EXPECT_EQ(refusal_around(swapped_item), "accepted");
+    EXPECT_EQ(refusal_around(swapped_item), "");
     const std::string endless = dicom_element(0x0040, 0xa123, "OB", "", 0x7fffffff);
     for (const std::string& damaged :
          {dicom_item(endless), dicom_item(dicom_element(0x0040, 0xa730, "SQ", dicom_item(endless))),
@@ -97,7 +95,7 @@ TEST(DicomScan, RefusesDeepNestingWhereverItHides) {
     std::string closed;
     for (int i = 0; i < 70; ++i) closed = dicom_element(0x0021, 0x1001, "SQ", dicom_item(closed));
     EXPECT_THAT(refusal(with_elements(closed)), HasSubstr("more than 16 sequences"));
-    EXPECT_EQ(refusal(with_elements(nested_sequences(16) + nested_sequences(16))), "accepted");
+    EXPECT_EQ(refusal(with_elements(nested_sequences(16) + nested_sequences(16))), "");
     EXPECT_THAT(refusal(with_elements(dicom_element(0x0021, 0x1001, "SQ", dicom_item(nested_sequences(12))))),
                 HasSubstr("too many sequences"))
         << "which takes GDCM minutes";
@@ -116,7 +114,7 @@ TEST(DicomScan, RefusesWhatIsCutOffAnywhere) {
     const std::string file = raw_dicom({.before_image = nested_sequences(2)});
     int refused = 0;
     for (std::size_t length = 132; length < file.size(); ++length)
-        if (refusal(file.substr(0, length)) != "accepted") ++refused;
+        if (!refusal(file.substr(0, length)).empty()) ++refused;
     EXPECT_GT(refused, static_cast<int>(file.size() - 132) * 9 / 10) << "all but cuts between elements";
     EXPECT_THAT(refusal(file + dicom_element(0x7fe1, 0x0010, "OB", "", 0xfffffffe)), HasSubstr("cut off"));
 }
@@ -142,13 +140,13 @@ TEST(DicomScan, HoldsACodestreamAgainstTheHeader) {
     EXPECT_TRUE(found.is_encapsulated);
     EXPECT_EQ(found.pixel_bytes, slice.pixels.size());
     EXPECT_EQ(found.codestream->is_signed, true);
-    EXPECT_EQ(refusal(raw_dicom(slice)), "accepted");
+    EXPECT_EQ(refusal(raw_dicom(slice)), "");
     slice.pixels = jpeg2000_start(4, 3, false);
     EXPECT_EQ(scan(raw_dicom(slice))->codestream->is_signed, false);
     slice.pixels = jpeg2000_start(5, 3, false);
     EXPECT_THAT(refusal(raw_dicom(slice)), HasSubstr("pixel data say 5 x 3"));
     slice.pixels = std::string("\xff\xd8\xff\xe0\0\4xx\xff\xc3\0\x0b\x10\0\3\0\4\1\1\x11\0", 21);
-    EXPECT_EQ(refusal(raw_dicom(slice)), "accepted");
+    EXPECT_EQ(refusal(raw_dicom(slice)), "");
     slice.pixels[16] = 9;
     EXPECT_THAT(refusal(raw_dicom(slice)), HasSubstr("pixel data say 9 x 3"));
     slice.rows = slice.columns = 40'000;

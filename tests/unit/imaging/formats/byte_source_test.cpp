@@ -10,6 +10,7 @@
 
 #include "imaging/bone_file/gzip_writer.h"
 #include "imaging/imaging_error.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -43,14 +44,11 @@ class ByteSourceOfFile : public ::testing::Test {
         return {std::make_shared<const InputFile>(path_), 4, encoding};
     }
     std::string refusal(ByteSource source, std::size_t bytes) {
-        try {
+        return testing::message_of<ImagingError>([&] {
             std::vector<std::byte> read(bytes);
             source.read(read);
             source.finish();
-        } catch (const ImagingError& error) {
-            return error.what();
-        }
-        return "accepted";
+        });
     }
     testing::TemporaryFolder folder_;
     std::filesystem::path path_ = folder_ / "x";
@@ -58,8 +56,8 @@ class ByteSourceOfFile : public ::testing::Test {
 };
 
 TEST_F(ByteSourceOfFile, MayBeFilledUpWithZeros) {
-    EXPECT_EQ(refusal(source(zipped(small_) + std::string(700'000, '\0')), 1000), "accepted");
-    EXPECT_EQ(refusal(source(zipped(small_) + std::string(3, '\0') + zipped(small_)), 2000), "accepted");
+    EXPECT_EQ(refusal(source(zipped(small_) + std::string(700'000, '\0')), 1000), "");
+    EXPECT_EQ(refusal(source(zipped(small_) + std::string(3, '\0') + zipped(small_)), 2000), "");
     EXPECT_THAT(refusal(source(zipped(small_) + std::string(3, '\0') + "x"), 1000),
                 HasSubstr("1 bytes of something else"));
 }
@@ -85,9 +83,9 @@ TEST_F(ByteSourceOfFile, IsWhatGzipItselfReads) {
 }
 
 TEST_F(ByteSourceOfFile, ReadsSeveralMembersAndPlainBytes) {
-    EXPECT_EQ(refusal(source(zipped(small_) + zipped(small_)), 2000), "accepted");
-    EXPECT_EQ(refusal(source(std::string(1000, 'x'), Encoding::raw), 1000), "accepted");
-    EXPECT_EQ(refusal(source(zipped({})), 0), "accepted");
+    EXPECT_EQ(refusal(source(zipped(small_) + zipped(small_)), 2000), "");
+    EXPECT_EQ(refusal(source(std::string(1000, 'x'), Encoding::raw), 1000), "");
+    EXPECT_EQ(refusal(source(zipped({})), 0), "");
 }
 
 TEST_F(ByteSourceOfFile, RefusesWhatIsCutOffOrDamagedOrTooLong) {

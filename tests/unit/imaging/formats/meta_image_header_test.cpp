@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "imaging/imaging_error.h"
+#include "tests/support/message_of.h"
 #include "tests/support/raw_images.h"
 
 namespace osteomill::meta_image_header_test {
@@ -19,12 +20,7 @@ ImageHeader parse(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-    try {
-        parse(text);
-    } catch (const ImagingError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return testing::message_of<ImagingError>([&] { parse(text); });
 }
 
 TEST(MetaImageHeader, SaysWhereTheImageLiesAndItsVoxels) {

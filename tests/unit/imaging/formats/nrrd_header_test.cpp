@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "imaging/imaging_error.h"
+#include "tests/support/message_of.h"
 #include "tests/support/raw_images.h"
 
 namespace osteomill::nrrd_header_test {
@@ -22,12 +23,7 @@ ImageHeader layout_of(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-    try {
-        layout_of(text);
-    } catch (const ImagingError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return testing::message_of<ImagingError>([&] { layout_of(text); });
 }
 
 std::string with_line(const std::string& from, const std::string& to) {

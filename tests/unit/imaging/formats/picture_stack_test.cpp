@@ -14,6 +14,7 @@
 #include "imaging/formats/picture_order.h"
 #include "imaging/imaging_error.h"
 #include "imaging/segmentation/segmentation.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/whole_image.h"
 
@@ -70,12 +71,8 @@ void write_tiff_pages(const std::filesystem::path& path, int width, int height,
 class PictureStackFolder : public ::testing::Test {
   protected:
     std::string refusal() const {
-        try {
-            values_of(open_picture_stack(folder_.path(), spacing_mm));
-        } catch (const ImagingError& error) {
-            return error.what();
-        }
-        return "";
+        return testing::message_of<ImagingError>(
+            [&] { values_of(open_picture_stack(folder_.path(), spacing_mm)); });
     }
     std::vector<float> values() const { return values_of(open_picture_stack(folder_.path(), spacing_mm)); }
     testing::TemporaryFolder folder_;
@@ -158,12 +155,7 @@ TEST_F(PictureStackFolder, OfTiffIsAsItsTagsSay) {
         return all;
     };
     const auto refused = [&](const TiffTags& tags) -> std::string {
-        try {
-            (void)first_page(tags);
-        } catch (const ImagingError& error) {
-            return error.what();
-        }
-        return "accepted";
+        return testing::message_of<ImagingError>([&] { (void)first_page(tags); });
     };
     EXPECT_THAT(first_page({.orientation = ORIENTATION_BOTLEFT}), ElementsAre(3, 4, 1, 2));
     EXPECT_THAT(first_page({.orientation = ORIENTATION_TOPRIGHT}), ElementsAre(2, 1, 4, 3));
@@ -174,7 +166,7 @@ TEST_F(PictureStackFolder, OfTiffIsAsItsTagsSay) {
                 ElementsAre(1, 2, 3, 4));
     EXPECT_THAT(first_page({.description = "ImageJ=1.53t\nimages=2\nc0=-32768.0\nc1=1.0\n"}),
                 ElementsAre(-32767, -32766, -32765, -32764));
-    EXPECT_THAT(refused({.description = "<OME><Pixels SizeC=\"2\" SizeZ=\"1\"></OME>"}), "accepted")
+    EXPECT_THAT(refused({.description = "<OME><Pixels SizeC=\"2\" SizeZ=\"1\"></OME>"}), "")
         << "an axis by another name";
     std::filesystem::remove(folder_ / "a.tif");
     write_tiff_pages<std::uint16_t>(folder_ / "b.tif", 2, 2,

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "imaging/imaging_error.h"
+#include "tests/support/message_of.h"
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
 
@@ -17,12 +18,7 @@ using ::testing::HasSubstr;
 using testing::write_bytes;
 
 std::string refusal(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "accepted";
+    return testing::message_of<std::exception>([&] { act(); });
 }
 
 TEST(NumberedName, FillsOneNumberInAndNothingElse) {
@@ -62,10 +58,10 @@ TEST_F(VoxelFiles, AreReadWhenTheyHaveTheirBytesAndTheirChecksum) {
           std::pair{deflated(hundred_.substr(0, 7)) + deflated(hundred_.substr(7)), Encoding::gzip},
           std::pair{deflated(hundred_), Encoding::zlib_or_gzip},
           std::pair{deflated(hundred_, 15), Encoding::zlib_or_gzip}}) {
-        EXPECT_EQ(reading(bytes, encoding), "accepted");
+        EXPECT_EQ(reading(bytes, encoding), "");
         EXPECT_EQ(read_, hundred_);
     }
-    EXPECT_EQ(reading(hundred_ + "more", Encoding::raw), "accepted");
+    EXPECT_EQ(reading(hundred_ + "more", Encoding::raw), "");
     EXPECT_EQ(more_, 4u);
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "imaging/imaging_error.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -18,12 +19,7 @@ class ColourTableFile : public ::testing::Test {
     void write(const std::string& text) const { std::ofstream(path_) << text; }
     std::string refusal(const std::string& text) const {
         write(text);
-        try {
-            read_colour_table(path_);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
+        return testing::message_of<std::runtime_error>([&] { read_colour_table(path_); });
     }
     testing::TemporaryFolder folder_;
     std::filesystem::path path_ = folder_ / "colours.ctbl";

@@ -13,6 +13,7 @@
 
 #include "imaging/imaging_error.h"
 #include "imaging/segmentation/segment_structure.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -31,12 +32,7 @@ class SegmentationFile : public ::testing::Test {
         std::ofstream(path_, std::ios::binary) << "NRRD0004\n" << header << "\n" << voxels;
     }
     std::string refusal() const {
-        try {
-            read_segmentation(path_);
-        } catch (const ImagingError& error) {
-            return error.what();
-        }
-        return "";
+        return testing::message_of<ImagingError>([&] { read_segmentation(path_); });
     }
     testing::TemporaryFolder folder_;
     std::filesystem::path path_ = folder_ / "segmentation.seg.nrrd";
