@@ -5,7 +5,6 @@ import io
 import json
 import pathlib
 import subprocess
-import tempfile
 import unittest
 
 import numpy as np
@@ -13,7 +12,7 @@ import pandas as pd
 
 from osteomill.studies.calibration.runs import FORCES
 from osteomill.studies.program import main
-from support import program
+from support import FolderTest, program
 from synthetic_runs import KNOWN, exact_forces, measured, runs_of, twelve_settings
 
 DATA = pathlib.Path(__file__).resolve().parents[1] / "data"
@@ -25,11 +24,10 @@ def golden(name):
     return (GOLDEN / name).read_text(encoding="utf-8")
 
 
-class CalibrationCommandTest(unittest.TestCase):
+class CalibrationCommandTest(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.out = pathlib.Path(folder.name) / "out"
+        super().setUp()
+        self.out = self.folder / "out"
 
     def calibrate(self, *words, code=0):
         """In this process, which takes a second less than the program."""

@@ -1,10 +1,10 @@
 """The table of runs of a calibration: its columns, and errors in one line."""
 
-import pathlib
-import tempfile
 import unittest
 
 import numpy as np
+
+from support import FolderTest
 
 from osteomill.studies.calibration.runs import read_runs, table_to_fill_in
 from synthetic_runs import settings_of
@@ -14,11 +14,10 @@ HEADER = ("run,material,diameter_mm,edges,turns,rpm,feed_mm_per_s,depth_mm,tilt_
 LINE = "a,bone,4,8,clockwise,20000,6,0.5,30,90,-1,2,3,0.1,0.2,0.3"
 
 
-class CalibrationRunsTest(unittest.TestCase):
+class CalibrationRunsTest(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.file = pathlib.Path(folder.name) / "runs.csv"
+        super().setUp()
+        self.file = self.folder / "runs.csv"
 
     def read(self, text):
         self.file.write_bytes(text if isinstance(text, bytes) else text.encode())

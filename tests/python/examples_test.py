@@ -5,23 +5,17 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy as np
-from support import plunge, tooth
+from support import FolderTest, plunge, tooth
 
 import osteomill as om
 
 EXAMPLES = pathlib.Path(__file__).parents[2] / "python" / "examples"
 
 
-class ExamplesTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class ExamplesTest(FolderTest):
     def run_example(self, name, *arguments):
         done = subprocess.run([sys.executable, EXAMPLES / name, *arguments], cwd=self.folder, capture_output=True, text=True,
                               env=os.environ | {"MPLCONFIGDIR": str(self.folder)})

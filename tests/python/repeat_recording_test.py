@@ -15,7 +15,7 @@ import unittest
 
 import h5py
 import numpy as np
-from support import program, tooth
+from support import FolderTest, program, tooth
 
 import osteomill as om
 
@@ -44,12 +44,7 @@ def plain_session():
     return file, bone
 
 
-class RepeatRecordingTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class RepeatRecordingTest(FolderTest):
     def record(self, name, ms=1500, seed=0, **session):
         hands, axes, pedals = wandering_hand(tooth(), ms, seed)
         file = self.folder / name

@@ -6,16 +6,15 @@ import subprocess
 import tempfile
 import unittest
 
-from support import program
+from support import FolderTest, program
 
 from osteomill.studies.repeated_tables import compare_tables
 
 
-class RepeatedTablesTest(unittest.TestCase):
+class RepeatedTablesTest(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folders = [pathlib.Path(folder.name, name) for name in ("kept", "once", "again")]
+        super().setUp()
+        self.folders = [self.folder / name for name in ("kept", "once", "again")]
         for one in self.folders:
             one.mkdir()
 

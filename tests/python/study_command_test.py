@@ -7,17 +7,12 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
-from support import program
+from support import FolderTest, eventually, run_study
 
 from osteomill.studies import kept_command, manifest, options
 from osteomill.studies.program import STUDIES
-
-
-def run(*words, **settings):
-    return subprocess.run([program("osteomill_study"), *words], capture_output=True, text=True, **settings)
 
 
 def a_study():
@@ -48,12 +43,7 @@ sys.exit(program.main(sys.argv[1:]))
 """
 
 
-class InterruptedTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class InterruptedTest(FolderTest):
     def started(self):
         """A study of two processes, both at work, with a session of its own."""
         (self.folder / "slow.py").write_text(A_SLOW_STUDY)
@@ -62,14 +52,8 @@ class InterruptedTest(unittest.TestCase):
             file.unlink(missing_ok=True)
         study = subprocess.Popen([sys.executable, self.folder / "slow.py", "made", *files, "--jobs", "2", "--out", self.folder / "out"],
                                  stderr=subprocess.PIPE, text=True, start_new_session=True)
-        self.eventually(lambda: sum(file.exists() for file in files) == 2)
+        self.assertTrue(eventually(lambda: sum(file.exists() for file in files) == 2))
         return study
-
-    def eventually(self, holds):
-        until = time.monotonic() + 120
-        while not holds():
-            self.assertLess(time.monotonic(), until)
-            time.sleep(0.02)
 
     def has_ended(self, group):
         """In a container nobody may reap what has ended (state Z)."""
@@ -88,13 +72,13 @@ class InterruptedTest(unittest.TestCase):
             self.assertEqual(study.returncode, 130, error)
             self.assertEqual(error.splitlines()[-1], "osteomill_study: interrupted; the same command goes on with the cases that are done")
             self.assertNotIn("Traceback", error)
-            self.eventually(lambda: self.has_ended(study.pid))
+            self.assertTrue(eventually(lambda: self.has_ended(study.pid)))
 
     def test_its_processes_end_with_it(self):
         study = self.started()
         study.kill()
         study.communicate(timeout=120)
-        self.eventually(lambda: self.has_ended(study.pid))
+        self.assertTrue(eventually(lambda: self.has_ended(study.pid)))
 
 
 class StudyCommandTest(unittest.TestCase):
@@ -112,24 +96,24 @@ class StudyCommandTest(unittest.TestCase):
             ([b"f\xe4rce"], 2, "is no UTF-8"),
             (["fa\nrce"], 2, "holds a control character"),
         ):
-            outcome = run(*words)
+            outcome = run_study(*words)
             self.assertEqual(outcome.returncode, code, words)
             self.assertTrue(outcome.stderr.startswith("osteomill_study: ") and outcome.stderr.endswith(" (see --help)\n"))
             self.assertEqual(outcome.stderr.count("\n"), 1)
             self.assertIn(reason, outcome.stderr)
 
     def test_has_help_and_a_version(self):
-        help_text = run("--help")
+        help_text = run_study("--help")
         self.assertEqual(help_text.returncode, 0, help_text.stderr)
         for name, _, what in STUDIES:
             self.assertRegex(help_text.stdout, f"(?m)^  {name} +{what[:40]}")
-        self.assertRegex(run("--version").stdout, r"^\d+\.\d+\.\d+\n$")
+        self.assertRegex(run_study("--version").stdout, r"^\d+\.\d+\.\d+\n$")
 
     def test_starts_in_any_locale_and_folder(self):
         with tempfile.TemporaryDirectory() as folder:
             for module in ("json.py", "argparse.py", "osteomill.py"):
                 pathlib.Path(folder, module).write_text("raise SystemExit('the wrong one')")
-            outcome = run("--version", cwd=folder, env=os.environ | {"LC_ALL": "C", "PYTHONIOENCODING": "latin-1", "PYTHONPATH": ""})
+            outcome = run_study("--version", cwd=folder, env=os.environ | {"LC_ALL": "C", "PYTHONIOENCODING": "latin-1", "PYTHONPATH": ""})
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
 
     def test_options_are_checked_where_they_are_read(self):

@@ -4,12 +4,12 @@ import io
 import json
 import math
 import os
-import pathlib
-import tempfile
 import unittest
 
 import numpy as np
 import pandas as pd
+
+from support import FolderTest
 
 from osteomill.part_files import JoinedParts, Part, part_named
 from osteomill.studies import charts
@@ -36,11 +36,9 @@ def is_killed(case):
     os.kill(os.getpid(), 9)
 
 
-class StudyRunTest(unittest.TestCase):
+class StudyRunTest(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.calls = self.folder / "calls"
         os.environ["OSTEOMILL_TEST_CALLS"] = str(self.calls)
 

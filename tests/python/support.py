@@ -5,6 +5,9 @@ import json
 import os
 import pathlib
 import subprocess
+import tempfile
+import time
+import unittest
 
 import numpy as np
 
@@ -24,6 +27,30 @@ def plunge(case, ms, depth_mm):
 
 def program(name):
     return str(pathlib.Path(os.environ["OSTEOMILL_PROGRAMS"]) / name)
+
+
+def run_study(*words, **settings):
+    """osteomill_study to its end, with its output."""
+    return subprocess.run([program("osteomill_study"), *words], capture_output=True, text=True, stdin=subprocess.DEVNULL, **settings)
+
+
+class FolderTest(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+
+def eventually(holds, longest_s=120.0):
+    """True as soon as `holds()`; false after a time that only a defect can take."""
+    until = time.monotonic() + longest_s
+    while not holds():
+        if time.monotonic() > until:
+            return False
+        time.sleep(0.01)
+    return True
 
 
 def run_server(folder, *arguments):

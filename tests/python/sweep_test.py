@@ -10,10 +10,11 @@ import re
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy as np
+
+from support import FolderTest
 
 from osteomill.part_files import Part
 from osteomill.sweep import sweep
@@ -45,11 +46,9 @@ def scripts_of_document():
     return dict(blocks)
 
 
-class SweepTest(unittest.TestCase):
+class SweepTest(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.parts = self.folder / "parts"
 
     def part(self, shard, function=force):
