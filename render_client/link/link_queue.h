@@ -1,14 +1,34 @@
-// The bounded queue of events from the receiving thread to the UI thread.
+// The events that the receiving thread hands to the UI thread, in the order in which it came, and their
+// bounded queue.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <variant>
 
-#include "render_client/link/link_event.h"
+#include "common/wire/session_receiver.h"
+#include "render_client/link/session_source.h"
 
 namespace osteomill {
+
+/// A server sent its hello: events of an earlier one no longer count.
+struct SessionBegan {
+    SessionInfo info;
+    std::uint64_t number = 0;  ///< counted from 1
+};
+
+/// The link stands otherwise than before.
+struct StatusChanged {
+    LinkStatus status = LinkStatus::connecting;
+    std::string line{};
+};
+
+using LinkEvent =
+    std::variant<SessionBegan, BoneArrived, StateArrived, CtPieceArrived, StructureArrived, StatusChanged>;
 
 /// A queue that is full is not an error: the receiving thread stops reading until there is space, and the
 /// server sends later what it could not send now. Status changes always fit: one that follows another
