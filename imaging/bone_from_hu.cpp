@@ -186,7 +186,8 @@ std::uint8_t label_from_inside(const HuLayer& field, const glm::ivec3& voxel, do
     return field.hu(inner) >= threshold_hu ? field.label(inner) : std::uint8_t{0};
 }
 
-/// A voxel on the surface is a mixture with its surroundings: its HU are those of the bone beside it.
+/// A voxel on the surface is a mixture of bone and its surroundings, so it takes the HU of the bone beside
+/// it.
 void fill_voxel(const HuLayer& field, const CodeTable& codes, bool labelled, const glm::ivec3& voxel,
                 double covered, double threshold_hu, BrickChannels& out) {
     const std::size_t offset = offset_in_brick(voxel);

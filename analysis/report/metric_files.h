@@ -17,7 +17,7 @@ std::string metrics_csv(const std::vector<MetricRow>& rows);
 /// Keys: session {trainee, case, scene, began, version, protocol, bone_checksum, settings}, metrics {key:
 /// value, or, if there is one for each tissue, burr or structure, KEY_of: {name: value}}, rating
 /// (rating_json; only if there is one), events, is_complete (the recording has the session's end), error
-/// (null: it could be read as far as it goes). Bytes that are no UTF-8 are replaced.
+/// (null: it could be read to its end). Bytes that are no UTF-8 are replaced.
 std::string metrics_json(const SessionTrace& trace, const std::vector<MetricRow>& rows,
                          const RatingResult& rating = {});
 

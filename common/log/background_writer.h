@@ -22,8 +22,8 @@ class BackgroundWriter {
     /// that the thread gets no turn, or a disk.
     static constexpr std::chrono::milliseconds longest_standstill{2000};
 
-    /// Writes to a duplicate of `descriptor`, so that it is the caller's to close or to redirect. One that is
-    /// closed counts as one that fails.
+    /// Writes to a duplicate of `descriptor`, so that it is the caller's to close or to redirect. A closed
+    /// descriptor counts as a failed one.
     BackgroundWriter(int descriptor, std::size_t capacity_bytes);
     /// Finishes first, if need be.
     ~BackgroundWriter();

@@ -77,8 +77,8 @@ inline void parse_arguments(CLI::App& app, int argc, const char* const* argv) {
     app.parse(std::move(arguments));
 }
 
-/// An option that takes one text each time it is given, as it stands: "[a,b]", "{}" and "-x" are names, where
-/// CLI11 would read lists, nothing and an option. `texts` must outlive the parsing.
+/// An option that takes its text as typed, once for each time it is given: "[a,b]", "{}" and "-x" are names,
+/// where CLI11 would read lists, nothing and an option. `texts` must outlive the parsing.
 inline CLI::Option* add_texts(CLI::App& app, const std::string& option, std::vector<std::string>& texts,
                               const std::string& help) {
     return app

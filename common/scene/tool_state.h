@@ -15,7 +15,7 @@
 
 namespace osteomill {
 
-/// Which client moves the tool, as sent to one of them.
+/// The client that moves the tool, as seen by the client that this is sent to.
 enum class ToolDriver {
     unknown,  ///< no client: the server has a device of its own, or is too old to send it
     nobody,   ///< the next that sends input

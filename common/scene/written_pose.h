@@ -2,8 +2,8 @@
 // poses that were used: a recorded motion, played again, gives the same bone and the same forces, bit for
 // bit.
 //
-// A nanometre and a billionth of a radian are far below the step of any encoder. A direction that is rounded
-// so counts as one of unit length wherever one is read (unit_direction).
+// A nanometre and a billionth of a radian are far below the step of any encoder. Every reader accepts a
+// direction rounded so as one of unit length (unit_direction).
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,8 @@ namespace osteomill {
 inline constexpr int hand_decimals_mm = 6;
 inline constexpr int axis_decimals = 9;
 
-/// The nearest number with so many decimals; a number that has no more stays as it is, and zero has no sign: a
-/// change of axes and back would lose it. Real-time safe.
+/// The nearest number with so many decimals; a number that has no more stays as it is, and zero has no sign:
+/// a change of axes and back would lose it. Real-time safe.
 template <int decimals>
 double with_decimals(double value) noexcept {
     constexpr double scale = decimals == hand_decimals_mm ? 1e6 : 1e9;

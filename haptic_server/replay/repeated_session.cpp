@@ -104,7 +104,7 @@ class RestoredChanges {
         if (!std::exchange(has_next_, false)) add(changes);
         next_ = next != nullptr ? &next->changes : nullptr;
     }
-    /// Queues the next `count` of them, as far as there are so many.
+    /// Queues the next `count` of them, or all that are left.
     void queue(std::uint32_t count, ChangeQueue& to) {
         if (waiting_.size() < count && next_ != nullptr && !std::exchange(has_next_, true)) add(*next_);
         for (; count > 0 && !waiting_.empty(); --count, waiting_.pop_front())

@@ -17,8 +17,9 @@ class FramePace {
 
     std::size_t most_bytes() const { return most_bytes_; }
 
-    /// The link took so long for a frame of so many bytes. One that took too long shortens the
-    /// next in proportion; one that made use of its length and did not take half as long doubles it.
+    /// Reports that the link took `took_s` for a frame of `bytes`. If that was too long, the next frame is
+    /// shorter in proportion. If the frame used half of its length or more and took less than half of the
+    /// time, the next may be twice as long.
     void wrote(std::size_t bytes, double took_s) {
         if (took_s > longest_s) {
             const double fits = static_cast<double>(bytes) * longest_s / took_s;

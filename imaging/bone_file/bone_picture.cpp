@@ -22,8 +22,7 @@ Grid coarser(const Grid& grid, int times) {
     return coarse;
 }
 
-/// How many times as long as the bone's own the picture's voxels are: a power of two, so that none lies in
-/// two bricks.
+/// Edge of the picture's voxels in voxels of the bone: a power of two, so that none lies in two bricks.
 int times_as_long(const Grid& bone) {
     int times = 1;
     while (times < brick_edge_voxels && voxel_count(coarser(bone, times)) > most_voxels_of_picture)

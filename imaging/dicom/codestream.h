@@ -15,7 +15,7 @@ struct Codestream {
     std::optional<bool> is_signed{};  ///< only JPEG 2000 says
 };
 
-/// std::nullopt if the bytes begin as none of these.
+/// std::nullopt if the bytes begin like no JPEG.
 std::optional<Codestream> codestream_of(std::span<const std::uint8_t> bytes);
 
 }  // namespace osteomill

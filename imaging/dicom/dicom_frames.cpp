@@ -241,7 +241,7 @@ class DicomFrames::FrameByFrame : public Source {
 
 namespace {
 
-/// The bits that hold the pixel, of those that are there: old scanners keep overlays in the others.
+/// The bits that hold the pixel. Old scanners keep overlays in the other bits.
 template <typename Stored>
 Stored pixel_of(Stored raw, unsigned shift, unsigned bits) {
     if (bits >= 8 * sizeof(Stored)) return raw;

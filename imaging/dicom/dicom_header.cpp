@@ -60,7 +60,8 @@ void note(DicomHeader& header, const std::string& words) {
         header.notes.push_back(words);
 }
 
-/// `is_alone`: its frames are placed against one another, so that it may lack a position.
+/// `is_alone`: it stands for all frames of the file, which lie one behind the other, and so it may lack a
+/// position.
 std::optional<SlicePlacement> placement_of(const Places& places, bool is_alone, DicomHeader& header,
                                            std::string& missing) {
     auto spacing = places.find<2>(pixel_measures_tag, spacing_tag);

@@ -36,8 +36,8 @@ constexpr int most_layers_of_segments = 255;
 /// One layer of labels, x fastest; a segment of frames that overlap others lies in another.
 using Layer = std::vector<std::uint16_t>;
 
-/// A text of a file whose Specific Character Set (0008,0005) is `set`; as it is if that is another than
-/// these.
+/// Converts a text of a file whose Specific Character Set (0008,0005) is `set`; returns it unchanged for a
+/// set that is not in the table.
 std::string in_utf8(const std::string& text, const std::string& set) {
     static const std::map<std::string, const char*> known{
         {"ISO_IR 100", "ISO-8859-1"}, {"ISO_IR 101", "ISO-8859-2"}, {"ISO_IR 109", "ISO-8859-3"},

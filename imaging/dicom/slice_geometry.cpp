@@ -160,7 +160,7 @@ std::size_t settle_gap(const std::vector<double>& places, double& gap_mm) {
     return static_cast<std::size_t>(slice);
 }
 
-/// The gap of places that may have empty ones between them.
+/// The gap between places, among which some may be empty.
 double gap_of(const std::vector<double>& places, const StatedGap& stated, std::string& note) {
     if (places.size() < 2) return stated.spacing_mm > 0.0 ? stated.spacing_mm : stated.thickness_mm;
     double least_mm = places[1] - places[0];

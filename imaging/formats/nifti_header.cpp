@@ -60,7 +60,7 @@ void read_sizes(const NiftiStatements& stated, const std::filesystem::path& path
 }
 
 void read_rescale(const NiftiStatements& stated, const std::filesystem::path& path, NiftiHeader& header) {
-    // A slope of 0 stands for none, and so does one that is not a number, as nibabel writes it.
+    // A slope of 0 means no rescale. So does NaN, which nibabel writes.
     if (stated.slope == 0.0 || std::isnan(stated.slope)) return;
     if (!std::isfinite(stated.slope) || !std::isfinite(stated.intercept))
         throw ImagingError(path, fmt::format("scl_slope {} and scl_inter {} are not numbers", stated.slope,

@@ -110,7 +110,7 @@ std::vector<double> mm_of_units(const NrrdHeader& header, const char* name, std:
     return mm;
 }
 
-/// An axis of the file; nothing in it if it is none of space.
+/// An axis of the file. Without a step it is no axis of space.
 struct NrrdAxis {
     std::uint64_t size = 0;
     std::optional<glm::dvec3> step_mm{};  ///< patient LPS

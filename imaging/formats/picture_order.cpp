@@ -87,7 +87,7 @@ Reading reading_of(const std::vector<std::filesystem::path>& files) {
     return reading;
 }
 
-/// Below 0, 0 or above it, as the number of `a` is to that of `b`.
+/// Compares the numbers of `a` and `b`: below 0, 0 or above 0.
 int compared(const NamePart& a, const NamePart& b) {
     if (a.is_negative != b.is_negative) return a.is_negative ? -1 : 1;
     const auto size = [](const NamePart& part) {

@@ -245,7 +245,7 @@ class Colours {
     std::vector<glm::dvec3> colours_;
 };
 
-/// Pixels of the region beside one outside of it.
+/// Colours the pixels of the region that have a neighbour outside of it.
 void draw_outline(RgbPicture& picture, const BoneView& view, const glm::dvec3& right,
                   const std::function<bool(const glm::dvec3& place_mm)>& is_outlined) {
     constexpr std::array<std::uint8_t, 3> colour{0, 90, 200};

@@ -1,4 +1,4 @@
-// Ticks of a session in Python: one as a Step, many as a dict of arrays.
+// Ticks of a session in Python: a tick is a Step, several are a dict of arrays.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,4 +1,5 @@
-// Contents of an image set: by which cameras, of which moments of a recording, which images.
+// Contents of an image set: its cameras, the moments of the recording that they show, and the kinds of
+// images.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +37,8 @@ struct DatasetPart {
     bool has(std::size_t frame) const { return frame % of == number - 1; }
 };
 
-/// The look of a window whose user changed none of it; by lot, bone is wet under the lamps of the lot alone.
+/// The appearance of a window whose user changed nothing. With random looks the bone is wet only under the
+/// random lamps.
 inline SceneAppearance usual_look(bool is_by_lot) {
     SceneAppearance look;
     look.specular = is_by_lot ? 0.0f : usual_wetness;

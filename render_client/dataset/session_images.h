@@ -24,7 +24,7 @@ struct CameraImages {
     std::vector<std::uint8_t> labels{};
 };
 
-/// A recorded tool as a thing: its burr in full, turned as far as its speed turns it by its time.
+/// A recorded tool as a solid object. Its burr is turned by its speed times the session time.
 DrawnTool tool_as_thing(const ToolState& state, const SessionInfo& session, const KnownShanks& shanks = {});
 
 class SessionImages {

@@ -244,7 +244,7 @@ void CarveKernel::write_back(std::int32_t slot) noexcept {
     for (const Row* row = rows_.data(); row < end; ++row) {
         const std::size_t x = row->first() % brick_edge_voxels;
         std::uint8_t* const brick_row = fractions + (row->first() - x);
-        // All sixteen voxels of the brick's row at once: none is less than it was but those that are listed.
+        // All sixteen voxels of the brick's row at once: only the listed ones lose bone.
         const auto before = simd::load<Bytes>(brick_row);
         const Bytes after =
             simd::smaller(before, simd::load<Bytes>(left - x) | simd::outside(x, row->length()));

@@ -63,7 +63,7 @@ ArmSpring spring_beside(const ArmFigures& arm, double damping_n_s_per_mm);
 
 ArmSpring stiffest_spring(const ArmFigures& arm);
 
-/// With that spring in place of the claimed one.
+/// The limits with that spring in place of the claimed one.
 DeviceLimits with_stiffest_spring(DeviceLimits arm, double delay_s,
                                   std::optional<double> friction_n = std::nullopt);
 

@@ -70,8 +70,8 @@ Ring ball_ring(double radius_mm, int ring, int rings) {
             .mean_per_r = (std::asin(top) - std::asin(bottom)) / (top - bottom) / radius_mm};
 }
 
-/// Ends of the rings along the outline: equal shares of its length and of its normal's turn, as much of the
-/// one as of the other.
+/// Ends of the rings along the outline. A ring takes an equal share of the mean of two measures: the length
+/// of the outline and the turn of its normal.
 std::vector<double> ring_ends(const BurrProfile& profile, int rings) {
     constexpr int steps = 4096;
     std::vector<double> share{0.0};

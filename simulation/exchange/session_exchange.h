@@ -35,8 +35,8 @@ struct SessionExchange {
                        ? std::make_unique<ChangeQueue>(restored_queue_bytes, bone.shared_content())
                        : nullptr),
           status(at_start) {}
-    /// Between the loops of another session that is where `other` is, and that nobody follows. While no
-    /// thread is at it.
+    /// For the loops of a copy of a session, without clients, that goes on where `other` is. No thread may be
+    /// using `other`.
     SessionExchange(const SessionExchange& other, const Bone& bone)
         : results(other.results),
           commands(other.commands),

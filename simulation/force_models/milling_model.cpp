@@ -19,8 +19,8 @@ static_assert(most_voxels_across_burr <= 2.0 * CrescentRows::largest_radius_voxe
 
 namespace {
 
-/// Directions are taken from the middle of a substep: the force of one as long as the burr's
-/// radius would be 10 % off, that of an eighth of it 0.2 %.
+/// Directions are taken from the middle of a substep. In a substep as long as the burr's radius the force
+/// would be 10 % off, in an eighth of that 0.2 %.
 constexpr double longest_substep_radii = 0.125;
 /// The outline of another head has narrow bends: its edges rub on the bone that the surface passes within a
 /// voxel or so.

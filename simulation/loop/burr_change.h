@@ -31,9 +31,9 @@ class BurrChanger {
   public:
     BurrChanger(std::size_t burr, std::size_t count) : burr_(burr), wanted_(burr), count_(count) {}
 
-    /// To be called once a tick, with the burr that the device requests; none, or one that is not of the set,
-    /// changes nothing. The tool is at `position_mm` (patient LPS); `latest` says whether the wanted burr
-    /// would be clear of bone there. Real-time safe.
+    /// To be called once a tick, with the burr that the device requests. Without a request, or for a number
+    /// outside the set, nothing changes. The tool is at `position_mm` (patient LPS); `latest` says whether
+    /// the wanted burr would be clear of bone there. Real-time safe.
     void tick(const std::optional<std::size_t>& request, bool spindle_on, const glm::dvec3& position_mm,
               const MillingResult& latest) noexcept;
 

@@ -69,7 +69,7 @@ std::vector<double> spindle_speeds(const std::vector<Burr>& burrs) {
     return rev_per_s;
 }
 
-/// All of them where they may be switched, else those that are on.
+/// All fixtures if they may be switched, else those that are on.
 FixtureSet fixtures_to_hold(const Scene& scene, const MillingSessionOptions& options) {
     const bool may_be_switched = options.can_be_controlled && entry_of(options.coupling.kind).takes_fixtures;
     return may_be_switched ? fixture_bit(scene.fixtures.size()) - 1 : fixtures_on(scene.fixtures);

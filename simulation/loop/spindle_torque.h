@@ -17,7 +17,7 @@
 
 namespace osteomill {
 
-/// Gaps of freshly carved bone scatter by a tenth of a voxel: up to so much of one a patch touches.
+/// Gaps of freshly carved bone scatter by a tenth of a voxel, so a patch counts as touching up to this gap.
 inline constexpr double touching_voxels = 0.2;
 
 /// A patch that cuts while the burr moves with `feed_mm_per_s`.

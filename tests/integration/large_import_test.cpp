@@ -103,7 +103,7 @@ TEST_F(LargeImport, ReadsTheFramesOfADicomFileInBoundedMemory) {
     expect_import(folder_ / "large.dcm", "100,100,100,120,120,120", -1000);
 }
 
-/// Compressed as one, they would be held as one.
+/// Frames that are compressed together would be held in memory together.
 TEST_F(LargeImport, RefusesCompressedFramesOfMoreThanAnImportMayTake) {
     RawSlice file = multi_frame(std::vector<int>(400));
     file.transfer_syntax = jpeg2000_lossless;

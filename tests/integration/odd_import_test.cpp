@@ -181,7 +181,7 @@ TEST_F(OddImport, WarnsOfAModalityThatIsNotCt) {
     EXPECT_THAT(said_.err, HasSubstr("its modality is MR, not CT"));
 }
 
-/// An import of minutes that is stopped as soon as it works: its messages, and the files left.
+/// The messages and remaining files of an import of minutes that is stopped as soon as it works.
 TEST(StoppedImport, LeavesNothingAndSaysSo) {
     const TemporaryFolder folder;
     write_series(folder / "series", synthetic_series(5));

@@ -1,4 +1,4 @@
-// Changes that no bone need have, packed as a server packs those of its own.
+// Packs any changes, even impossible ones, as a server packs those of its bone.
 #pragma once
 
 #include <vector>

@@ -97,7 +97,8 @@ Places lay_out(std::span<const PanelRequest> requests, const glm::vec2& picture,
     std::vector<std::size_t> first_choices(requests.size(), 0);
     for (;;) {
         Places places = lay_out_from(first_choices, requests, picture, margin, burr);
-        // The largest of those that were opened shrinks for one that has no place, until none can.
+        // For a panel without a place, the largest panel that the user opened shrinks, until none can shrink
+        // further.
         const bool all_are_there = std::none_of(places.begin(), places.end(), [&](const auto& place) {
             return !place && requests[static_cast<std::size_t>(&place - places.data())].is_requested;
         });

@@ -22,7 +22,7 @@ glm::vec2 size_of_line(const TextLine& line, float widest, float font_factor) {
 
 }  // namespace
 
-// Behind the windows that take input, so that those can be opened over them.
+// Drawn behind the windows that take input, so that these can be opened over it.
 PanelPainter::PanelPainter(const Theme& theme, float scale)
     : theme_(theme), scale_(scale), canvas_(*ImGui::GetBackgroundDrawList()) {}
 

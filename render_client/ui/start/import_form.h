@@ -71,8 +71,8 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
 /// (usual_spacing.h).
 double default_spacing_mm(const ImportForm& form, const ScanPreview& look);
 
-/// Takes the result of a preview: its segments, of which known ones keep their settings; and, for another
-/// scan, the region: all of it, in voxels of the default.
+/// Takes the result of a preview. Segments that the form knows keep their settings. For another scan the
+/// region becomes all of it, in voxels of the default size.
 void take_look(ImportForm& form, const ScanPreview& look, bool is_another_scan);
 
 }  // namespace osteomill

@@ -31,7 +31,7 @@ BallInView round_both(const BallInView& a, const BallInView& b);
 /// Round the region of the session's plan; nothing without a plan, or without a voxel of its tissue.
 std::optional<BallInView> target_in_view(const Bone& bone, const SessionInfo& session);
 
-/// `all`: round the bone. `tool`: the burr's pose; one that is far off counts as on the edge of `all`.
+/// `all`: round the bone. `tool`: the burr's pose; a burr far away counts as on the edge of `all`.
 Camera first_view(const Bone& bone, const BallInView& all, const std::optional<ToolPose>& tool,
                   double burr_radius_mm, const std::optional<BallInView>& target);
 

@@ -22,7 +22,7 @@ class ScenePicture {
     ScenePicture(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch = nullptr,
                  double frame_s = target_frame_s);
 
-    /// Sizes of less than one pixel count as one.
+    /// A size below one pixel counts as one.
     void resize(const glm::ivec2& size_px);
     /// Cuts and background, from the next draw on.
     void set_appearance(const SceneAppearance& look) { layer_.set_appearance(look); }

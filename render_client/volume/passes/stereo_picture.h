@@ -14,7 +14,7 @@ namespace osteomill {
 class StereoPicture {
   public:
     /// On demand it draws at whatever quality keeps the rate of frames; otherwise always in full. The
-    /// renderer must outlive it. Sizes of less than one pixel count as one.
+    /// renderer must outlive it. A size below one pixel counts as one.
     StereoPicture(BoneRenderer& renderer, const glm::ivec2& size_px, bool on_demand,
                   const StereoSettings& stereo);
 

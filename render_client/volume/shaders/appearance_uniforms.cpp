@@ -38,7 +38,8 @@ void set_grain_uniforms(const gl::Program& program, const BoneTextures& bone, co
                         const glm::ivec2& size_px) {
     const Grid& grid = bone.grid();
     const double pixel_mm = mm_per_px_at(camera, camera.target_mm, size_px);
-    // Two pixels a cell show it; one makes it noise that flickers as the view turns.
+    // A cell of two pixels or more shows the grain. A cell of one pixel would be noise that flickers as the
+    // view turns.
     const auto seen = [&](double cell_mm) { return glm::clamp(cell_mm / pixel_mm - 1.0, 0.0, 1.0); };
     program.set("grain_corner_mm",
                 glm::vec3(centre_of_voxel_mm(grid, bone.box().first) - 0.5 * grid.spacing_mm));

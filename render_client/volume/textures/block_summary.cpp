@@ -9,7 +9,7 @@ namespace {
 constexpr int neighbour_count = 27;
 constexpr BlockReach all_around = (1U << neighbour_count) - 1;
 
-/// A block's voxels as bits, x fastest; which of them touch the neighbour that a bit stands for.
+/// For each neighbour, the voxels of a block that touch it, as bits, x fastest.
 constexpr std::array<std::uint64_t, neighbour_count> voxels_towards() {
     const auto touches = [](int place, int side) {
         return side == 0 || place == (side < 0 ? 0 : block_edge_voxels - 1);

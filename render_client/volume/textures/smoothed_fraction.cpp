@@ -12,8 +12,8 @@ namespace {
 constexpr std::array<std::uint32_t, 2 * smoothing_reach_voxels + 1> weights{1, 6, 15, 20, 15, 6, 1};
 constexpr unsigned weights_bits = 6;  ///< they add up to 2^6
 
-/// Least share of a hardly visible tissue: the slope of its surface must be so large that bytes give its
-/// direction.
+/// Least share of a hardly visible tissue. With less, the slope at its surface would be too small for bytes
+/// to give its direction.
 constexpr float least_share = 0.3f;
 
 /// Sums of neighbours `stride` apart, of `count` places from the first on; `shift` takes bits away, rounding.

@@ -55,7 +55,8 @@ class HandOnLine {
         ++substeps_;
     }
 
-    /// A substep in bone of which `impulse_n_s` remains as a function of the way, negative where it resists.
+    /// A substep in bone. `impulse_n_s` is the remaining impulse of the bone as a function of the way,
+    /// negative if it resists.
     template <typename Impulse>
     void move_in_bone(Impulse&& impulse_n_s) {
         if (!is_guided_) return lead();

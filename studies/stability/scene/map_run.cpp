@@ -114,7 +114,7 @@ void measure_whole_run(const RunRecord& run, MapOutcome& outcome) {
 
 void measure_window(const RunRecord& run, const std::vector<TruthTick>& truth, const SceneTiming& timing,
                     MapOutcome& outcome) {
-    // A run that went astray is measured as far as it came.
+    // A run that went astray is measured up to that moment.
     const std::size_t end = std::min(timing.settling + timing.window, run.force_n.size());
     const std::size_t begin = std::min(timing.settling, end / 2);
     if (begin == end) return;

@@ -33,7 +33,7 @@ struct Pressed {
     double depth_mm;
 };
 
-/// An arm of its own that records its forces.
+/// An arm that records the forces written to it.
 class NotingArm final : public HapticDevice {
   public:
     NotingArm(const std::vector<Way>& ways, bool pedal, const Scene& scene)

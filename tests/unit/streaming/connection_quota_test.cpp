@@ -43,7 +43,7 @@ TEST(ConnectionQuota, GoOldestFirstOfThoseWhoHoldMost) {
 TEST(ConnectionQuota, AreNotTakenFromAnotherAddressByAFlood) {
     ConnectionQuota quota(16);
     quota.add(1, origin_at("2001:db8:1:2::7"), {});
-    // Each from an address of its own, of one network.
+    // From many addresses of one network.
     for (ConnectionQuota::Id id = 2; id < 10'000; ++id)
         squeeze_in(quota, id, origin_at(("2001:db8:6:6::" + std::to_string(id)).c_str()));
     EXPECT_EQ(quota.size(), 16U);

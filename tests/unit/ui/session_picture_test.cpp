@@ -13,7 +13,7 @@ constexpr double frame_s = 1.0 / 30.0;
 class ToldSession final : public SessionSource {
   public:
     LinkUpdate poll() override {
-        // A preparation takes thousands of polls; that it is carved in the first of them will do.
+        // A preparation takes thousands of polls. Carving in the first of them is enough.
         LinkUpdate update;
         if (carvings_left_-- > 0) update = session_->poll();
         update.status = status;
