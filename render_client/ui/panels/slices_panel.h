@@ -2,6 +2,7 @@
 // ImGui; needs an ImGui frame to be open.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <vector>
 

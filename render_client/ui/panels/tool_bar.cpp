@@ -111,7 +111,7 @@ std::vector<ToolButton> buttons(const SeenSession& session, const ViewSettings& 
                        .tip = tr("the stroke that was undone last"),
                        .is_enabled = may && can.redo_steps > 0});
     buttons.push_back(
-        {.press = [](ViewSettings& view, SessionRequests&) { view.question = SessionQuestion::reset; },
+        {.press = [](ViewSettings& its, SessionRequests&) { its.question = SessionQuestion::reset; },
          .sign = "\u21BA",
          .word = tr("Reset"),
          .tip = tr("undoes all strokes"),
