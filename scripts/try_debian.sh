@@ -43,6 +43,7 @@ if [ -z "${OSTEOMILL_ROOT_TO_TRY:-}" ]; then
 fi
 root=$OSTEOMILL_ROOT_TO_TRY
 
+mount --bind "$root" "$root"  # `ip netns exec`, by which packages are tried on two machines, wants a root that is mounted
 mount -t proc proc "$root/proc"
 mount --rbind /dev "$root/dev"
 mount --rbind /sys "$root/sys"
