@@ -69,7 +69,7 @@ within dpkg-query -W -f '${Package} ${Version}\n' "${named[@]}"
 limits=$root/etc/security/limits.d/60-osteomill.conf
 echo "# of the lab" >>"$limits"
 apt install "${named[@]}"
-[ -z "$(find "$root/usr/share/osteomill" -name '*.no_more')" ] || { echo "files of the older version stay" >&2; exit 1; }
+[ -z "$(find "$root/usr/share" -name '*.no_more')" ] || { echo "files of the older version stay" >&2; exit 1; }
 grep -q "# of the lab" "$limits" || { echo "the lab's settings are lost" >&2; exit 1; }
 run_demo >/dev/null
 
