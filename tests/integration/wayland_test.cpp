@@ -134,6 +134,25 @@ TEST_P(WaylandTest, ShowsEveryPixelOfWhatAnOffscreenRunDrawsAndAnswersMouseAndKe
     EXPECT_EQ(window_->wait(), 0) << window_->err();
 }
 
+TEST_P(WaylandTest, DrawsAsManyPixelsAsItsWindowHasAfterItIsResized) {
+    start_server();
+    show_desktop({720, 540});
+    const Finished offscreen =
+        run_program(client({"--offscreen", "--frames", "3", "--no-panels", "--window-size", "720x540",
+                            "--screenshots", folder("offscreen")}));
+    ASSERT_EQ(offscreen.status, 0) << offscreen.err;
+    const Picture whole = read_png(folder("offscreen") + "/final.png");
+    window_.emplace(display_->shown_here(client({"--no-panels", "--window-size", units(480, 360)})));
+    ASSERT_TRUE(comes_true([&] { return free_part() > 0.5 && free_part() < 0.6; })) << free_part();
+    ASSERT_TRUE(stands_still());
+    press("super+shift+m");  // weston's key: as large as the screen
+    EXPECT_TRUE(shows(whole)) << difference(screen(), whole) << window_->err();
+    press("F1");
+    EXPECT_TRUE(shows_otherwise_than(whole, 0.1)) << "help";
+    press("F1");
+    EXPECT_TRUE(shows(whole)) << "help goes again";
+}
+
 TEST_P(WaylandTest, CutsCopiesAndPastesToAndFromOtherPrograms) {
     for (const char* program : {copier, paster})
         if (!std::filesystem::exists(program))
