@@ -1,21 +1,39 @@
 #include "analysis/hdf5/recording_hdf5.h"
 
 #include <chrono>
+#include <optional>
 #include <stdexcept>
+#include <variant>
 #include <vector>
 
 #include "analysis/hdf5/all_of_recording.h"
 #include "analysis/hdf5/fivrs_recording.h"
 #include "common/files/distinct_files.h"
-#include "common/recording/packet_reader.h"
+#include "common/recording/recording_reader.h"
 
 namespace osteomill {
 
 namespace {
 
+using Seconds = std::chrono::duration<double>;
+
+/// By the first state, since a session that waited for a client began later than its packets' time.
 double began_unix_s(const std::filesystem::path& recording) {
-    const auto first = PacketReader(recording).next();
-    return first ? std::chrono::duration<double>(first->stamp.time_since_epoch()).count() : 0.0;
+    RecordingReader frames(recording);
+    std::optional<Stamp> first;
+    try {
+        while (const auto frame = frames.next()) {
+            if (!first) first = frame->stamp;
+            const auto* state = std::get_if<StateArrived>(&frame->event);
+            if (state == nullptr) continue;
+            const std::chrono::nanoseconds taken(state->state.tool.taken_unix_ns);
+            if (taken.count() == 0) break;
+            return Seconds(taken - (frame->stamp - *first)).count();
+        }
+    } catch (const RecordingError&) {
+        // Who reads it comes upon this, too, and says it then.
+    }
+    return first ? Seconds(first->time_since_epoch()).count() : 0.0;
 }
 
 template <typename Layout>

@@ -14,7 +14,8 @@
 
 namespace osteomill {
 
-/// When a frame was sent, UTC. In a server's recording: when the session began, plus the session's time.
+/// When a frame was sent, UTC. In a server's recording: when the session began, or the server if the session
+/// waited for a client, plus the session's time.
 using Stamp = std::chrono::sys_time<std::chrono::nanoseconds>;
 
 /// The header before each packet of a pcap file: two numbers of time, the bytes kept, the bytes that there

@@ -243,6 +243,9 @@ ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& acce
     if (outputs.json) outputs.json_histograms = histograms_beside(*outputs.json);
     options.files = files_of(options, access);
     if (options.measures_into) require_nothing_of_a_session(options.files);
+    if (options.measures_into && options.waits_for_client)
+        throw std::invalid_argument(
+            "--wait-for-client is of no use with --measure-arm, which runs no session");
     require_distinct(options.files);
     return options;
 }

@@ -1,6 +1,7 @@
 #include "haptic_server/session/shown_session.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <thread>
@@ -87,8 +88,11 @@ ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirro
 }
 
 void ShownSession::wait_for_client(const std::atomic<bool>& stop) const {
-    while (waits_for_client_ && !server_.has_client_begun() && !stop.load() && !finish_requested())
+    if (!waits_for_client_) return;
+    spdlog::info("the session begins when a client has drawn the bone");
+    while (!server_.has_client_begun() && !stop.load() && !finish_requested())
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (!server_.has_client_begun()) spdlog::info("the session has not begun: no client drew the bone");
 }
 
 void ShownSession::end() {

@@ -22,6 +22,10 @@ std::string packet_of(const std::string& frame, Stamp stamp) {
     return with_recorded_time(*decoder.next(), stamp.time_since_epoch().count());
 }
 
+Stamp later(Stamp from, double by_s) {
+    return from + std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(by_s));
+}
+
 v2::Hello of_recording(v2::Hello hello, const RecordTo& to) {
     hello.set_holds_ticks(to.ticks != nullptr);
     hello.clear_records_view();
@@ -33,6 +37,7 @@ v2::Hello of_recording(v2::Hello hello, const RecordTo& to) {
 SessionRecorder::SessionRecorder(const RecordTo& to, v2::Hello hello, const BoneReplica& mirror,
                                  std::span<const v2::StructureBricks> structures)
     : began_(to.began),
+      session_began_(to.began),
       ticks_(to.ticks),
       outgoing_(of_recording(std::move(hello), to), mirror, packers_, structures),
       writer_(
@@ -58,7 +63,7 @@ SessionRecorder::SessionRecorder(const RecordTo& to, v2::Hello hello, const Bone
 void SessionRecorder::begin(SessionState& state, Wait wait) {
     time_s_ = state.tool.time_s;
     if (state.tool.taken_unix_ns == 0)
-        state.tool.taken_unix_ns = stamp_of(time_s_).time_since_epoch().count();
+        state.tool.taken_unix_ns = later(session_began_, time_s_).time_since_epoch().count();
     take_ticks(wait);
 }
 
@@ -125,11 +130,6 @@ void SessionRecorder::wait_for_room(Wait wait) {
     if (wait == Wait::a_moment) writer_.wait_for_room(RecordingWriter::longest_standstill);
 }
 
-Stamp SessionRecorder::stamp_of(double time_s) const {
-    return began_ +
-           std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s));
-}
-
 void SessionRecorder::hand_over(Wait wait) {
     for (;;) {
         wait_for_room(wait);
@@ -137,7 +137,7 @@ void SessionRecorder::hand_over(Wait wait) {
         const std::uint64_t newest = outgoing_.newest_state();
         const std::optional<std::string> frame = outgoing_.next();
         if (!frame) return;
-        Stamp stamp = std::max(stamp_of(time_s_), stamp_);
+        Stamp stamp = std::max(later(began_, time_s_), stamp_);
         // Rows of a table have times of their own: rows that do not fit one state come a moment later.
         if (outgoing_.newest_state() != newest) {
             if (newest > 0 && stamp <= stamp_) stamp = stamp_ + least_between_states;

@@ -26,6 +26,9 @@ class SessionRecorder {
     SessionRecorder(const RecordTo& to, v2::Hello hello, const BoneReplica& mirror,
                     std::span<const v2::StructureBricks> structures = {});
 
+    /// Sets the wall clock at which the session's time is zero, where that was not known when the recording
+    /// began. Packets keep to the time that they were given, so that a playback does not wait.
+    void session_began(Stamp at) { session_began_ = at; }
     /// These work as for a client: see OutgoingFrames.
     void note(std::span<const BrickChange> changes) { outgoing_.note(changes); }
     /// Hands over a state frame with a checksum; without waiting, unless `may_wait`. Does nothing if the
@@ -42,13 +45,13 @@ class SessionRecorder {
     enum class Wait { never, a_moment, for_the_disk };
     void begin(SessionState& state, Wait wait);
     bool says_more(const SessionState& state) const;
-    Stamp stamp_of(double time_s) const;
     void take_ticks(Wait wait);
     bool has_untaken_ticks() const;
     void wait_for_room(Wait wait);
     void hand_over(Wait wait);
 
     const Stamp began_;
+    Stamp session_began_;
     SampleQueue<TickSample>* const ticks_;
     std::uint64_t missed_ticks_ = 0;  // that ticks_ dropped and the recording has yet to count
     std::uint64_t dropped_ticks_ = 0;

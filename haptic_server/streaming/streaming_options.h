@@ -22,7 +22,9 @@ namespace osteomill {
 /// A recording of the shown session.
 struct RecordTo {
     std::filesystem::path file;
-    Stamp began;  ///< when the session's time is zero
+    /// When the session's time is zero; with waits_for_client the time of the first packet, and states say
+    /// when they were taken (ToolState::taken_unix_ns).
+    Stamp began;
     bool with_ticks = true;
     /// The queue in which the haptic loop leaves them, for the recording alone; null: none.
     SampleQueue<TickSample>* ticks = nullptr;

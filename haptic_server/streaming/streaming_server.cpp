@@ -200,7 +200,7 @@ class StreamingServer::Impl {
         // With a checksum each state is sent: a server whose time stands until a client begins is not silent.
         const bool waits = options_.waits_for_client && state_.tool.time_s == 0.0;
         const bool with_checksum = frames_++ % frames_per_checksum_ == 0 || waits;
-        if (recorder_) {
+        if (recorder_ && has_begun()) {
             SessionState recorded = state_;
             recorded.view = clients_.view_of_operator();
             recorder_->record(std::move(recorded), options_.paced_by_session);
@@ -211,6 +211,17 @@ class StreamingServer::Impl {
         traffic_clients_ = clients_.count();
         traffic_sent_bytes_ = clients_.sent_bytes();
         if (options_.listens && !is_accepting_) accept();
+    }
+
+    /// Whether there is something to record: with waits_for_client, from the first client on.
+    bool has_begun() {
+        if (!options_.waits_for_client || has_time_begun_) return true;
+        if (!clients_.has_begun() && state_.events.empty()) return false;
+        const std::chrono::duration<double> since(state_.tool.time_s);
+        recorder_->session_began(std::chrono::system_clock::now() -
+                                 std::chrono::duration_cast<std::chrono::nanoseconds>(since));
+        has_time_begun_ = state_.tool.time_s > 0.0;
+        return true;
     }
 
     void update() {
@@ -289,6 +300,7 @@ class StreamingServer::Impl {
     Clock::time_point next_frame_{};
     std::uint64_t frames_ = 0;
     std::uint64_t frames_per_checksum_ = 1;
+    bool has_time_begun_ = false;  // and the recording knows when: with waits_for_client
     bool is_accepting_ = false;
     bool is_finishing_ = false;
     bool has_ended_ = false;               // the owner's

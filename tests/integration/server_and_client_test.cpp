@@ -2,11 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <variant>
 
+#include "common/recording/recording_outline.h"
+#include "common/recording/recording_reader.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
@@ -98,7 +102,8 @@ TEST_F(Programs, AfterASessionTheClientsBoneIsTheServersBitForBit) {
 
 TEST_F(Programs, ASessionsTimeBeginsWhenAClientHasTheBone) {
     ChildProcess server({HAPTIC_SERVER, "--device", "client", "--scene", "cube", "--listen", "127.0.0.1:0",
-                         "--wait-for-client", "--duration-s", "0.5", "--json", file("server.json")});
+                         "--wait-for-client", "--duration-s", "0.5", "--json", file("server.json"),
+                         "--record", file("a.pcap")});
     const auto port = server.line_after("listening on 127.0.0.1:");
     ASSERT_TRUE(port) << server.err();
     BoneLink link("127.0.0.1", static_cast<std::uint16_t>(std::stoi(*port)));
@@ -113,21 +118,36 @@ TEST_F(Programs, ASessionsTimeBeginsWhenAClientHasTheBone) {
     // Many more than the session's 15, and no second passes without: the server waits and is not silent.
     ASSERT_TRUE(has_frames(30));
     ASSERT_TRUE(seen.tool);
+    const auto drawn = std::chrono::system_clock::now();
     link.send_view(Viewpoint{});
     EXPECT_TRUE(eventually([&] {
         seen = link.poll();
         return seen.tool && seen.tool->time_s > 0.0;
     }));
     ASSERT_EQ(server.wait(), 0) << server.err();
-    EXPECT_NEAR(json("server.json").at("duration_s").get<double>(), 0.5, 0.05);
+    const double duration_s = json("server.json").at("duration_s");
+    EXPECT_NEAR(duration_s, 0.5, 0.05);
+    // The recording says when the session began, and has nothing of the time before.
+    EXPECT_NEAR(outline_of(file("a.pcap")).duration_s, duration_s, 0.05);
+    RecordingReader recording(file("a.pcap"));
+    int states = 0;
+    while (const auto frame = recording.next()) {
+        const auto* state = std::get_if<StateArrived>(&frame->event);
+        if (state == nullptr) continue;
+        ++states;
+        EXPECT_GE(std::chrono::nanoseconds(state->state.tool.taken_unix_ns), drawn.time_since_epoch());
+    }
+    EXPECT_GT(states, 0);
 }
 
 TEST_F(Programs, ASessionThatWaitsForItsClientCanBeEnded) {
     ChildProcess server({HAPTIC_SERVER, "--device", "client", "--scene", "cube", "--listen", "127.0.0.1:0",
                          "--wait-for-client", "--json", file("server.json")});
     ASSERT_TRUE(server.line_after("listening on ")) << server.err();
+    EXPECT_TRUE(has_logged(server, "the session begins when a client has drawn the bone", 1)) << server.err();
     server.send_signal(SIGINT);
     ASSERT_EQ(server.wait(), 0) << server.err();
+    EXPECT_THAT(server.err(), HasSubstr("the session has not begun: no client drew the bone"));
     EXPECT_LT(json("server.json").at("duration_s"), 0.5) << "no longer than it takes to let the hand go";
 }
 

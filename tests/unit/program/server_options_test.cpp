@@ -102,6 +102,7 @@ TEST(ServerOptions, MeasureNothingThatIsNoHeldArm) {
         {{"--measure-arm", "--json", "a.json"},
          "--json is of no use with --measure-arm, which runs no session"},
         {{"--measure-arm", "--report", "out"}, "--report is of no use with --measure-arm"},
+        {{"--measure-arm", "--wait-for-client"}, "--wait-for-client is of no use with --measure-arm"},
         {{"--measure-arm", "--device", "hid", "--clock", "virtual"}, "a person needs --clock real"}};
     for (const auto& [words, why] : wrong)
         EXPECT_THAT(error_of(words), AllOf(HasSubstr(why), Not(HasSubstr("\n"))));
@@ -185,6 +186,21 @@ TEST(ServerOptions, ServeNobodyOnTheVirtualClockUnlessAsked) {
     EXPECT_FALSE(parse({"--clock", "virtual"}).options->listen.has_value());
     EXPECT_TRUE(parse({"--clock", "virtual", "--listen", "127.0.0.1:0"}).options->listen.has_value());
     EXPECT_FALSE(parse({"--listen", "none"}).options->listen.has_value());
+}
+
+TEST(ServerOptions, WaitForAClientOnlyWhereOneMayComeAndTimeIsReal) {
+    EXPECT_FALSE(parse({}).options->waits_for_client);
+    EXPECT_TRUE(parse({"--wait-for-client"}).options->waits_for_client);
+    EXPECT_TRUE(parse({"--wait-for-client", "--device", "client"}).options->waits_for_client);
+    const std::vector<std::pair<std::vector<const char*>, const char*>> wrong{
+        {{"--wait-for-client", "--listen", "none"}, "--wait-for-client: needs --clock real and --listen"},
+        {{"--wait-for-client", "--clock", "virtual"}, "--wait-for-client: needs --clock real and --listen"},
+        {{"--wait-for-client", "--clock", "virtual", "--listen", "127.0.0.1:0"},
+         "--wait-for-client: needs --clock real"},
+        {{"--wait-for-client=soon"}, "soon"},
+        {{"--wait-for-client", "20"}, "20"}};
+    for (const auto& [words, why] : wrong)
+        EXPECT_THAT(error_of(words), AllOf(HasSubstr(why), Not(HasSubstr("\n")))) << words.back();
 }
 
 TEST(ServerOptions, RefuseToListenToOtherMachinesWithoutTls) {

@@ -87,6 +87,22 @@ TEST_F(SessionRecorderTest, HasNoTwoStatesOfOneTimeAndACheckSumInEach) {
     EXPECT_LT(times_s[3], times_s[2] + 0.001);
 }
 
+TEST_F(SessionRecorderTest, TellsTheTimeOfASessionThatBeganLaterAndPlaysWithoutTheWait) {
+    recorder_->session_began(Stamp{std::chrono::hours(25)});
+    carve_and_record(2);
+    recorder_->finish({.tool = tool_}, "the end");
+    Playhead playhead(file_);
+    int states = 0;
+    while (playhead.step(std::numeric_limits<double>::infinity()) != Playhead::Step::end) {
+        if (!playhead.tool()) continue;
+        ++states;
+        EXPECT_NEAR(static_cast<double>(playhead.tool()->taken_unix_ns) * 1e-9,
+                    90'000.0 + playhead.tool()->time_s, 1e-5);
+        EXPECT_NEAR(playhead.time_s(), playhead.tool()->time_s, 0.001);
+    }
+    EXPECT_GE(states, 2);
+}
+
 TEST_F(SessionRecorderTest, SaysThatTheEndIsMissingWhereTheDiskStaysFull) {
     const testing::FileSizeLimit disk(size() + 3'000);
     carve_and_record(200);
