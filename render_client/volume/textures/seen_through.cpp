@@ -11,8 +11,18 @@ namespace {
 
 /// Longest edge for which every second voxel has a place: 64 MiB at most.
 constexpr int most_seen_places = 320;
-constexpr int seen_piece_places = 24;
-constexpr std::uint16_t no_square = 60000;
+constexpr int seen_piece_places = 32;
+
+/// The square of a distance, voxels, and the label that is so far away, in one number: the nearest is the
+/// least.
+constexpr int square_of_one = 256;
+constexpr std::int32_t none_near = (1 << 22) * square_of_one;
+
+/// Fits a cubic to seven places (Savitzky and Golay, Analytical Chemistry 36:1627, 1964): takes off the
+/// stairs of a slanted border, and leaves a plane and a curved one where they are.
+constexpr std::array<float, 7> smoothing{-2.0f / 21, 3.0f / 21, 6.0f / 21, 7.0f / 21,
+                                         6.0f / 21,  3.0f / 21, -2.0f / 21};
+constexpr int smoothing_places = 3;
 
 glm::ivec3 divided_up(const glm::ivec3& value, int divisor) {
     return glm::ivec3(glm::ceil(glm::dvec3(value) / static_cast<double>(divisor)));
@@ -28,6 +38,28 @@ VoxelBox box_between(const glm::ivec3& first, const glm::ivec3& end) {
 
 VoxelBox box_round(const VoxelBox& a, const VoxelBox& b) {
     return box_between(glm::min(a.first, b.first), glm::max(a.first + a.size, b.first + b.size));
+}
+
+VoxelBox widened(const VoxelBox& box, int by) {
+    return {box.first - by, box.size + 2 * by};
+}
+
+/// Smooths a block along an axis, which loses smoothing_places at either end; x is fastest.
+void smooth_along(int axis, std::vector<float>& values, glm::ivec3& size, std::vector<float>& smoothed) {
+    const auto of = [](int edge) { return static_cast<std::size_t>(edge); };
+    const std::size_t stride = axis == 0 ? 1 : axis == 1 ? of(size.x) : of(size.x) * of(size.y);
+    glm::ivec3 to = size;
+    to[axis] -= 2 * smoothing_places;
+    smoothed.assign(VoxelBox{{}, to}.count(), 0.0f);
+    for (int z = 0; z < to.z; ++z)
+        for (int y = 0; y < to.y; ++y) {
+            const float* from = &values[(of(z) * of(size.y) + of(y)) * of(size.x)];
+            float* row = &smoothed[(of(z) * of(to.y) + of(y)) * of(to.x)];
+            for (std::size_t tap = 0; tap < smoothing.size(); ++tap)
+                for (std::size_t x = 0; x < of(to.x); ++x) row[x] += smoothing[tap] * from[tap * stride + x];
+        }
+    size = to;
+    values.swap(smoothed);
 }
 
 /// Joins boxes that overlap so much that one box round them is hardly larger.
@@ -147,8 +179,9 @@ VoxelBox SeenThrough::work(const Bone& bone) {
 
 VoxelBox SeenThrough::places_near(const VoxelBox& voxels) const {
     if (voxels.count() == 0) return {};
-    const glm::ivec3 low = voxels.first - lattice_.box.first - reach();
-    const glm::ivec3 high = voxels.first + voxels.size - 1 - lattice_.box.first + reach();
+    const int far = reach() + smoothing_places * lattice_.step;
+    const glm::ivec3 low = voxels.first - lattice_.box.first - far;
+    const glm::ivec3 high = voxels.first + voxels.size - 1 - lattice_.box.first + far;
     return box_between(glm::max(divided_up(low, lattice_.step), 0),
                        glm::min(divided_down(high, lattice_.step) + 1, lattice_.places));
 }
@@ -220,63 +253,46 @@ bool SeenThrough::gather_soft(const Soft& soft, const VoxelBox& voxels) {
 
 void SeenThrough::find_nearest(const VoxelBox& places, const VoxelBox& voxels, int window, bool of_tissue) {
     const int margin = reach();
+    const int step = lattice_.step;
     const glm::ivec3 size = places.size, full = voxels.size;
     const auto nx = static_cast<std::size_t>(size.x);
     const auto is_found = [&](std::uint8_t label) { return (label != 0) == of_tissue; };
-    // Along x, row by row of the voxels: the nearest to the left and to the right.
-    squares_[0].assign(nx * static_cast<std::size_t>(full.y) * static_cast<std::size_t>(full.z), no_square);
-    labels_[0].assign(squares_[0].size(), 0);
+    const auto near = [](int away, std::uint8_t label) { return away * away * square_of_one + label; };
+    // Along x, row by row of the voxels: the nearest to the left, then to the right.
+    nearest_[0].assign(nx * static_cast<std::size_t>(full.y) * static_cast<std::size_t>(full.z), none_near);
     for (std::size_t row = 0; row < static_cast<std::size_t>(full.y) * static_cast<std::size_t>(full.z);
          ++row) {
         const std::uint8_t* label = &label_of_voxel_[row * static_cast<std::size_t>(full.x)];
-        const auto note = [&](int x, int found) {
-            const int off = x - margin;
-            if (off < 0 || off % lattice_.step != 0 || off / lattice_.step >= size.x || found < 0) return;
-            const int away = std::abs(x - found);
-            if (away > window) return;
-            const std::size_t at = row * nx + static_cast<std::size_t>(off / lattice_.step);
-            const auto square = static_cast<std::uint16_t>(away * away);
-            if (square >= squares_[0][at]) return;
-            squares_[0][at] = square;
-            labels_[0][at] = label[found];
-        };
-        int found = -1;
-        for (int x = 0; x < full.x; ++x) {
-            if (is_found(label[x])) found = x;
-            note(x, found);
+        std::int32_t* nearest = &nearest_[0][row * nx];
+        const int nowhere = -full.x;
+        int found = nowhere;
+        for (int place = 0, x = 0; place < size.x; ++place) {
+            const int here = margin + place * step;
+            for (; x <= here; ++x) found = is_found(label[x]) ? x : found;
+            if (here - found <= window) nearest[place] = near(here - found, label[found]);
         }
-        if (found < 0) continue;
-        found = -1;
-        for (int x = full.x - 1; x >= 0; --x) {
-            if (is_found(label[x])) found = x;
-            note(x, found);
+        found = 2 * full.x;
+        for (int place = size.x - 1, x = full.x - 1; place >= 0; --place) {
+            const int here = margin + place * step;
+            for (; x >= here; --x) found = is_found(label[x]) ? x : found;
+            if (found - here <= window)
+                nearest[place] = std::min(nearest[place], near(found - here, label[found]));
         }
     }
     // Then across the rows, for whole rows at once, by window.
     const auto across = [&](std::size_t from, int rows_before, int rows, int planes, std::size_t row) {
-        squares_[from + 1].assign(row * static_cast<std::size_t>(rows) * static_cast<std::size_t>(planes),
-                                  no_square);
-        labels_[from + 1].assign(squares_[from + 1].size(), 0);
+        nearest_[from + 1].assign(row * static_cast<std::size_t>(rows) * static_cast<std::size_t>(planes),
+                                  none_near);
         for (int plane = 0; plane < planes; ++plane)
             for (int to = 0; to < rows; ++to) {
-                const std::size_t at = (static_cast<std::size_t>(plane) * static_cast<std::size_t>(rows) +
-                                        static_cast<std::size_t>(to)) *
-                                       row;
-                for (int away = -window; away <= window; ++away) {
-                    const int source = margin + to * lattice_.step + away;
-                    if (source < 0 || source >= rows_before) continue;
-                    const auto square = static_cast<std::uint16_t>(away * away);
-                    const std::size_t of =
-                        (static_cast<std::size_t>(plane) * static_cast<std::size_t>(rows_before) +
-                         static_cast<std::size_t>(source)) *
-                        row;
-                    for (std::size_t x = 0; x < row; ++x) {
-                        const auto sum = static_cast<std::uint16_t>(squares_[from][of + x] + square);
-                        if (squares_[from][of + x] == no_square || sum >= squares_[from + 1][at + x])
-                            continue;
-                        squares_[from + 1][at + x] = sum;
-                        labels_[from + 1][at + x] = labels_[from][of + x];
-                    }
+                const int at = margin + to * step;
+                std::int32_t* least = &nearest_[from + 1][static_cast<std::size_t>(plane * rows + to) * row];
+                for (int source = std::max(at - window, 0); source <= std::min(at + window, rows_before - 1);
+                     ++source) {
+                    const std::int32_t* of =
+                        &nearest_[from][static_cast<std::size_t>(plane * rows_before + source) * row];
+                    const std::int32_t more = near(source - at, 0);
+                    for (std::size_t x = 0; x < row; ++x) least[x] = std::min(least[x], of[x] + more);
                 }
             }
     };
@@ -286,34 +302,51 @@ void SeenThrough::find_nearest(const VoxelBox& places, const VoxelBox& voxels, i
 
 void SeenThrough::compute(const Bone& bone, const VoxelBox& places) {
     const int far = reach();
-    const VoxelBox voxels{lattice_.box.first + places.first * lattice_.step - far,
-                          (places.size - 1) * lattice_.step + 1 + 2 * far};
+    const VoxelBox wide = widened(places, smoothing_places);
+    const VoxelBox voxels{lattice_.box.first + wide.first * lattice_.step - far,
+                          (wide.size - 1) * lattice_.step + 1 + 2 * far};
     texels_.assign(2 * places.count(), 0);
     if (gather(bone, voxels)) {
-        const auto nearness = [&](double distance_voxels) {
-            const double part = (farthest_voxels() - distance_voxels) / span_voxels();
-            return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(part, 0.0, 1.0)));
-        };
-        find_nearest(places, voxels, far, true);
-        bool is_within = false;
-        for (std::size_t place = 0; place < places.count(); ++place) {
-            const std::uint16_t square = squares_[2][place];
-            if (square == no_square) continue;
-            is_within = is_within || square == 0;
-            texels_[2 * place] = nearness(std::sqrt(static_cast<double>(square)) - 0.5);
-            texels_[2 * place + 1] = labels_[2][place];
+        find_distances(wide, voxels);
+        glm::ivec3 size = wide.size;
+        for (int axis = 0; axis < 3; ++axis) smooth_along(axis, distances_, size, smoothed_);
+        for (std::size_t place = 0; place < distances_.size(); ++place) {
+            const double part = (farthest_voxels() - static_cast<double>(distances_[place])) / span_voxels();
+            texels_[2 * place] = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(part, 0.0, 1.0)));
         }
-        if (is_within) {
-            find_nearest(places, voxels, lattice_.step + 1, false);
-            for (std::size_t place = 0; place < places.count(); ++place) {
-                const std::uint16_t square = squares_[2][place];
-                if (square == 0) continue;
-                texels_[2 * place] =
-                    square == no_square ? 255 : nearness(0.5 - std::sqrt(static_cast<double>(square)));
+        std::size_t to = 1;
+        for (int z = 0; z < places.size.z; ++z)
+            for (int y = 0; y < places.size.y; ++y) {
+                const glm::ivec3 first = glm::ivec3(0, y, z) + smoothing_places;
+                std::size_t from =
+                    (static_cast<std::size_t>(first.z) * wide.size.y + first.y) * wide.size.x + first.x;
+                for (int x = 0; x < places.size.x; ++x, ++from, to += 2) texels_[to] = labels_[from];
             }
-        }
     }
     texture_.upload(places.first, places.size, texels_);
+}
+
+void SeenThrough::find_distances(const VoxelBox& places, const VoxelBox& voxels) {
+    const auto distance = [](std::int32_t nearest, int most) {
+        return std::sqrt(static_cast<float>(std::min(nearest / square_of_one, most * most)));
+    };
+    find_nearest(places, voxels, reach(), true);
+    distances_.resize(places.count());
+    labels_.resize(places.count());
+    bool is_within = false;
+    for (std::size_t place = 0; place < distances_.size(); ++place) {
+        const std::int32_t nearest = nearest_[2][place];
+        is_within = is_within || nearest < square_of_one;
+        distances_[place] = distance(nearest, reach()) - 0.5f;
+        labels_[place] = static_cast<std::uint8_t>(nearest % square_of_one);
+    }
+    if (!is_within) return;
+    // As deep as the smoothing of a place at the border looks.
+    const int deep = smoothing_places * lattice_.step + 1;
+    find_nearest(places, voxels, deep, false);
+    for (std::size_t place = 0; place < distances_.size(); ++place)
+        if (const std::int32_t nearest = nearest_[2][place]; nearest >= square_of_one)
+            distances_[place] = 0.5f - distance(nearest, deep);
 }
 
 }  // namespace osteomill

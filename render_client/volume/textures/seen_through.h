@@ -3,9 +3,13 @@
 //
 // A tissue consists of the voxels of its label that are at least half full, and of the soft structures that
 // were added; milled away, it is no longer seen. Distances are from a voxel's centre to the tissue's nearest
-// voxel, less half a voxel, negative within; exact for a layer along the lattice, up to 0.2 voxels too long
-// for one aslant. They are computed by windows along one axis after the other, in pieces of the lattice, so
-// that a change costs only the pieces near it.
+// voxel, less half a voxel, negative within. They are computed by windows along one axis after the other, in
+// pieces of the lattice, so that a change costs only the pieces near it.
+//
+// A slanted border is stairs of voxels, and its distances ripple. So each is smoothed over seven places along
+// each axis: exact for a layer along the lattice, off by 0.07 voxels (rms; 0.14 before) about their mean for
+// one aslant, by 0.04 (0.13) for a tube of 25 voxels' radius, which is 0.1 too close on average. A tube
+// of 3.6 voxels' radius keeps its place, one of 1.5 is 0.4 too far at its surface, right from 2 voxels on.
 #pragma once
 
 #include <array>
@@ -80,6 +84,8 @@ class SeenThrough {
     /// Gathers the labels of these voxels; false if none is seen.
     bool gather(const Bone& bone, const VoxelBox& voxels);
     bool gather_soft(const Soft& soft, const VoxelBox& voxels);
+    /// Distances and labels of these places, before they are smoothed.
+    void find_distances(const VoxelBox& places, const VoxelBox& voxels);
     void find_nearest(const VoxelBox& places, const VoxelBox& voxels, int window, bool of_tissue);
     /// The lattice in pieces.
     std::vector<VoxelBox> pieces() const;
@@ -97,10 +103,12 @@ class SeenThrough {
     std::vector<VoxelBox> due_;  ///< places
     std::vector<VoxelBox> changed_;
 
-    // State of the piece under way: labels of its voxels; squared distances and labels after each axis.
+    // State of the piece under way: labels of its voxels; of the nearest after each axis, squared distance
+    // and label; distances and labels of its places.
     std::vector<std::uint8_t> label_of_voxel_;
-    std::array<std::vector<std::uint16_t>, 3> squares_;
-    std::array<std::vector<std::uint8_t>, 3> labels_;
+    std::array<std::vector<std::int32_t>, 3> nearest_;
+    std::vector<float> distances_, smoothed_;  ///< voxels
+    std::vector<std::uint8_t> labels_;
     std::vector<std::uint8_t> texels_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
 
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/raycast_renderer.h"
@@ -60,13 +61,14 @@ glm::dvec3 linear_at(const Picture& picture, const glm::ivec2& place) {
     return glm::pow(glm::dvec3(rgb[0], rgb[1], rgb[2]) / 255.0, glm::dvec3(2.2));
 }
 
-/// Share of the second tissue in the middle's colour. Light is the same with it and without.
-double share_in_middle(const BoneTextures& textures, const Camera& camera) {
-    const glm::dvec3 with = linear_at(drawn(textures, camera), size_px / 2);
-    const glm::dvec3 without = linear_at(drawn(textures, camera, false), size_px / 2);
+/// Share of the second tissue in the colour at a place. Light is the same with it and without.
+double share_at(const Picture& with, const Picture& without, const glm::ivec2& place) {
     const glm::dvec3 own(linear_from_srgb(bone_colour.srgb)), other(linear_from_srgb(sinus_colour.srgb));
-    const glm::dvec3 light = without / own;
-    return (1.0 - with.r / (light.r * own.r)) / (1.0 - other.r / own.r);
+    return (1.0 - linear_at(with, place).r / linear_at(without, place).r) / (1.0 - other.r / own.r);
+}
+
+double share_in_middle(const BoneTextures& textures, const Camera& camera) {
+    return share_at(drawn(textures, camera), drawn(textures, camera, false), size_px / 2);
 }
 
 TEST_F(ThinBoneTest, ShowsATissueBehindLayersByTheFormula) {
@@ -89,6 +91,61 @@ TEST_F(ThinBoneTest, CountsTheWayOfARayThatGoesAslant) {
     Camera camera = from_above(elevation);
     camera.target_mm = {0.0, 0.0, thickness_mm};
     EXPECT_NEAR(share_in_middle(textures, camera), share_through_bone(strength, way_mm / depth_mm), 0.03);
+}
+
+/// Height over a plane through the origin of the surface in a picture's pixel.
+double height_mm(const gl::Framebuffer& framebuffer, const Camera& camera, const glm::dvec3& normal,
+                 const glm::ivec2& pixel) {
+    const glm::dmat4 projection = camera.projection(size_px);
+    const double window_depth = framebuffer.depth_at({pixel.x, size_px.y - 1 - pixel.y});
+    const double forward_mm = projection[3][2] / (2.0 * window_depth - 1.0 + projection[2][2]);
+    const glm::dvec3 direction = direction_through(camera, glm::dvec2(pixel) + 0.5, size_px);
+    return glm::dot(camera.eye_mm() + forward_mm / glm::dot(direction, camera.forward()) * direction, normal);
+}
+
+TEST_F(ThinBoneTest, TintsASlantedLayerEvenly) {
+    constexpr double thickness_mm = 0.2, shallow_mm = 0.6;
+    const std::array<TissueColour, 2> shallow{
+        {bone_colour, {2, sinus_colour.srgb, 1.0, shallow_mm, strength}}};
+    for (const glm::dvec3& slope : {glm::dvec3(0.18, 0.05, 1.0), glm::dvec3(0.35, 0.2, 1.0),
+                                    glm::dvec3(-0.18, 0.47, 1.0), glm::dvec3(0.7, 0.5, 1.0)}) {
+        const glm::dvec3 normal = glm::normalize(slope);
+        const Bone bone = made_bone(
+            grid,
+            [&](const glm::dvec3& p) {
+                const double height = glm::dot(p, normal);
+                return std::min(thickness_mm - height, height + 1.5);
+            },
+            [&](const glm::dvec3& p) {
+                return static_cast<std::uint8_t>(glm::dot(p, normal) > 0.0 ? 1 : 2);
+            });
+        const BoneTextures textures(bone, shallow);
+        Camera camera = camera_on({0.0, 0.0, 0.0}, 2.0);
+        look_along(camera, -normal);
+        const Picture without = drawn(textures, camera, false);
+        RaycastRenderer renderer;
+        const gl::Framebuffer framebuffer(size_px);
+        framebuffer.bind();
+        renderer.draw(textures, camera, size_px);
+        const Picture with = framebuffer.read_back();
+        // A millimetre to either side of the middle, which rays meet at a right angle nearly. The bone's own
+        // surface is not quite even, either.
+        double count = 0.0, sum = 0.0, squares = 0.0;
+        const glm::ivec2 middle = size_px / 2;
+        for (int y = -20; y <= 20; ++y)
+            for (int x = -20; x <= 20; ++x, ++count) {
+                const glm::ivec2 pixel = middle + glm::ivec2(x, y);
+                const double height = height_mm(framebuffer, camera, normal, pixel);
+                ASSERT_NEAR(height, thickness_mm, 0.02);
+                const double off =
+                    share_at(with, without, pixel) - share_through_bone(strength, height / shallow_mm);
+                sum += off;
+                squares += off * off;
+            }
+        const double mean = sum / count;
+        EXPECT_NEAR(mean, 0.0, 0.05) << "slope " << slope.x;
+        EXPECT_LT(std::sqrt(squares / count - mean * mean), 0.01) << "ripple, slope " << slope.x;
+    }
 }
 
 TEST_F(ThinBoneTest, FollowsTheBurrThroughBoneIntoTheTissueAndBack) {
