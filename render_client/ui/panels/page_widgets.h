@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -32,11 +33,22 @@ inline ImVec2 list_size(float lines) {
     return {0.0f, ImGui::GetContentRegionAvail().y - lines * ImGui::GetFrameHeightWithSpacing()};
 }
 
+inline const std::string& words_below(const StartPage& page) {
+    return page.message().empty() ? page.link_line : page.message();
+}
+
+/// Room that the message takes beyond its first line, in lines of widgets.
+inline float more_message_lines(const StartPage& page) {
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float height = ImGui::CalcTextSize(words_below(page).c_str(), nullptr, false, room).y;
+    return std::max(0.0f, height - ImGui::GetTextLineHeight()) / ImGui::GetFrameHeightWithSpacing();
+}
+
 inline void draw_message(const StartPage& page) {
     const bool is_of_link = page.message().empty();
     ImGui::PushTextWrapPos(0.0f);
     if (is_of_link) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_NavHighlight));
-    ImGui::TextUnformatted((is_of_link ? page.link_line : page.message()).c_str());
+    ImGui::TextUnformatted(words_below(page).c_str());
     if (is_of_link) ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
 }

@@ -89,9 +89,14 @@ PanelText tool_text(const SeenSession& session, const Bone* bone) {
         text.push_back(tool.spindle_on ? line(Tone::good, trf("spindle {:.0f} rpm", spindle_rpm(tool, burr)))
                                        : line(Tone::dim, tr("spindle off")));
     }
-    if (session.operator_command && bone != nullptr)
-        if (const auto ahead_mm = bone_ahead_mm(*bone, tool, session.burr_radius_mm()))
-            text.push_back(line(Tone::plain, trf("{:.1f} mm to the bone", *ahead_mm)));
+    if (session.operator_command && bone != nullptr) {
+        // In a cavity there may be bone at its side and none for some way ahead.
+        const auto ahead_mm = bone_ahead_mm(*bone, tool, session.burr_radius_mm());
+        if (tool.depth_mm.value_or(0.0) > 0.0)
+            text.push_back(line(Tone::plain, tr("in touch with bone")));
+        else if (ahead_mm)
+            text.push_back(line(Tone::plain, trf("{:.1f} mm to the bone ahead", *ahead_mm)));
+    }
     text.push_back(line(Tone::plain, trf("removed {:.2f} mm\u00b3", tool.removed_mm3)));
     text.push_back(line(Tone::dim, trf("time {:.1f} s", tool.time_s)));
     return text;

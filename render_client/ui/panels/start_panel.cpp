@@ -41,8 +41,8 @@ void draw_cases(StartPage& page, StartPicture& pictures) {
     ImGui::BeginDisabled(page.tour_card.has_value());
     ImGui::TextUnformatted(tr("Choose a case: drill it with the mouse, for as long as you like."));
     ImGui::TextDisabled("%s", tr("Forces are those of milling bone; at the end there is a report."));
-    ImGui::BeginChild("cases", list_size(page.sessions().empty() ? 4.0f : 8.0f), true,
-                      ImGuiWindowFlags_NavFlattened);
+    const float lines_below = (page.sessions().empty() ? 4.0f : 8.0f) + more_message_lines(page);
+    ImGui::BeginChild("cases", list_size(lines_below), true, ImGuiWindowFlags_NavFlattened);
     const float room = ImGui::GetContentRegionAvail().x;
     const int columns = room > 44.0f * letter ? 2 : 1;
     const float between = ImGui::GetStyle().ItemSpacing.x;
@@ -55,7 +55,8 @@ void draw_cases(StartPage& page, StartPicture& pictures) {
     ImGui::EndChild();
     if (!page.sessions().empty()) {
         ImGui::TextUnformatted(tr("Sessions so far"));
-        ImGui::BeginChild("sessions", list_size(4.0f), true, ImGuiWindowFlags_NavFlattened);
+        ImGui::BeginChild("sessions", list_size(4.0f + more_message_lines(page)), true,
+                          ImGuiWindowFlags_NavFlattened);
         draw_sessions(page);
         ImGui::EndChild();
     }

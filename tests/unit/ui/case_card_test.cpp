@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render_client/ui/panels/page_widgets.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::case_card_test {
@@ -32,6 +33,14 @@ class CaseCardTest : public ::testing::Test {
     testing::TemporaryFolder folder_;
     StartPage page_{{folder_.path(), folder_ / "home", {"127.0.0.1", 7010}}};
 };
+
+TEST_F(CaseCardTest, LeavesRoomBelowForAMessageOfSeveralLines) {
+    EXPECT_EQ(more_message_lines(page_), 0.0f);
+    page_.go_to("/" + std::string(20, 'x'));
+    EXPECT_EQ(more_message_lines(page_), 0.0f) << "one line is always there";
+    page_.go_to("/" + std::string(200, 'x'));
+    EXPECT_GT(more_message_lines(page_), 0.5f);
+}
 
 TEST_F(CaseCardTest, IsAsHighAsTheLongestTextNeeds) {
     EXPECT_FLOAT_EQ(letters(60.0f), 7.6f) << "the picture's height";

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "studies/render/made_bone.h"
+
 namespace osteomill::panel_text_test {
 namespace {
 
@@ -131,6 +133,17 @@ TEST_F(PanelTexts, AlarmForAFaultAndAProtectedStructureOnly) {
     EXPECT_TRUE(is_alarm(seen_));
     seen_.link.controls.is_paused = true;
     EXPECT_FALSE(is_alarm(seen_)) << "it waits for the person";
+}
+
+TEST_F(PanelTexts, TellTheWayToBoneUnlessTheBurrTouchesSome) {
+    const Bone bone = made_bone({.size_voxels = {16, 16, 16}}, [](const glm::dvec3& p) { return 0.5 - p.z; });
+    seen_.operator_command = OperatorCommand{};
+    seen_.tool->burr_position_mm = {0.75, 0.75, 4.0};
+    seen_.tool->spindle_axis = {0.0, 0.0, 1.0};
+    EXPECT_THAT(plain(tool_text(seen_, &bone)), HasSubstr("2.0 mm to the bone ahead"));
+    seen_.tool->depth_mm = 0.1;  // at its side
+    EXPECT_THAT(plain(tool_text(seen_, &bone)),
+                AllOf(HasSubstr("in touch with bone"), Not(HasSubstr("ahead"))));
 }
 
 TEST_F(PanelTexts, TellTheToolAndTheSession) {
