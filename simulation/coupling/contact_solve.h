@@ -33,8 +33,8 @@ struct Contact {
 struct LinearPull {
     glm::dvec3 offset_n{0.0};
     double stiffness_n_per_mm = 1.0;
-    /// Symmetric, no eigenvalue below 0: it also resists the step, some ways more than others. Of hidden
-    /// damping, and of fixtures.
+    /// Symmetric, no eigenvalue below 0: hidden damping and fixtures also resist the step, in some directions
+    /// more than in others.
     glm::dmat3 damping_n_per_mm{0.0};
     bool has_fixtures = false;
     glm::dvec3 of_fixtures_n{0.0};  ///< in `offset_n`, and not of the tie to the hand

@@ -42,7 +42,7 @@ class Coupling {
     /// Outcomes of the solves so far; zero for a coupling that does not solve.
     virtual SolveCounts solve_counts() const noexcept { return {}; }
 
-    /// Of the scene's fixtures in the last tick; none after a reset.
+    /// The scene's fixtures as felt in the last tick; none after a reset.
     virtual FeltFixtures felt_fixtures() const noexcept { return {}; }
 
     /// Clears all state, as after a fault or a jump of the device: the next tick starts from the hand's pose.

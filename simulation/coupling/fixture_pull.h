@@ -21,7 +21,7 @@
 
 namespace osteomill {
 
-/// What a coupling's burr has felt of fixtures in the last tick.
+/// The effect of fixtures on a coupling's burr in the last tick.
 struct FeltFixtures {
     glm::dvec3 force_n{0.0};     ///< on the burr, patient axes
     double spindle_share = 1.0;  ///< of the speed that the spindle would have
