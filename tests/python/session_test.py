@@ -18,7 +18,7 @@ class SessionTest(unittest.TestCase):
     def test_is_the_servers_to_the_bit(self):
         for coupling in ("implicit", "hold"):
             with tempfile.TemporaryDirectory() as folder:
-                measured, log, lines = run_server(
+                measured, log, lines, _ = run_server(
                     pathlib.Path(folder), "--duration-s", "3.5", "--coupling", coupling, "--grip", "light")
             session = om.Session(tooth(), hand="light", coupling=coupling)
             out = session.run(3500)

@@ -54,10 +54,10 @@ def eventually(holds, longest_s=120.0):
 
 
 def run_server(folder, *arguments):
-    """Runs haptic_server on the virtual clock; returns its measurements, and its log, column by column."""
+    """Runs haptic_server on the virtual clock; returns its measurements, its log, column by column and line by line, and its messages."""
     json_file, log = folder / "session.json", folder / "log.csv"
-    subprocess.run(
+    finished = subprocess.run(
         [program("haptic_server"), "--clock", "virtual", "--json", json_file, "--log-csv", log, *arguments],
-        check=True, capture_output=True)
+        check=True, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     table = np.genfromtxt(log, delimiter=",", names=True)
-    return json.loads(json_file.read_text()), table, log.read_text().splitlines()
+    return json.loads(json_file.read_text()), table, log.read_text().splitlines(), finished.stderr
