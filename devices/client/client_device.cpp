@@ -25,7 +25,7 @@ void ClientDevice::take_over_command(double now_s) noexcept {
     const auto& [command, heard, client] = commands_.front();
     const double axis_length = command ? glm::length(command->spindle_axis) : 0.0;
     if (!command || !is_finite(command->hand_target_mm) || !std::isfinite(axis_length) ||
-        axis_length < 1e-6) {
+        axis_length < 1e-6 || is_of_old_place(command->hand_target_mm, now_s)) {
         permission_.withdraw();
         pedal_ = {};
         return;
@@ -44,11 +44,22 @@ void ClientDevice::end_permission() noexcept {
     limit_.resume_at(position_in_device_mm(mapping_, target_.position_mm));
 }
 
+bool ClientDevice::is_of_old_place(const glm::dvec3& target_mm, double now_s) noexcept {
+    if (!moved_) return false;
+    if (now_s - moved_->at_s <= unheard_s &&
+        glm::distance(target_mm, moved_->target_mm) < glm::distance(target_mm, moved_->to_mm))
+        return true;
+    moved_.reset();
+    return false;
+}
+
 void ClientDevice::set_mapping(const DeviceMapping& mapping) noexcept {
     const glm::dvec3 axis_in_device = direction_in_device(mapping_, target_.spindle_axis);
     mapping_ = mapping;
     target_ = {position_in_patient_mm(mapping_, held_arm_.truth().position_mm()),
                direction_in_patient(mapping_, axis_in_device)};
+    if (const auto& last = commands_.front().command)
+        moved_ = {.target_mm = last->hand_target_mm, .to_mm = target_.position_mm, .at_s = read_at_s_};
     permission_.withdraw();
     pedal_ = {};
     end_permission();

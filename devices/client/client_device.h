@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 
 #include "common/scene/scene.h"
 #include "devices/client/target_limit.h"
@@ -22,6 +23,9 @@ class ClientDevice final : public HapticDevice {
   public:
     /// Mouse positions come some 60 times a second: the target follows them with this time constant.
     static constexpr double target_filter_s = 0.04;
+
+    /// A round trip, and a picture that is drawn slowly.
+    static constexpr double unheard_s = 2.0;
 
     using Time = std::chrono::steady_clock::time_point;
 
@@ -39,7 +43,9 @@ class ClientDevice final : public HapticDevice {
     DeviceState read(double now_s) noexcept override;
     void write(const glm::dvec3& force_n) noexcept override { held_arm_.set_motor_force(force_n); }
     void stop() noexcept override { held_arm_.set_motor_force(glm::dvec3(0.0)); }
-    /// The hand stays where it is and holds still until the next command.
+    /// The hand stays where it is and holds still until the next command. A client that has not heard of it
+    /// yet goes on with a target at the tool's old place, and would pull it back there: for unheard_s a
+    /// target that is nearer to the last one before than to the new place is ignored.
     void set_mapping(const DeviceMapping& mapping) noexcept override;
     /// A notice of each kind of clamping, once.
     const char* notice() const noexcept override { return limit_.notice(); }
@@ -47,6 +53,7 @@ class ClientDevice final : public HapticDevice {
   private:
     void take_over_command(double now_s) noexcept;
     void end_permission() noexcept;
+    bool is_of_old_place(const glm::dvec3& target_mm, double now_s) noexcept;
 
     OperatorChannel& commands_;
     DeviceMapping mapping_;
@@ -60,6 +67,12 @@ class ClientDevice final : public HapticDevice {
     std::function<Time()> clock_;
     std::optional<std::size_t> burr_;
     double read_at_s_ = 0.0;
+    struct Moved {
+        glm::dvec3 target_mm;  // wanted last before, patient LPS
+        glm::dvec3 to_mm;      // patient LPS
+        double at_s;
+    };
+    std::optional<Moved> moved_;  // while a client may not have heard of it
 };
 
 }  // namespace osteomill

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "common/scene/device_mapping.h"
 #include "tests/support/latched_pedal.h"
 
 namespace osteomill::client_device_test {
@@ -171,6 +172,36 @@ TEST(ClientDevice, LiftsThePedalAndHoldsStillWhenTheOperatorIsLost) {
     const double rests_mm = desk.run(1).position_mm.x;
     EXPECT_LT(rests_mm, 40.0);
     EXPECT_NEAR(desk.run(1000).position_mm.x, rests_mm, 0.06);
+}
+
+TEST(ClientDevice, IsNotPulledBackFromItsNewPlaceByAClientThatHasNotHeardOfIt) {
+    Desk desk;
+    const glm::dvec3 old_target(1.0, 2.0, -1.0);
+    glm::dvec3 in_device_mm = desk.run_while_saying(wants(old_target), 500).position_mm;
+    // The patient is moved away under the burr by 20 mm, as the loop does it when bone comes back.
+    const DeviceMapping lifted{.offset_mm = {0.0, 0.0, 20.0}};
+    desk.device.set_mapping(lifted);
+    const glm::dvec3 placed_mm = position_in_patient_mm(lifted, in_device_mm);
+    const DeviceState state = desk.run_while_saying(wants(old_target), 1000);
+    EXPECT_LT(glm::distance(state.position_mm, in_device_mm), 0.2);
+    EXPECT_FALSE(state.pedal.is_down) << "it was pressed for other bone";
+    in_device_mm = state.position_mm;
+
+    // It has heard, and moves on from there.
+    const DeviceState moved = desk.run_while_saying(wants(placed_mm + glm::dvec3(4.0, 0.0, 0.0)), 500);
+    EXPECT_NEAR(moved.position_mm.x - in_device_mm.x, 4.0, 1.0);
+    // One that goes back to the old place means it, now.
+    EXPECT_LT(desk.run_while_saying(wants(old_target), 1500).position_mm.z, in_device_mm.z - 3.0);
+}
+
+TEST(ClientDevice, GoesWhereAClientPointsThatNeverHearsOfItsNewPlace) {
+    Desk desk;
+    const glm::dvec3 target(1.0, 2.0, 2.0);
+    const double before_mm = desk.run_while_saying(wants(target), 500).position_mm.z;
+    desk.device.set_mapping({.offset_mm = {0.0, 0.0, 5.0}});
+    const int unheard = static_cast<int>(1000.0 * ClientDevice::unheard_s);
+    EXPECT_NEAR(desk.run_while_saying(wants(target), unheard).position_mm.z, before_mm, 0.2);
+    EXPECT_LT(desk.run_while_saying(wants(target), 1000).position_mm.z, before_mm - 3.0);
 }
 
 TEST(ClientDevice, PassesOverInputThatIsNotFinite) {
