@@ -39,36 +39,6 @@ constexpr std::array questions{std::pair{Action::save_surface, SessionQuestion::
                                std::pair{Action::mark, SessionQuestion::mark},
                                std::pair{Action::finish, SessionQuestion::finish}};
 
-const char* words_for(SessionAction done) {
-    const std::array words{std::pair{SessionAction::mark, tr("marked")},
-                           std::pair{SessionAction::pause, tr("paused")},
-                           std::pair{SessionAction::resume, tr("the session goes on")},
-                           std::pair{SessionAction::undo, tr("undone, given back:")},
-                           std::pair{SessionAction::redo, tr("redone, taken again:")},
-                           std::pair{SessionAction::reset, tr("all undone, given back:")},
-                           std::pair{SessionAction::save, tr("the server saves the bone")},
-                           std::pair{SessionAction::finish, tr("the session ends;")},
-                           std::pair{SessionAction::place, tr("the tool is")},
-                           std::pair{SessionAction::speed, tr("the spindle's speed:")},
-                           std::pair{SessionAction::fixture, tr("help by force:")}};
-    for (const auto& [action, word] : words)
-        if (action == done) return word;
-    return tr("the server did what this program does not know");
-}
-
-/// Translates "on" and "off" behind a name, which stays as it is: "NAME: on".
-std::string switched_words(const std::string& text) {
-    const std::size_t end = text.rfind(' ');
-    return end == std::string::npos ? text : text.substr(0, end + 1) + tr(text.substr(end + 1));
-}
-
-/// In the window's language.
-std::string words_of(const ControlEvent& event) {
-    if (event.action == SessionAction::mark) return event.text;
-    if (event.action == SessionAction::fixture && !event.is_refused) return switched_words(event.text);
-    return tr_filled(event.text);
-}
-
 }  // namespace
 
 Commands::Commands(SessionPicture& session, HandInput& desk, SessionSource& source,
@@ -254,10 +224,7 @@ void Commands::tell(const std::vector<ControlEvent>& events, double now_s) {
         if (event.action == SessionAction::place && std::exchange(waits_for_place_, false) &&
             !clutch_.is_held())
             session_.show_tool_at(std::nullopt);
-        const std::string text = words_of(event);
-        say(event.is_refused ? trf("no {}: {}", tr(name_of(event.action)), text)
-                             : fmt::format("{} {}", words_for(event.action), text),
-            now_s);
+        say(notices_.notice_of(event, now_s), now_s);
     }
 }
 

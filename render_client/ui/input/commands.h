@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "render_client/ui/input/control_notices.h"
 #include "render_client/ui/input/hand_input.h"
 #include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/view/bone_clutch.h"
@@ -59,6 +60,7 @@ class Commands {
     SessionSource& source_;
     RecordingPlayer* player_;  // null if no recording is shown
     PictureExport pictures_;
+    ControlNotices notices_;
     BoneClutch clutch_;
     bool clutch_paused_ = false;    // the session, which goes on afterwards
     bool waits_for_place_ = false;  // the requested place is shown until the server has answered
