@@ -243,6 +243,10 @@ void draw_import(StartPage& page, StartPicture& picture) {
             ImGui::SameLine();
             ImGui::Checkbox(tr("keep soft tissue"), &form.keeps_soft_tissue);
         }
+        ImGui::SameLine();
+        ImGui::Checkbox(tr("leave out small loose parts"), &form.leaves_out_specks);
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", tr("bone of less than 2 mm3 that touches nothing else, such as noise"));
         ImGui::BeginChild("segments", list_size(3.5f), false);
         if (button(tr("Add a segmentation ..."), !page.is_working()))
             page.show(StartPage::View::segmentation_browser);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <string_view>
 
 #include "common/bone/usual_spacing.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 
@@ -67,6 +69,7 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
                                    fmt::format("--spacing-mm={}", form.spacing_mm)});
     if (!form.are_labels) command.push_back(fmt::format("--threshold-hu={}", form.threshold_hu));
     if (!form.are_labels && form.keeps_soft_tissue) command.emplace_back("--keep-soft-tissue");
+    if (form.leaves_out_specks) command.emplace_back("--leave-out-specks");
     for (const SegmentChoice& segment : form.segments) {
         if (segment.is_protected)
             command.push_back(fmt::format("--protect={}={}", segment.name, segment.warn_mm));
@@ -79,6 +82,16 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
         if (const auto mark = form.pass.find(kind.metric); mark != form.pass.end() && takes_mark(form, kind))
             command.push_back(fmt::format("--pass={}={}", kind.metric, mark->second));
     return command;
+}
+
+std::string specks_said(const std::string& said) {
+    static const std::regex words(
+        R"((\d+) parts? of bone of less than (\S+) mm3, (\S+) mm3 in all, touch\w* nothing else; (left out)?)");
+    std::smatch found;
+    if (!std::regex_search(said, found, words)) return {};
+    const std::string parts = trf("loose parts of bone of less than {} mm3 each: {}, {} mm3 in all",
+                                  found.str(2), found.str(1), found.str(3));
+    return parts + (found[4].matched ? tr(", left out") : tr(", kept"));
 }
 
 double default_spacing_mm(const ImportForm& form, const ScanPreview& look) {

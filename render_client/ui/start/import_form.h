@@ -34,6 +34,7 @@ struct ImportForm {
     bool is_spacing_chosen = false;     ///< by a person; else it follows the region
     std::uint64_t available_bytes = 0;  ///< this machine's memory; 0: not known
     bool keeps_soft_tissue = true;      ///< for people who view the CT in the window
+    bool leaves_out_specks = false;     ///< small parts of bone that touch nothing else become air
     std::string name{};
     std::string description{};  ///< empty: a sentence about its bone
     PassMarks pass{};           ///< as chosen; kept while no segment is a target or protected
@@ -66,6 +67,10 @@ std::vector<std::string> look_command(const std::string& bone_import, const Impo
 /// The command that makes a case of it in `folder`.
 std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
                                         const std::filesystem::path& folder);
+
+/// The words of bone_import about small parts of bone that touch nothing else, in the window's language and
+/// without its options; empty if it said none.
+std::string specks_said(const std::string& said);
 
 /// Edge of a voxel if nobody has chosen one: 0.1 mm, of a finer scan its own, 0.02 mm at least, or longer
 /// (usual_spacing.h).

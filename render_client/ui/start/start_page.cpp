@@ -287,6 +287,7 @@ void StartPage::end_of_work() {
         form_before_ = form;
     } else if (work_ == Work::look && !is_another_scan_) {
         form.segmentations = form_before_.segmentations;
+        if (const std::string specks = specks_said(said); !specks.empty()) message_ += "; " + specks;
         form.colours = form_before_.colours;
     }
     remove_quietly(scratch_);

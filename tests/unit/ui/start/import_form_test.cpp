@@ -53,6 +53,23 @@ TEST(ImportForm, SetsWhatASessionHasToReachWhereItCanBeMissed) {
     EXPECT_THAT(command(), Contains("--pass=structure_touches=0"));
 }
 
+TEST(ImportForm, LeavesOutSmallPartsOnlyWhereThatIsTicked) {
+    ImportForm form{.scan = "ct"};
+    EXPECT_THAT(import_command("bone_import", form, "case"), Not(Contains("--leave-out-specks")));
+    form.leaves_out_specks = true;
+    EXPECT_THAT(import_command("bone_import", form, "case"), Contains("--leave-out-specks"));
+}
+
+TEST(ImportForm, SaysWhatSmallPartsWereFoundWithoutTheNamesOfOptions) {
+    EXPECT_EQ(specks_said("bone_import: ct: 3 files of no image were skipped\n"), "");
+    EXPECT_EQ(specks_said("bone_import: a: b: 7 parts of bone of less than 2 mm3, 4.1 mm3 in all, touch "
+                          "nothing else; --leave-out-specks leaves them out\nbone_import: wrote case\n"),
+              "loose parts of bone of less than 2 mm3 each: 7, 4.1 mm3 in all, kept");
+    EXPECT_EQ(specks_said("ct: 1 part of bone of less than 2 mm3, 0.5 mm3 in all, touches nothing else; "
+                          "left out\n"),
+              "loose parts of bone of less than 2 mm3 each: 1, 0.5 mm3 in all, left out");
+}
+
 TEST(ImportForm, OfAWholeHeadBeginsWithAsManyVoxelsAsAMachineHolds) {
     ImportForm form;
     take_look(form, {.covers = {.high_mm = {200.0, 240.0, 220.0}}}, true);
