@@ -74,7 +74,7 @@ std::string rating_text(const nlohmann::json& metrics) {
     if (!points || !most) return {};
     std::string text = trf("{:g} of {:g} points", *points, *most);
     if (const double undos = number("undos").value_or(0.0); undos > 0.0)
-        text += trf(" ({:g} times undone)", undos);
+        text += undos == 1.0 ? tr(" (undone once)") : trf(" (undone {:g} times)", undos);
     return text;
 }
 

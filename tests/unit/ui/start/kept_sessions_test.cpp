@@ -48,7 +48,10 @@ TEST(KeptSessions, HaveNamesAsAPersonWritesThem) {
     write(named / "metrics.json", R"({"session": {"trainee": "Bo", "case": "jaw", "scene": "jaw"},
         "metrics": {"rating_points": 14.5, "rating_most_points": 20, "undos": 3, "passed": 1}})");
     EXPECT_EQ(title_of_session(named),
-              "Bo, jaw, 28 November 14:05, passed, 14.5 of 20 points (3 times undone)");
+              "Bo, jaw, 28 November 14:05, passed, 14.5 of 20 points (undone 3 times)");
+    write(named / "metrics.json", R"({"session": {"trainee": "Bo", "case": "jaw", "scene": "jaw"},
+        "metrics": {"rating_points": 17, "rating_most_points": 20, "undos": 1}})");
+    EXPECT_EQ(title_of_session(named), "Bo, jaw, 28 November 14:05, 17 of 20 points (undone once)");
     write(named / "metrics.json", R"({"session": {"trainee": "Bo", "case": "jaw", "scene": "jaw"},
         "metrics": {"rating_points": 20, "rating_most_points": 20, "undos": 0}})");
     EXPECT_EQ(title_of_session(named), "Bo, jaw, 28 November 14:05, 20 of 20 points");
