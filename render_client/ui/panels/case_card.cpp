@@ -87,9 +87,11 @@ void draw_case_card(StartPage& page, CardPictures& pictures, std::size_t index, 
     if (ImGui::Selectable("##card", is_chosen, ImGuiSelectableFlags_AllowDoubleClick, size)) {
         const ImGuiIO& io = ImGui::GetIO();
         const bool by_mouse = io.MouseDown[ImGuiMouseButton_Left] || io.MouseReleased[ImGuiMouseButton_Left];
-        const bool starts = by_mouse ? ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) : is_chosen;
         page.chosen = index;
-        if (starts && !page.is_session_running()) page.start();
+        if (by_mouse)
+            page.click_card(index);
+        else if (is_chosen && !page.is_session_running())
+            page.start();
     }
     if (is_chosen) ImGui::SetItemDefaultFocus();
     ImGui::PopID();

@@ -88,9 +88,9 @@ void draw_cases(StartPage& page, StartPicture& pictures) {
 }
 
 /// A path to write; true once it is written.
-bool path_field(const std::filesystem::path& folder, std::string& path) {
+bool path_field(std::string& path) {
     std::array<char, 1024> buffer{};
-    folder.string().copy(buffer.data(), buffer.size() - 1);
+    path.copy(buffer.data(), buffer.size() - 1);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
     const bool is_written =
         ImGui::InputText("##path", buffer.data(), buffer.size(), ImGuiInputTextFlags_EnterReturnsTrue);
@@ -110,7 +110,7 @@ void draw_browser(StartPage& page) {
             ? tr("A recording of a session (.pcap)")
             : tr("A segmentation (.seg.nrrd, DICOM), or a label map"));
     const FolderListing listing = page.listing();  // a click replaces it
-    if (std::string path; path_field(listing.folder, path)) page.go_to(path);
+    if (std::string path = page.path(); path_field(path)) page.go_to(path);
     ImGui::BeginChild("files", list_size(3.0f), true);
     if (listing.folder.has_parent_path() && ImGui::Selectable(tr("../  (up)")))
         page.browse(listing.folder.parent_path());

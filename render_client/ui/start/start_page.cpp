@@ -83,6 +83,8 @@ void StartPage::look_at_home() {
 void StartPage::show(View view) {
     if (view == View::cases) look_at_home();
     message_.clear();
+    wrong_path_.clear();
+    clicked_.reset();
     view_ = view;
     if (view == View::cases || view == View::import) return;
     const char* home = std::getenv("HOME");
@@ -90,6 +92,7 @@ void StartPage::show(View view) {
 }
 
 void StartPage::browse(const std::filesystem::path& folder) {
+    wrong_path_.clear();
     // DICOM files have any name, or none.
     listing_ = view_ == View::recording_browser ? list_folder(folder, {".pcap"})
                : view_ == View::colours_browser ? list_folder(folder, {".csv", ".ctbl", ".label", ".txt"})
@@ -104,7 +107,7 @@ void StartPage::go_to(const std::string& path) {
     else if (std::filesystem::exists(path, ignored))
         take(path);
     else
-        message_ = trf("{}: is not there", path);
+        message_ = trf("{}: is not there", wrong_path_ = path);
 }
 
 /// Shows errors.
@@ -118,6 +121,7 @@ void StartPage::attempt(const std::function<void()>& act) {
 
 void StartPage::start() {
     if (is_session_running() || chosen >= cases_.size()) return;
+    clicked_.reset();
     const ShelvedCase& wanted = cases_[chosen];
     message_ = make_folder_at_home(places_.home / "reports");
     if (!message_.empty()) return;
@@ -143,6 +147,12 @@ void StartPage::start() {
         has_address_ = false;
         message_ = trf("{} is being made ready ...", tr(wanted.name));
     });
+}
+
+void StartPage::click_card(std::size_t index) {
+    chosen = index;
+    if (is_session_running()) return;
+    if (std::exchange(clicked_, index) == index) start();
 }
 
 void StartPage::note_end_of_session() {
@@ -191,11 +201,12 @@ void StartPage::compare_sessions() {
     auto sessions = sessions_in(places_.home / "reports", 0);
     std::erase_if(sessions, [](const KeptSession& session) { return !session.is_whole; });
     if (sessions.empty()) {
-        message_ = tr("there is no session yet in ") + (places_.home / "reports").string();
+        message_ = tr("there is nothing to compare yet: no session was finished");
         return;
     }
     std::vector<std::string> command{program("osteomill_study"), "sessions", "--out",
-                                     (places_.home / "comparison").string()};
+                                     (places_.home / "comparison").string(),
+                                     "--language=" + spoken_language()};
     for (const auto& session : sessions) command.push_back(session.folder.string());
     attempt([&] {
         work_ = Work::compare;
@@ -276,6 +287,7 @@ void StartPage::end_of_work() {
         for (std::size_t i = 0; i < cases_.size(); ++i)
             if (cases_[i].name == form.name) chosen = i;
         message_ = trf("{} is there", form.name);
+        if (const std::string specks = specks_said(said); !specks.empty()) message_ += "; " + specks;
     } else if (work_ == Work::report) {
         look_at_home();
         if (std::error_code ignored; std::filesystem::exists(reported_ / "report.html", ignored))
@@ -287,7 +299,6 @@ void StartPage::end_of_work() {
         form_before_ = form;
     } else if (work_ == Work::look && !is_another_scan_) {
         form.segmentations = form_before_.segmentations;
-        if (const std::string specks = specks_said(said); !specks.empty()) message_ += "; " + specks;
         form.colours = form_before_.colours;
     }
     remove_quietly(scratch_);

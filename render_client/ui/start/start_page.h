@@ -67,6 +67,9 @@ class StartPage {
     std::size_t chosen = 0;     ///< index in cases()
     std::string trainee{};      ///< who works in the session
     void start();
+    /// A person's click on a card: the first chooses it, the second starts it, however long after. (A double
+    /// click is over in 0.3 s, in which a slow picture draws one frame.)
+    void click_card(std::size_t index);
     /// The window has seen the end of the session: only its report remains to be written.
     void note_end_of_session();
     /// File of the appearance of the case started last; empty before.
@@ -103,6 +106,8 @@ class StartPage {
     void give_up_work();
 
     const FolderListing& listing() const { return listing_; }
+    /// What the browser's path field shows: a path that was written and is not there stays, to be mended.
+    std::string path() const { return wrong_path_.empty() ? listing_.folder.string() : wrong_path_; }
     /// With the files that suit the browser's purpose.
     void browse(const std::filesystem::path& folder);
     /// Goes to a path that a person typed: browses a folder, chooses a file.
@@ -126,6 +131,8 @@ class StartPage {
     std::vector<KeptSession> sessions_;
     std::vector<std::unique_ptr<ChildProgram>> players_;  // close with this window
     FolderListing listing_;
+    std::string wrong_path_;              // written last, and not there
+    std::optional<std::size_t> clicked_;  // the card
 
     enum class Work { look, import, compare, report };
     Work work_ = Work::look;

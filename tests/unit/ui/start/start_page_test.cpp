@@ -93,6 +93,41 @@ TEST_F(StartPageTest, IsThereAfterASessionWasKilledUntilTheWindowIsSentToTheNext
     EXPECT_TRUE(screen.is_due(LinkStatus::lost)) << "no session is there to be lost";
 }
 
+TEST_F(StartPageTest, StartsACaseAtTheSecondClickOnItsCardHoweverLateAndNoOther) {
+    make_program("haptic_server", "while :; do sleep 0.01; done");
+    StartPage window = page();
+    window.click_card(0);
+    EXPECT_FALSE(window.is_session_running()) << "it is chosen from the start, but nobody has clicked on it";
+    window.click_card(1);
+    EXPECT_FALSE(window.is_session_running());
+    window.show(StartPage::View::cases);
+    window.click_card(1);
+    EXPECT_FALSE(window.is_session_running()) << "the cards may be others now";
+    window.click_card(1);
+    EXPECT_TRUE(window.is_session_running());
+    EXPECT_EQ(window.chosen, 1U);
+    EXPECT_THAT(window.message(), HasSubstr(window.cases()[1].name));
+}
+
+TEST_F(StartPageTest, ComparesInTheWindowsLanguageWhatWasFinished) {
+    make_program("osteomill_study", "echo \"$@\" > " + (folder_ / "arguments").string());
+    const auto session = folder_ / "home" / "reports" / "jaw-anna-20261128-140500";
+    std::filesystem::create_directories(session);
+    std::ofstream(session / "session.part.pcap") << "x";
+    StartPage window = page();
+    window.compare_sessions();
+    EXPECT_THAT(window.message(), HasSubstr("no session was finished"));
+    std::filesystem::rename(session / "session.part.pcap", session / "session.pcap");
+    window.compare_sessions();
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
+    std::string arguments;
+    std::ifstream file(folder_ / "arguments");
+    std::getline(file, arguments);
+    EXPECT_THAT(arguments, HasSubstr("sessions --out"));
+    EXPECT_THAT(arguments, HasSubstr("--language=en"));
+    EXPECT_THAT(arguments, HasSubstr(session.string()));
+}
+
 TEST_F(StartPageTest, ReplaysInAWindowAsLargeAsItsOwn) {
     make_program("render_client", "echo \"$@\" > " + (folder_ / "arguments").string());
     StartPage window = page();
@@ -116,8 +151,10 @@ TEST_F(StartPageTest, LooksAtAScanOnceAndGoesThroughItsSlices) {
     window.show(StartPage::View::scan_browser);
     window.go_to((folder_ / "none").string());
     EXPECT_THAT(window.message(), HasSubstr("none: is not there"));
+    EXPECT_EQ(window.path(), (folder_ / "none").string()) << "to be mended, not to be written anew";
     window.go_to(folder_.path().string());
     EXPECT_EQ(window.listing().folder, folder_.path());
+    EXPECT_EQ(window.path(), folder_.path().string());
     window.go_to((folder_ / "scan.nrrd").string());
     EXPECT_EQ(window.view(), StartPage::View::import);
     ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
