@@ -31,7 +31,9 @@ void draw_sessions(StartPage& page) {
         if (ImGui::Button(tr("Replay"))) page.replay(session.recording);
         ImGui::SameLine();
         const std::string title = session.is_whole ? session.title : session.title + tr(", broken off");
+        ImGui::PushTextWrapPos(0.0f);
         ImGui::TextUnformatted(title.c_str());
+        ImGui::PopTextWrapPos();
         ImGui::PopID();
     }
 }
