@@ -21,7 +21,7 @@ struct EngagedPatch {
     /// Force on the burr of edges that rub where the patch cuts, however slowly, N, patient axes:
     /// -(sigma K_te e_psi + K_re n + K_ae e_kappa) s N_phi dA / (2 pi r).
     glm::dvec3 edge_n{0.0};
-    double area_mm2 = 0.0;
+    double area_mm2 = 0.0;  ///< of the part of it that has bone before it; the forces are that part's, too
     /// Bone that no burr cuts is in front of the patch: it is a wall even with the spindle on, and the forces
     /// above are zero.
     bool is_wall = false;

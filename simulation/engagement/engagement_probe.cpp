@@ -72,13 +72,15 @@ void EngagementProbe::sample_burr(const Bone& bone, const glm::dvec3& position_m
         // Stiffness one voxel into the bone, where no partial voxel dilutes it.
         double stiffness = bricks_.stiffness(surface + (crossing.offset_voxels + 1.0f) * outward);
         if (stiffness == 0.0) stiffness = bricks_.stiffness(surface + crossing.bone_offset_voxels * outward);
+        const auto share = static_cast<double>(crossing.share);
+        stiffness *= share;
         // Field by field: a whole patch put together first would be read before its parts are stored.
         EngagedPatch& engaged = out.patches[out.count++];
         engaged.normal = normal;
         engaged.gap_mm = static_cast<double>(crossing.offset_voxels) * h;
         engaged.cutting_n_s_per_mm = stiffness / speed_share * (frame * patch.cutting_n_s_per_mm);
         engaged.edge_n = glm::dvec3(0.0);
-        engaged.area_mm2 = patch.area_mm2;
+        engaged.area_mm2 = share * patch.area_mm2;
         engaged.is_wall = false;
         if (uncut_.has_any && is_uncut(surface, outward, crossing)) {
             engaged.is_wall = out.has_walls = true;

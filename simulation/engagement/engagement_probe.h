@@ -24,8 +24,7 @@ class EngagementProbe {
                              const UncutTissues& uncut = {});
 
     /// Fills `out` for a burr at `position_mm` with its spindle along `spindle_axis` (unit), which turns at
-    /// `speed_share` (positive) of the burr's own speed. The surface of the bone is where the trilinear
-    /// fraction crosses one half. Real-time safe.
+    /// `speed_share` (positive) of the burr's own speed. Bone begins as in patch_crossings.h. Real-time safe.
     void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
                 double speed_share, InsideBurr inside, Engagement& out) noexcept;
     /// Samples at the burr's own speed, with any bone inside.

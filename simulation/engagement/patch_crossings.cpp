@@ -18,6 +18,12 @@ namespace {
 constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::reach_voxels), -0.5f, 0.5f,
                                               static_cast<float>(Engagement::reach_voxels)};
 
+/// Of whole bone at least this much is seen half a voxel behind the face that a burr has just cut; so bone of
+/// more is whole.
+constexpr float whole_near_face = 0.85f * 255.0f;
+/// Less is the burr's own ramp, or dust.
+constexpr float least_fraction = 0.1f * 255.0f;
+
 /// Fractions, 0 to 255, trilinear between the centres of voxels, at eight positions from the bricks' base.
 [[gnu::always_inline]] inline Floats fractions_at(const BrickNeighbourhood& bricks, Floats3 position) {
     const Ints x = __builtin_convertvector(position.x, Ints);
@@ -72,15 +78,11 @@ struct PatchCrossings::Look {
 struct PatchCrossings::Loops {
     PatchCrossings& to;
 
-    /// Sets the fractions at one of the offsets. Returns which of the patches have bone there.
-    [[gnu::always_inline]] static unsigned sample(const Look& look, const Floats3& surface,
-                                                  const Floats3& outward, std::size_t i,
-                                                  std::array<Floats, 4>& fractions) {
+    [[gnu::always_inline]] static Floats sample(const Look& look, const Floats3& surface,
+                                                const Floats3& outward, std::size_t i) {
         const float offset = offsets_voxels[i];
-        fractions[i] = fractions_at(
-            look.bricks,
-            {surface.x + offset * outward.x, surface.y + offset * outward.y, surface.z + offset * outward.z});
-        return simd::bits_of(fractions[i] >= surface_fraction);
+        return fractions_at(look.bricks, {surface.x + offset * outward.x, surface.y + offset * outward.y,
+                                          surface.z + offset * outward.z});
     }
 
     /// Finds the crossings of patches `first` to `first` + 7, writes them to `found` and returns their
@@ -97,36 +99,44 @@ struct PatchCrossings::Loops {
         std::array<Floats, 4> fractions;
         fractions.fill(Floats{});
         constexpr unsigned all = 0xff;
-        unsigned in_bone = 0;
-        if (look.inside == InsideBurr::carved) {
-            // The sample half a voxel outside tells to which side bone begins.
-            in_bone = sample(look, surface, outward, 2, fractions);
-            if (in_bone != 0) sample(look, surface, outward, 1, fractions);
-            if (in_bone != all) in_bone |= sample(look, surface, outward, 3, fractions);
-        } else {
-            for (std::size_t i = 0; i < offsets_voxels.size() && in_bone != all; ++i)
-                in_bone |= sample(look, surface, outward, i, fractions);
-        }
-        if (in_bone == 0) return 0;
+        // The sample half a voxel outside tells to which side bone begins.
+        fractions[2] = sample(look, surface, outward, 2);
+        if (simd::bits_of(fractions[2] >= whole_near_face) != all)
+            fractions[3] = sample(look, surface, outward, 3);
+        if (look.inside == InsideBurr::any) fractions[0] = sample(look, surface, outward, 0);
+        if (look.inside == InsideBurr::any || simd::bits_of(fractions[2] >= 0.5f * least_fraction) != 0)
+            fractions[1] = sample(look, surface, outward, 1);
+
+        Floats behind = fractions[2];
+        for (const std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{3}})
+            behind = simd::larger(behind, fractions[i]);
+        behind = fractions[2] >= whole_near_face ? simd::floats(255.0f) : behind;
+        const Ints is_some = behind >= least_fraction;
         // From the outside inward, so the innermost crossing remains.
         Floats offset = simd::floats(0.0f);
         Floats bone_offset = offset;
+        Floats share = simd::floats(1.0f);
         Ints is_found{};
         for (std::size_t i = offsets_voxels.size(); i-- > 0;) {
-            const Ints is_in_bone = fractions[i] >= surface_fraction;
+            const bool is_far = i == 3;
+            const Floats level = is_far ? simd::floats(surface_fraction) : 0.5f * behind;
+            const Ints is_in_bone = (fractions[i] >= level) & is_some;
             const Floats at = i == 0 ? simd::floats(offsets_voxels[0])
                                      : offsets_voxels[i - 1] + (offsets_voxels[i] - offsets_voxels[i - 1]) *
-                                                                   (surface_fraction - fractions[i - 1]) /
+                                                                   (level - fractions[i - 1]) /
                                                                    (fractions[i] - fractions[i - 1]);
             offset = is_in_bone ? at : offset;
             bone_offset = is_in_bone ? simd::floats(offsets_voxels[i]) : bone_offset;
+            if (!is_far) share = is_in_bone ? behind * (1.0f / 255.0f) : share;
             is_found |= is_in_bone;
         }
+        if (simd::bits_of(is_found) == 0) return 0;
         std::size_t count = 0;
         for (unsigned left = simd::bits_of(is_found); left != 0; left &= left - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(left));
             if (first + lane >= to.count_) break;
-            found[count++] = {static_cast<std::int32_t>(first + lane), offset[lane], bone_offset[lane]};
+            found[count++] = {static_cast<std::int32_t>(first + lane), offset[lane], bone_offset[lane],
+                              share[lane]};
         }
         return count;
     }

@@ -21,12 +21,13 @@ enum class InsideBurr {
     carved  ///< the burr has carved where it is, and there is nothing that it does not cut
 };
 
-/// Crossing between two of the sampled positions along a patch's normal, of which the outer is in bone.
-/// Offsets from the patch outward, voxels.
+/// Where bone begins before a patch, between two of the sampled positions along its normal. Offsets from the
+/// patch outward, voxels.
 struct PatchCrossing {
     std::int32_t patch = 0;
     float offset_voxels = 0.0f;
     float bone_offset_voxels = 0.0f;  ///< of the outer position
+    float share = 1.0f;               ///< of the patch that has bone before it
 };
 
 /// Allocates when constructed.
@@ -36,8 +37,10 @@ class PatchCrossings {
                    InstructionSet instructions = best_instruction_set());
 
     /// Crossings of the patches that have bone within Engagement::reach_voxels, in their order; valid until
-    /// the next call. The surface of the bone is where the trilinear fraction crosses one half, the innermost
-    /// time. `frame`: burr axes in patient axes; `centre_voxels` from the bricks' base. Real-time safe.
+    /// the next call. Bone begins where the trilinear fraction crosses half of what it is behind, the
+    /// innermost time: at a rim bone fills a part of each voxel, and lies before so much of a patch. Farther
+    /// than half a voxel ahead, where nothing tells what is behind, it begins at one half. `frame`: burr axes
+    /// in patient axes; `centre_voxels` from the bricks' base. Real-time safe.
     std::span<const PatchCrossing> find(const BrickNeighbourhood& bricks, const glm::mat3& frame,
                                         const glm::vec3& centre_voxels, float radius_voxels,
                                         InsideBurr inside) noexcept;

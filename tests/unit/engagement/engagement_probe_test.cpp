@@ -181,6 +181,37 @@ TEST(Engagement, SeesAShallowCutAtTheTipInSeveralRings) {
     EXPECT_NEAR(area_mm2, 2.0 * std::numbers::pi * 2.5 * 0.12, 0.3);
 }
 
+TEST(Engagement, SeesTheLastOfAWallOfThreeVoxels) {
+    // A burr goes through a wall: what the map says the next step removes, beside what it does remove.
+    const Burr burr{.diameter_mm = 5.0};
+    constexpr double half_mm = 0.15;
+    constexpr double step_mm = 0.01;
+    ForgottenChanges changes;
+    auto result = std::make_unique<MillingResult>();
+    const auto wall_mm = [=](const glm::dvec3& p) { return half_mm - std::abs(p.y); };
+    MillingModel model(testing::make_block({-3.0, -1.0, -3.0}, {3.0, 1.0, 0.0}, 0.1, wall_mm), {burr}, {});
+    double predicted_mm3 = 0.0;
+    double removed_mm3 = 0.0;
+    double missed_mm3 = 0.0;
+    double expected_mm3 = 0.0;
+    for (double y = -3.0; y < 0.5; y += step_mm) {
+        model.step({.pose = {{0.031, y, 1.5}, up}, .spindle_on = true, .elapsed_s = 0.001}, 0.0, changes,
+                   *result);
+        predicted_mm3 += expected_mm3;
+        removed_mm3 += result->removed_mm3;
+        missed_mm3 += std::abs(expected_mm3 - result->removed_mm3);
+        expected_mm3 = 0.0;
+        for (std::size_t i = 0; i < result->engagement.count; ++i) {
+            const EngagedPatch& patch = result->engagement.patches[i];
+            expected_mm3 +=
+                patch.area_mm2 * std::max(0.0, patch.normal.y * step_mm - std::max(0.0, patch.gap_mm));
+        }
+    }
+    // By half of the fraction alone it was 0.42, since bone thinner than a voxel was not seen.
+    EXPECT_NEAR(predicted_mm3 / removed_mm3, 0.8, 0.15);
+    EXPECT_LT(missed_mm3 / removed_mm3, 0.35);
+}
+
 TEST(Engagement, IsTheSameWhereWhatIsInsideACarvedBurrIsPassedOver) {
     Bone bone = flat_block();
     const Burr burr{.diameter_mm = 3.0};
