@@ -204,7 +204,8 @@ void bind_models(py::module_& module) {
 
 void bind_steady(py::module_& module) {
     const auto run_of = [](double voxel_mm, double rate_hz, double travel_mm, int min_steps) {
-        return SteadyRun{voxel_mm, rate_hz, travel_mm, min_steps};
+        return SteadyRun{
+            .voxel_mm = voxel_mm, .milling_rate_hz = rate_hz, .travel_mm = travel_mm, .min_steps = min_steps};
     };
     py::class_<SteadyCase>(module, "SteadyCase", "A burr in steady motion over a half space of bone.")
         .def(py::init(&steady_case), py::arg("name"), py::arg("burr"), py::arg("feed_mm_per_s"),
@@ -269,10 +270,14 @@ void bind_steady(py::module_& module) {
             "Analytical mean force, of a dive over its path, N: (3,).")
         .def(
             "run",
-            [](const RandomMotion& drawn, const StudiedMilling& model) {
-                return run_steady(drawn.motion, model, drawn.run);
+            [](const RandomMotion& drawn, const StudiedMilling& model, double surface_voxels) {
+                SteadyRun run = drawn.run;
+                run.surface_voxels = surface_voxels;
+                return run_steady(drawn.motion, model, run);
             },
-            py::arg("model"), "As run_path.");
+            py::arg("model"), py::arg("surface_voxels") = 0.0,
+            "As run_path; the bone's surface, and the burr with it, so far outward of its place in the "
+            "lattice.");
     module.def("random_motions", &random_motions, py::arg("count"), py::arg("seed"),
                py::arg("voxel_mm") = 0.1, py::arg("depth_mm") = py::none(), py::arg("edge_forces") = false,
                py::arg("heads") = false, "The same for the same seed on every machine.");

@@ -27,10 +27,10 @@ double volume_below(double height, const glm::dvec3& n) {
     return std::clamp(sum / (6.0 * a.x * a.y * a.z), 0.0, 1.0);
 }
 
-/// Part of the voxel that lies below the plane through the origin, 0 to 255.
-std::uint8_t fraction_below(const glm::dvec3& centre_mm, const glm::dvec3& up, double spacing_mm) {
-    return static_cast<std::uint8_t>(
-        std::lround(255.0 * volume_below(-glm::dot(centre_mm, up) / spacing_mm, up)));
+/// Part of the voxel that lies below the block's surface, 0 to 255.
+std::uint8_t fraction_below(const glm::dvec3& centre_mm, const BoneBlock& block, double spacing_mm) {
+    const double height_mm = block.surface_mm - glm::dot(centre_mm, block.up);
+    return static_cast<std::uint8_t>(std::lround(255.0 * volume_below(height_mm / spacing_mm, block.up)));
 }
 
 }  // namespace
@@ -44,7 +44,8 @@ Bone voxelised(const BoneBlock& block, double spacing_mm) {
                     .origin_mm = (first + 0.5) * spacing_mm};
     constexpr double stiffness_per_code = 0.02;
     const auto code_of = [&](const glm::dvec3& centre_mm) {
-        const bool in_layer = block.layer && -glm::dot(centre_mm, block.up) < block.layer->thickness_mm;
+        const bool in_layer =
+            block.layer && block.surface_mm - glm::dot(centre_mm, block.up) < block.layer->thickness_mm;
         return static_cast<std::uint8_t>(
             std::lround((in_layer ? block.layer->stiffness : 1.0) / stiffness_per_code));
     };
@@ -52,7 +53,7 @@ Bone voxelised(const BoneBlock& block, double spacing_mm) {
                                       : BoneBuilder::homogeneous(grid, 1.0, false);
     return filled(std::move(builder), grid, [&](const glm::ivec3& voxel) {
         const glm::dvec3 centre_mm = centre_of_voxel_mm(grid, voxel);
-        return VoxelValues{.fraction = fraction_below(centre_mm, block.up, spacing_mm),
+        return VoxelValues{.fraction = fraction_below(centre_mm, block, spacing_mm),
                            .stiffness = code_of(centre_mm)};
     });
 }

@@ -16,11 +16,12 @@ struct TopLayer {
         1.0;  ///< relative, a multiple of 0.02 (the code of a voxel) up to 5; 1 below the layer
 };
 
-/// Bone {p . up <= 0} within a box; patient axes, mm.
+/// Bone {p . up <= surface_mm} within a box; patient axes, mm.
 struct BoneBlock {
     glm::dvec3 low_mm{0.0};
     glm::dvec3 high_mm{0.0};
     glm::dvec3 up{0.0, 0.0, 1.0};  ///< unit
+    double surface_mm = 0.0;
     std::optional<TopLayer> layer{};
 };
 

@@ -29,7 +29,7 @@ SteadyPath path_of(const SteadyCase& c, const SteadyRun& run) {
         std::max(run.min_steps, static_cast<int>(std::lround(run.travel_mm / (speed * path.step_s))));
 
     const glm::dvec3 offset = off_the_lattice_mm - glm::dot(off_the_lattice_mm, c.up) * c.up;
-    path.start_mm = (above_lowest_mm(c) - c.depth_mm) * c.up + offset;
+    path.start_mm = (above_lowest_mm(c) - c.depth_mm + run.surface_voxels * run.voxel_mm) * c.up + offset;
     const double climb = glm::dot(direction, c.up);
     const bool steady_for_good = std::abs(climb) < 1e-9 || (climb < -1.0 + 1e-9 && c.depth_mm >= radius);
     if (!steady_for_good) {
@@ -52,7 +52,8 @@ ForceSeries run_steady(const SteadyCase& c, const SteadyRun& run, const MakeMode
     const double margin = reach + 5.0 * run.voxel_mm;
     const BoneBlock block{.low_mm = glm::min(path.start_mm, path.end_mm) - margin,
                           .high_mm = glm::max(path.start_mm, path.end_mm) + margin,
-                          .up = c.up};
+                          .up = c.up,
+                          .surface_mm = run.surface_voxels * run.voxel_mm};
     const auto model = make_model(voxelised(block, run.voxel_mm), c.burr);
     if (c.previous_groove_mm_higher) {
         const glm::dvec3 higher = *c.previous_groove_mm_higher * c.up;

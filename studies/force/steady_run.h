@@ -13,6 +13,8 @@ struct SteadyRun {
     double travel_mm = 2.0;
     /// Never fewer, so that a fast feed at a low rate has a mean too.
     int min_steps = 20;
+    /// How far the bone's surface, and the burr with it, is off its place in the lattice, outward.
+    double surface_voxels = 0.0;
 };
 
 /// How far the burr goes. A motion along the surface goes on for `run.travel_mm` (or `min_steps`). A motion

@@ -43,6 +43,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--edge-forces", action="store_true", help="burrs whose edges rub, by random coefficients")
     parser.add_argument("--heads", action="store_true",
                         help="cylinders, cones, barrels and pears in the place of balls, of random proportions")
+    parser.add_argument("--offsets", action="store_true",
+                        help="run each random motion also with the bone's surface up to a quarter of a voxel off in the lattice")
     parser.add_argument("--quick", action="store_true", help="fewer points, shorter runs: under a minute")
     parser.add_argument("--voxel-mm", type=number_within(0.01, 1.0), help="edge of a voxel, of --cases and --random (0.1)")
     parser.add_argument("--milling-rate-hz", type=number_within(1.0, 100_000.0), help="steps of the voxel model a second (100)")
@@ -65,7 +67,7 @@ def _require_what_belongs_together(options: argparse.Namespace) -> None:
         raise UsageError("--random excludes --cases")
     if options.quick and (options.cases or options.random):
         raise UsageError(f"--quick excludes {'--cases' if options.cases else '--random'}")
-    for name in ("seed", "depth_mm", "edge_forces", "heads"):
+    for name in ("seed", "depth_mm", "edge_forces", "heads", "offsets"):
         if getattr(options, name) not in (None, False) and not options.random:
             raise UsageError(f"--{name.replace('_', '-')} requires --random")
     for name in ("milling_rate_hz", "travel_mm"):
@@ -100,7 +102,7 @@ def _report_random(study: StudyRun, drawn: force_random.Drawn, cases: list[Any],
 
 def _run_random(options: argparse.Namespace, study: StudyRun) -> None:
     drawn = _drawn(options, options.random)
-    cases = force_random.cases_of(drawn)
+    cases = force_random.cases_of(drawn, force_random.OFFSETS_VOXELS if options.offsets else ())
     study.json("random", _report_random(study, drawn, cases, study.sweep(measure, cases, name_of)))
 
 

@@ -16,10 +16,13 @@ from osteomill import _studies
 from osteomill.studies.force_series import ForceSeries, relative_error
 
 Drawn = dict[str, Any]  # arguments of random_motions
+# Places of the bone's surface in the lattice beside its own.
+OFFSETS_VOXELS = (-0.25, -0.125, 0.125, 0.25)
 
 
-def cases_of(drawn: Drawn) -> list[dict[str, Any]]:
-    return [{"part": "random", "index": index, "drawn": drawn} for index in range(drawn["count"])]
+def cases_of(drawn: Drawn, offsets_voxels: tuple[float, ...] = ()) -> list[dict[str, Any]]:
+    """Each motion, also with the bone's surface, and the burr with it, off its place in the lattice."""
+    return [{"part": "random", "index": index, "drawn": drawn, "offsets_voxels": offsets_voxels} for index in range(drawn["count"])]
 
 
 @functools.lru_cache(maxsize=1)
@@ -36,8 +39,10 @@ def measure(case: dict[str, Any]) -> dict[str, Any]:
     drawn = motion_of(case)
     series = ForceSeries(*drawn.run(_studies.Milling()))
     force_n, reference_n = series.mean_force_n(), drawn.reference()
+    moved_n = [ForceSeries(*drawn.run(_studies.Milling(), surface_voxels=by)).mean_force_n() for by in case["offsets_voxels"]]
     return {"reference_n": reference_n, "force_n": force_n, "error": relative_error(force_n, reference_n),
             "ripple": series.ripple(), "deviations": series.deviations(), "largest_step": series.largest_step(),
+            "changes": [relative_error(moved, force_n) for moved in moved_n],
             "step_us": float(np.percentile(series.step_us, 50))}
 
 
@@ -54,7 +59,9 @@ def table_of(cases: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> pd.
             "groove_mm_higher": motion.groove_mm_higher, "milling_rate_hz": drawn.milling_rate_hz, "voxel_mm": drawn.voxel_mm,
             **{f"reference_{axis}_n": value for axis, value in zip("xyz", found["reference_n"])},
             **{f"force_{axis}_n": value for axis, value in zip("xyz", found["force_n"])},
-            "error_percent": 100.0 * found["error"], "ripple_percent": 100.0 * found["ripple"],
+            "error_percent": 100.0 * found["error"],
+            **({"change_percent": 100.0 * max(found["changes"])} if found["changes"] else {}),
+            "ripple_percent": 100.0 * found["ripple"],
             "largest_step": found["largest_step"], "step_us": found["step_us"],
         })
     return pd.DataFrame(rows)
@@ -73,6 +80,8 @@ def summary_of(drawn: Drawn, table: pd.DataFrame, outcomes: list[dict[str, Any]]
         "median_error_percent": percentile(table["error_percent"], 50),
         **{f"p{share}_error_percent": percentile(table["error_percent"], share) for share in (90, 95, 99)},
         "max_error_percent": percentile(table["error_percent"], 100),
+        **{f"p{share}_change_percent": percentile(table["change_percent"], share)
+           for share in (50, 95, 99, 100) if "change_percent" in table},
         "along_median_error_percent": percentile(along["error_percent"], 50),
         "along_p90_error_percent": percentile(along["error_percent"], 90),
         "ripple_p90_percent": percentile(along["ripple_percent"], 90),
@@ -92,10 +101,12 @@ def percentile(values: Any, share: float) -> float:
 
 
 def words_of(summary: dict[str, Any]) -> str:
+    moved = ("; with the surface a quarter of a voxel off in the lattice the mean changes by at most {p95_change_percent:.2f} % in 95 of "
+             "100, {p99_change_percent:.2f} in 99, {p100_change_percent:.2f} at worst" if "p50_change_percent" in summary else "")
     return (
         "{cases} motions of seed {seed}: error median {median_error_percent:.2f} %, 90 % within {p90_error_percent:.2f}, "
         "95 % within {p95_error_percent:.2f}, 99 % within {p99_error_percent:.2f}, worst {max_error_percent:.2f} %; "
         "along the surface error median {along_median_error_percent:.2f} %, 90 % within {along_p90_error_percent:.2f}, "
         "ripple 90 % within {ripple_p90_percent:.2f} (from 5 mm/s on {ripple_p90_from_5_mm_per_s_percent:.2f}), worst "
         "{ripple_max_percent:.2f} %; means over 10 ms there 95 % within {window_p95_percent:.2f} %, largest step at 1 kHz "
-        "{largest_step_max:.2f} times the mean (99 % under {largest_step_p99:.2f})").format(**summary)
+        "{largest_step_max:.2f} times the mean (99 % under {largest_step_p99:.2f})" + moved).format(**summary)
