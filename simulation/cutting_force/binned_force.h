@@ -33,7 +33,7 @@ class BinnedForce {
 
     /// As MeanForce::edges_n.
     const glm::dvec3& edges_n() const noexcept { return edges_n_; }
-    void correct_edges(const glm::dvec3& by_n) noexcept { edges_n_ += by_n; }
+    void correct(const glm::dvec3& by_n) noexcept { edges_n_ += by_n; }
 
     /// Stiffness-weighted chip thickness of one tooth in a bin, mm: t = sum(s V) / (M r_z dpsi dz), M = N_phi
     /// n_rev dt.

@@ -64,7 +64,7 @@ void InstantaneousForce::add_edges(const CuttingStep& edges, const RemovedVoxels
     sort(edges, rubbed, weights);
 }
 
-void InstantaneousForce::correct_edges(const glm::dvec3& by_n) noexcept {
+void InstantaneousForce::correct(const glm::dvec3& by_n) noexcept {
     edges_n_ += by_n;
     for (int i = 0; i < instants_; ++i)
         impulse_[static_cast<std::size_t>(i)] += by_n * (step_.elapsed_s / instants_);

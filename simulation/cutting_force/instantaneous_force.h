@@ -38,7 +38,7 @@ class InstantaneousForce {
 
     /// As MeanForce::edges_n; a correction goes evenly to all phases.
     const glm::dvec3& edges_n() const noexcept { return edges_n_; }
-    void correct_edges(const glm::dvec3& by_n) noexcept;
+    void correct(const glm::dvec3& by_n) noexcept;
 
     /// Empties the bins: the cut so far does not tell how the coming teeth cut.
     void forget() noexcept;

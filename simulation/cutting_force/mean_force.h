@@ -24,9 +24,10 @@ class MeanForce {
         edges_n_ += edges.newton_per_unit * sum_of_chip_forces(edges, rubbed, weights, instructions_);
     }
 
-    /// Force of the edges so far, N, burr axes, and a correction to it.
+    /// Force of the edges so far, N, burr axes.
     const glm::dvec3& edges_n() const noexcept { return edges_n_; }
-    void correct_edges(const glm::dvec3& by_n) noexcept { edges_n_ += by_n; }
+    /// Adds a force that neither voxels nor edges showed, N, burr axes; after the edges.
+    void correct(const glm::dvec3& by_n) noexcept { edges_n_ += by_n; }
 
     /// Mean force of the bone on the burr during the step, N, patient axes.
     glm::dvec3 force_n() const noexcept { return step_.frame * (step_.newton_per_unit * sum_ + edges_n_); }

@@ -22,9 +22,9 @@ namespace {
 /// Directions are taken from the middle of a substep. In a substep as long as the burr's radius the force
 /// would be 10 % off, in an eighth of that 0.2 %.
 constexpr double longest_substep_radii = 0.125;
-/// The outline of another head has narrow bends: its edges rub on the bone that the surface passes within a
-/// voxel or so.
-constexpr double longest_head_substep_voxels = 1.0;
+/// The face of a second pass a voxel deep is a few voxels long; the outline of another head has narrow bends,
+/// and its edges rub on the bone that the surface passes within a voxel or so.
+constexpr double longest_substep_voxels = 1.0;
 /// At 10 kHz a burr moves by less than one of a voxel's 255 levels at a time. Below five levels, and for no
 /// longer than a haptic tick, milling waits: bone and mean force come out the same.
 constexpr double shortest_path_voxels = 0.02;
@@ -180,8 +180,12 @@ void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting,
         if (whole.voxels > 0.0 && length < look) {
             MeanForce nearby(cutting, settings_.instructions);
             const EdgeLook half = look_ahead(sweep, cutting, path * (0.5 * look / length), carving, nearby);
-            force.correct_edges(edge_look_correction(whole, half, length / look));
+            force.correct(edge_look_correction(whole, half, length / look));
         }
+    }
+    if (carved_at_position_ && cutting.head == nullptr && settings_.summation != ForceSummation::bins) {
+        const FaceEnd end = axis_face_.look(bone_, sweep, cutting.frame, settings_.coverage);
+        force.correct(axis_face_.lacking_n(cutting, end, sweep));
     }
     if (!scans_.empty())
         scans_[burr_].carve(bone_, sweep, cutting.frame, carving, changes, removed);
@@ -244,8 +248,10 @@ void MillingModel::mill(const BurrCommand& command, ChangeSink& changes, Milling
     const bool is_first = !carved_at_position_;
     const ToolPose from{position_mm_, spindle_axis_};
     const glm::dvec3 path_mm = command.pose.position_mm - from.position_mm;
-    const double longest_mm = heads_[burr_] ? longest_head_substep_voxels * bone_.grid().spacing_mm
-                                            : longest_substep_radii * burrs_[burr_].radius_mm();
+    const double longest_voxels_mm = longest_substep_voxels * bone_.grid().spacing_mm;
+    const double longest_mm =
+        heads_[burr_] ? longest_voxels_mm
+                      : std::min(longest_voxels_mm, longest_substep_radii * burrs_[burr_].radius_mm());
     const double substeps = std::clamp(std::ceil(motion_mm(command) / longest_mm), 1.0, most_substeps);
     for (double i = 1.0; i <= substeps; i += 1.0) {
         ToolPose to = command.pose;

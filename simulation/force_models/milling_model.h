@@ -16,6 +16,7 @@
 #include "common/scene/uncut_tissues.h"
 #include "simulation/carving/carve.h"
 #include "simulation/carving/full_scan.h"
+#include "simulation/cutting_force/axis_face.h"
 #include "simulation/cutting_force/edge_look.h"
 #include "simulation/cutting_force/instantaneous_force.h"
 #include "simulation/engagement/engagement_probe.h"
@@ -75,6 +76,7 @@ class MillingModel final : public ForceModel {
     std::vector<std::optional<BurrProfile>> heads_;  // likewise, in voxels; nothing for a ball
     std::vector<FullScan> scans_;                    // likewise; none but for VoxelSearch::full_scan
     MillingSettings settings_;
+    AxisFace axis_face_;
     EdgeShares edge_shares_;
     bool has_edge_shares_;
     UncutTissues uncut_;
