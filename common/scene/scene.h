@@ -129,6 +129,7 @@ struct Scene {
     std::vector<Burr> burrs;  ///< never empty
     std::size_t start_burr = 0;
     double wall_friction = 0.2;    ///< Coulomb's, of a burr at rest on bone
+    bool feed_forward = false;     ///< the coupling's, of bone's change (feed_forward.h)
     double force_scale = 1.0;      ///< factor of cutting forces: for arms whose friction hides them
     std::optional<Motor> motor{};  ///< whose speed falls under load, as it is heard
     DeviceMapping device;

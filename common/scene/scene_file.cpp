@@ -230,6 +230,10 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     scene.wall_friction = reader.number("wall_friction", {0.0, 1.0}).value_or(scene.wall_friction);
     scene.force_scale = reader.number("force_scale", {0.1, 10.0}).value_or(scene.force_scale);
     if (auto table = reader.table("motor")) scene.motor = read_motor(*table);
+    if (auto table = reader.table("coupling")) {
+        scene.feed_forward = table->truth("feed_forward").value_or(scene.feed_forward);
+        table->refuse_other_keys();
+    }
     if (auto table = reader.table("device")) scene.device = read_device(*table);
     if (auto table = reader.table("start_pose")) scene.start_pose = read_pose(*table);
     if (auto table = reader.table("trajectory"))

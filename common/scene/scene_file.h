@@ -14,6 +14,7 @@
 //     [[burrs]]        name, diameter_mm, edges, rpm, cutting_coefficients_n_per_mm2 = [K_t, K_r, K_a],
 //                      edge_coefficients_n_per_mm = [K_te, K_re, K_ae],
 //                      turns = "clockwise", shank = [[height_mm, radius_mm], ...]
+//     [coupling]       feed_forward = false
 //     [device]         rotation = [[..], [..], [..]] (rows), scale, offset_mm
 //     [start_pose]     position_mm, spindle_axis
 //     [trajectory]     motion = "hold" | "polishing" | "cavity"   or   file = "path.csv";

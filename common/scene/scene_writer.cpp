@@ -286,6 +286,9 @@ std::string write_scene(const Scene& scene, SceneText extent) {
                     .add("stall_torque_n_mm", scene.motor->stall_torque_n_mm)
                     .add("steady_torque_n_mm", scene.motor->steady_torque_n_mm, 0.0)
                     .below("\n# How the spindle slows under load, as it is heard.\n[motor]\n");
+    text += Keys(extent)
+                .add("feed_forward", scene.feed_forward, Scene().feed_forward)
+                .below("\n# How the bone's force comes to the hand.\n[coupling]\n");
     text += device_text(scene.device, extent) + pose_text(scene.start_pose, extent) +
             trajectory_text(scene.trajectory, extent);
     if (scene.plan) text += plan_text(*scene.plan, extent);

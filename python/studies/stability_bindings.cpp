@@ -45,12 +45,14 @@ study::MapScene map_scene_of(const std::string& name) {
 
 MapCase map_case(const std::string& method, const std::string& scene, const std::string& grip,
                  double milling_rate_hz, int delay_ticks, bool is_ideal_device, double spindle_rpm,
-                 double depth_mm, double relative_stiffness, double edge_n_per_mm, double wall_n_per_mm) {
+                 double depth_mm, double relative_stiffness, double edge_n_per_mm, double wall_n_per_mm,
+                 bool feed_forward) {
     return {.method = method,
             .scene = map_scene_of(scene),
             .grip = map_grip_of(grip),
             .milling_rate_hz = milling_rate_hz,
             .delay_ticks = delay_ticks,
+            .feed_forward = feed_forward,
             .is_ideal_device = is_ideal_device,
             .spindle_rpm = spindle_rpm,
             .depth_mm = depth_mm,
@@ -79,10 +81,10 @@ void bind_map(py::module_& module) {
         [](study::SceneCache& cache, const std::string& method, const std::string& scene,
            const std::string& grip, double milling_rate_hz, int delay_ticks, bool is_ideal_device,
            double spindle_rpm, double depth_mm, double relative_stiffness, double edge_n_per_mm,
-           double wall_n_per_mm) {
+           double wall_n_per_mm, bool feed_forward) {
             const MapCase c =
                 map_case(method, scene, grip, milling_rate_hz, delay_ticks, is_ideal_device, spindle_rpm,
-                         depth_mm, relative_stiffness, edge_n_per_mm, wall_n_per_mm);
+                         depth_mm, relative_stiffness, edge_n_per_mm, wall_n_per_mm, feed_forward);
             MapOutcome outcome;
             {
                 const py::gil_scoped_release released;
@@ -93,7 +95,7 @@ void bind_map(py::module_& module) {
         py::arg("cache"), py::kw_only(), py::arg("method"), py::arg("scene"), py::arg("grip"),
         py::arg("milling_rate_hz"), py::arg("delay_ticks"), py::arg("is_ideal_device"),
         py::arg("spindle_rpm"), py::arg("depth_mm"), py::arg("relative_stiffness"), py::arg("edge_n_per_mm"),
-        py::arg("wall_n_per_mm"),
+        py::arg("wall_n_per_mm"), py::arg("feed_forward") = false,
         "Runs a point of the stability map, beside the truth in continuous time: what studies/stability/map "
         "says of its outcome.");
     module.def("coupling_tick_us", &study::coupling_tick_us, py::arg("method"), py::arg("ticks"),
@@ -148,13 +150,14 @@ void bind_sites(py::module_& module) {
     module.def(
         "run_site",
         [](const Site& site, const std::string& method, const std::string& grip, bool is_ideal_device,
-           int delay_ticks) {
+           int delay_ticks, bool feed_forward) {
             if (grip != "firm" && grip != "light")
                 throw std::invalid_argument("grip: takes firm or light, not " + grip);
             study::SiteRun run;
             {
                 const py::gil_scoped_release released;
                 run = study::run_site(site, {.method = method,
+                                             .feed_forward = feed_forward,
                                              .grip = grip == "firm" ? Grip::firm : Grip::light,
                                              .is_ideal_device = is_ideal_device,
                                              .delay_ticks = delay_ticks});
@@ -162,7 +165,7 @@ void bind_sites(py::module_& module) {
             return py::make_tuple(dict_of(run), trace_of(run));
         },
         py::arg("site"), py::kw_only(), py::arg("method"), py::arg("grip"), py::arg("is_ideal_device"),
-        py::arg("delay_ticks"),
+        py::arg("delay_ticks"), py::arg("feed_forward") = false,
         "What a hand would not forgive, in numbers (studies/stability/sites/site_verdict.h), solves and "
         "faults; "
         "and each millisecond: positions of hand and burr, forces on the hand, of the model and of a rigid "
@@ -175,15 +178,15 @@ void bind_rails(py::module_& module) {
                "Random steady motions along surfaces; the same for the same seed on every machine.");
     module.def(
         "run_on_rails",
-        [](const study::SteadyCase& motion, const std::string& method) {
+        [](const study::SteadyCase& motion, const std::string& method, bool feed_forward) {
             study::OnRails run;
             {
                 const py::gil_scoped_release released;
-                run = study::run_on_rails(motion, method);
+                run = study::run_on_rails(motion, method, feed_forward);
             }
             return py::make_tuple(array_of(run.hand_n), array_of(run.model_n), run.is_driven);
         },
-        py::arg("motion"), py::arg("method"),
+        py::arg("motion"), py::arg("method"), py::arg("feed_forward") = false,
         "Mean force on a hand that is led along the motion, and of the model, N: (3,) each; and whether bone "
         "pulled the burr away from the hand, so that it was no steady motion.");
 }
@@ -192,13 +195,15 @@ void bind_onset(py::module_& module) {
     module.def(
         "run_onset",
         [](const Burr& burr, bool is_entry, const py::handle& up, double way_mm, double speed_mm_per_s,
-           const std::string& method, double stiffness_n_per_mm, double damping_n_s_per_mm, bool is_guided) {
+           const std::string& method, double stiffness_n_per_mm, double damping_n_s_per_mm, bool is_guided,
+           bool feed_forward) {
             const study::Onset onset{.burr = burr,
                                      .kind = is_entry ? study::OnsetKind::entry : study::OnsetKind::plunge,
                                      .up = glm::normalize(python::vector_of(up, "up")),
                                      .way_mm = way_mm,
                                      .speed_mm_per_s = speed_mm_per_s};
             const study::OnsetHand hand{.coupling = method,
+                                        .feed_forward = feed_forward,
                                         .stiffness_n_per_mm = stiffness_n_per_mm,
                                         .damping_n_s_per_mm = damping_n_s_per_mm,
                                         .is_guided = is_guided};
@@ -227,7 +232,7 @@ void bind_onset(py::module_& module) {
         },
         py::arg("burr"), py::kw_only(), py::arg("is_entry"), py::arg("up"), py::arg("way_mm"),
         py::arg("speed_mm_per_s"), py::arg("method"), py::arg("stiffness_n_per_mm"),
-        py::arg("damping_n_s_per_mm"), py::arg("is_guided"),
+        py::arg("damping_n_s_per_mm"), py::arg("is_guided"), py::arg("feed_forward") = false,
         "A burr enters bone (studies/stability/onset): of the exact answer, an ideal spring and the coupling "
         "the "
         "peak of the force over 5 ms, and when it is over half of the exact peak; and each millisecond the "

@@ -69,11 +69,37 @@ void BurrProxy::take_over(const MillingResult& latest) noexcept {
     remember_cuts(engagement);
 }
 
+BurrProxy::Reach BurrProxy::reach_of(std::size_t patch, const Engagement& engagement) const noexcept {
+    const EngagedPatch& at = engagement.patches[patch];
+    const TouchingGaps& gaps = map_period_s_ > longest_quick_period_s ? slow_gaps : quick_gaps;
+    const double along_mm = glm::dot(at.normal, position_mm_ - engagement.burr_position_mm);
+    return {.share = touching_share(at.gap_mm / engagement.spacing_mm, gaps),
+            .begins_mm = cut_mm_[patch] - along_mm,
+            .begins_beyond_gap_mm = std::max(at.gap_mm, cut_mm_[patch]) - along_mm};
+}
+
+double BurrProxy::resistance_n_s_per_mm(const glm::dvec3& step_mm,
+                                        const MillingResult& latest) const noexcept {
+    const double squared_mm2 = glm::dot(step_mm, step_mm);
+    if (squared_mm2 == 0.0) return 0.0;
+    const Engagement& engagement = latest.engagement;
+    glm::dvec3 impulse_n_s(0.0);
+    for (std::size_t i = 0; i < engagement.count; ++i) {
+        const EngagedPatch& patch = engagement.patches[i];
+        if (patch.is_wall) continue;
+        const Reach reach = reach_of(i, engagement);
+        const double advance_mm = glm::dot(patch.normal, step_mm);
+        impulse_n_s += (reach.share * std::max(0.0, advance_mm - reach.begins_mm) +
+                        (1.0 - reach.share) * std::max(0.0, advance_mm - reach.begins_beyond_gap_mm)) *
+                       patch.cutting_n_s_per_mm;
+    }
+    return std::max(0.0, -glm::dot(step_mm, correction_.gain() * impulse_n_s) / squared_mm2);
+}
+
 std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double step_s, Meets meets,
                                                     const glm::dvec3& pull_n,
                                                     const Engagement& engagement) noexcept {
     std::size_t count = 0;
-    const TouchingGaps& gaps = map_period_s_ > longest_quick_period_s ? slow_gaps : quick_gaps;
     const double most_out_mm = scale_.speed_mm_per_s(most_push_out_mm_per_s) * step_s;
     const glm::dvec3 moved = position_mm_ - engagement.burr_position_mm;
     const double yields_mm = engagement.has_edge_force && meets == Meets::chips ? edge_yields_mm : 0.0;
@@ -90,15 +116,12 @@ std::span<const Contact> BurrProxy::gather_contacts(double longest_mm, double st
     };
     for (std::size_t i = 0; i < engagement.count; ++i) {
         const EngagedPatch& patch = engagement.patches[i];
-        const double along = glm::dot(patch.normal, moved);
         if (meets == Meets::all_as_walls || patch.is_wall) {
-            add_wall(patch.normal, patch.area_mm2, patch.gap_mm - along);
+            add_wall(patch.normal, patch.area_mm2, patch.gap_mm - glm::dot(patch.normal, moved));
             continue;
         }
         if (meets == Meets::walls_only) continue;
-        const double share = touching_share(patch.gap_mm / engagement.spacing_mm, gaps);
-        const double begins = cut_mm_[i] - along;
-        const double begins_beyond_gap = std::max(patch.gap_mm, cut_mm_[i]) - along;
+        const auto [share, begins, begins_beyond_gap] = reach_of(i, engagement);
         if ((share > 0.0 ? begins : begins_beyond_gap) > longest_mm) continue;
         const glm::dvec3 force = correction_.gain() * patch.cutting_n_s_per_mm / step_s;
         const glm::dvec3 yield = correction_.gain() * patch.edge_n;

@@ -100,6 +100,11 @@ class BurrProxy {
     void advance_on_walls(const glm::dvec3& hand_mm, const LinearPull& pull, double tick_s,
                           const MillingResult& latest) noexcept;
 
+    /// Resistance of the bone that the burr cuts to a step from where it is, N s/mm: the part of its force
+    /// against the step, over the step's speed, 0 if it drives. `latest` as in the last advance; a step of 0
+    /// meets none. Real-time safe.
+    double resistance_n_s_per_mm(const glm::dvec3& step_mm, const MillingResult& latest) const noexcept;
+
     const glm::dvec3& position_mm() const { return position_mm_; }
     /// Position of the carving burr: the proxy's, less the depth by which a patch yields before its edges
     /// cut.
@@ -150,7 +155,16 @@ class BurrProxy {
         glm::dvec3 torque_n_mm{0.0};
     };
 
+    /// Advances of a patch along its normal from where the proxy is at which it meets bone that is there, and
+    /// for the share that may not touch yet.
+    struct Reach {
+        double share = 0.0;  ///< that touches
+        double begins_mm = 0.0;
+        double begins_beyond_gap_mm = 0.0;
+    };
+
     void take_over(const MillingResult& latest) noexcept;
+    Reach reach_of(std::size_t patch, const Engagement& engagement) const noexcept;
     /// The kinds of contact at the head that a step may meet.
     enum class Meets : std::uint8_t { chips, walls_only, all_as_walls };
 

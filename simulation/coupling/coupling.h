@@ -60,6 +60,7 @@ struct CouplingOptions {
     bool model_holds_wall = false;
     /// Coulomb's coefficient of a burr at rest on bone, for couplings that solve a balance.
     double wall_friction = 0.0;
+    bool feed_forward = false;  ///< of bone's change, for the coupling that has one (feed_forward.h)
     std::shared_ptr<const Fixtures> fixtures{};  ///< null: none; else only of couplings that take them
 };
 

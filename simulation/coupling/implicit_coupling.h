@@ -11,11 +11,15 @@
 // touched), and a milling rate of 100 Hz would be out of the question. On the map a late or heavy carve costs
 // no haptic deadline, and the mean force differs from the model's by 0.1 to 0.6 %, since force_correction.h
 // feeds back the bone that the carve really removed.
+//
+// With CouplingOptions::feed_forward the hand also feels what the spring passes too late of a change of the
+// bone (feed_forward.h). The burr does not: it is pulled by the spring alone.
 #pragma once
 
 #include "simulation/coupling/burr_proxy.h"
 #include "simulation/coupling/coupling.h"
 #include "simulation/coupling/coupling_spring.h"
+#include "simulation/coupling/feed_forward.h"
 #include "simulation/coupling/fixture_pull.h"
 #include "simulation/coupling/position_observer.h"
 
@@ -43,6 +47,8 @@ class ImplicitCoupling final : public Coupling {
     BurrProxy proxy_;
     CouplingSpring spring_;
     FixturePull fixtures_;
+    FeedForward feed_forward_;
+    bool feeds_forward_;
     bool placed_ = false;
 };
 

@@ -131,6 +131,7 @@ MillingSession::MillingSession(const Scene& scene, Bone bone, HapticDevice& devi
            .milling_period_s = std::max(tick_s, 1.0 / options.milling_rate_hz),
            .model_holds_wall = !find_force_model(options.force_model).has_cutting_law,
            .wall_friction = find_force_model(options.force_model).has_friction ? scene.wall_friction : 0.0,
+           .feed_forward = scene.feed_forward,
            .fixtures = make_fixtures(
                scene, options.structures,
                in_patient_space(device.limits(), ArmScale(scene.device.scale)).max_stiffness_n_per_mm,

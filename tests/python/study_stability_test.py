@@ -58,6 +58,8 @@ class PointsTest(unittest.TestCase):
                   if (point["method"], point["grip"], point["delay_ticks"]) == ("hold", "firm", 1)]
         self.assertTrue(wanted)
         self.assertEqual(points, wanted)
+        fed = stability.selected_points(options_of("--quick", "--methods", "hold", "--grips", "firm", "--delays", "1", "--feed-forward"))
+        self.assertEqual(fed, [point | {"feed_forward": True} for point in wanted])
 
     def test_with_edges_that_rub_cut_where_a_hand_gets_on(self):
         points = stability.selected_points(options_of("--edge-forces", "--methods", "implicit"))
@@ -209,8 +211,21 @@ class OnsetTest(unittest.TestCase):
         self.assertEqual(len(table), 24)
         plunges = table[table["kind"] != stability_onset.ENTRY]
         self.assertTrue((plunges["ideal_share"] < 1.0).all() and (plunges["points"].abs() > 0.0).all())
+        self.assertFalse((out / "onset.svg").exists())
         with self.assertRaisesRegex(ValueError, "glue"):
             stability_onset.measure(stability_onset.cases_of(options_of("--onset"))[0] | {"method": "glue"})
+
+    def test_with_the_feed_forward_both_are_run_and_drawn(self):
+        words = ("--onset", "--quick", "--feed-forward")
+        with run_of("stability", stability, *words) as (out, said):
+            table = pd.read_csv(out / "onset.csv")
+            self.assertIn("implicit with feed-forward", (out / "onset.svg").read_text())
+        self.assertIn("met    16 of 16 plunges within 3 points", said, "without it")
+        # A firm hand's plunge at 20 mm/s, on the springs of arms that there are.
+        guided = table[(table["hand"] == "guided") & (table["kind"] != stability_onset.ENTRY) & (table["stiffness_n_per_mm"] < 5.0)]
+        shares = guided.groupby("method")["felt_share"].mean()
+        self.assertGreater(shares["implicit with feed-forward"], shares["implicit"] + 0.1)
+        self.assertLess(guided["felt_share"].max(), 1.1)
 
 
 if __name__ == "__main__":

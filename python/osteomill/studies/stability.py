@@ -47,6 +47,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--onset", action="store_true",
                         help="instead of the map: a burr enters bone; the share of the exact answer's peak that the hand feels, beside "
                         "that of an ideal spring")
+    parser.add_argument("--feed-forward", action="store_true",
+                        help="implicit with its feed-forward of bone's change (coupling.feed_forward of a scene); with --onset both are "
+                        "run and drawn, with and without")
     parser.add_argument("--seed", type=whole_within(0, 2**63 - 1), default=1, metavar="N",
                         help="of the random walks or motions (%(default)s)")
 
@@ -87,7 +90,8 @@ def selected_points(options: argparse.Namespace) -> list[Point]:
     """A list that was not given leaves its axis whole."""
     wanted = {"method": options.methods, "grip": options.grips, "milling_rate_hz": options.milling_rates_hz,
               "delay_ticks": options.delays}
-    return [point for point in map_points(options.quick, options.edge_forces)
+    fed = {"feed_forward": True} if options.feed_forward else {}
+    return [point | fed for point in map_points(options.quick, options.edge_forces)
             if all(not values or point[key] in values for key, values in wanted.items())]
 
 
@@ -124,7 +128,7 @@ def run_map(options: argparse.Namespace, study: StudyRun) -> None:
     whole = stability_map.map_of(points, outcomes)
     selection = {"quick": options.quick, "methods": options.methods or [], "grips": options.grips or [],
                  "milling_rates_hz": options.milling_rates_hz or [], "delays_ticks": options.delays or [],
-                 "edge_forces": options.edge_forces}
+                 "edge_forces": options.edge_forces, "feed_forward": options.feed_forward}
     tables = {"map": stability_map.table_of(whole, outcomes[0]), "region_rows": stability_regions.row_table_of(whole),
               "errors": stability_regions.error_table_of(whole)}
     for scene in ("cutting", "wall"):

@@ -31,14 +31,18 @@ POINTS_BAR = 3.0
 def cases_of(options: argparse.Namespace) -> list[Case]:
     speeds_rpm, hands = (SPEEDS_RPM[:1], HANDS_MM_PER_S[1:2]) if options.quick else (SPEEDS_RPM, HANDS_MM_PER_S)
     return [{"method": method, "kind": kind, "is_guided": is_guided, "stiffness_n_per_mm": stiffness, "damping_n_s_per_mm": damping,
-             "rpm": rpm, "speed_mm_per_s": speed}
-            for method in options.methods or ["implicit"] for kind in (*PLUNGES, ENTRY) for is_guided in (False, True)
+             "rpm": rpm, "speed_mm_per_s": speed, "feed_forward": feed_forward}
+            for method in options.methods or ["implicit"] for feed_forward in (False, True)[:1 + options.feed_forward] for kind in (*PLUNGES, ENTRY) for is_guided in (False, True)
             for stiffness, damping in SPRINGS for rpm in speeds_rpm for speed in hands]
 
 
 def name_of(case: Case) -> str:
     return (f"{case['kind']} at {case['speed_mm_per_s']:g} mm/s and {case['rpm']:g} rpm, {hand_of(case)}, "
-            f"{case['stiffness_n_per_mm']:g} N/mm, {case['method']}")
+            f"{case['stiffness_n_per_mm']:g} N/mm, {method_of(case)}")
+
+
+def method_of(case: Case) -> str:
+    return case["method"] + (" with feed-forward" if case["feed_forward"] else "")
 
 
 def hand_of(case: Case) -> str:
@@ -50,25 +54,26 @@ def measure(case: Case) -> dict[str, float]:
     return _studies.run_onset(
         Burr(diameter_mm=BURR_MM, rpm=case["rpm"]), is_entry=is_entry, up=(0.0, 0.0, 1.0) if is_entry else PLUNGES[case["kind"]],
         way_mm=1.5 if is_entry else 0.5, speed_mm_per_s=case["speed_mm_per_s"], method=case["method"],
-        stiffness_n_per_mm=case["stiffness_n_per_mm"], damping_n_s_per_mm=case["damping_n_s_per_mm"], is_guided=case["is_guided"])[0]
+        stiffness_n_per_mm=case["stiffness_n_per_mm"], damping_n_s_per_mm=case["damping_n_s_per_mm"], is_guided=case["is_guided"],
+        feed_forward=case["feed_forward"])[0]
 
 
 def share_of_peak(stiffness_n_per_mm: float) -> float:
     """The share of the exact peak that a firm hand feels with that spring and 4 N s/m, in a plunge at 20 mm/s and 40 000 rpm."""
     peaks = measure({"method": "implicit", "kind": "plunge aslant", "is_guided": True, "stiffness_n_per_mm": stiffness_n_per_mm,
-                     "damping_n_s_per_mm": 0.004, "rpm": 40e3, "speed_mm_per_s": 20.0})
+                     "damping_n_s_per_mm": 0.004, "rpm": 40e3, "speed_mm_per_s": 20.0, "feed_forward": False})
     return peaks["felt_peak_n"] / peaks["exact_peak_n"]
 
 
 def table_of(cases: list[Case], outcomes: list[dict[str, float]]) -> pd.DataFrame:
     """A line for each case: peaks, shares of the exact one, and by how many points the felt one misses the ideal."""
-    table = pd.DataFrame([case | {"hand": hand_of(case)} | outcome for case, outcome in zip(cases, outcomes)])
+    table = pd.DataFrame([case | {"hand": hand_of(case), "method": method_of(case)} | outcome for case, outcome in zip(cases, outcomes)])
     table["ideal_share"] = table["ideal_peak_n"] / table["exact_peak_n"]
     table["felt_share"] = table["felt_peak_n"] / table["exact_peak_n"]
     table["points"] = 100.0 * (table["felt_share"] - table["ideal_share"])
     table["ideal_late_ms"] = table["ideal_half_ms"] - table["exact_half_ms"]
     table["felt_late_ms"] = table["felt_half_ms"] - table["exact_half_ms"]
-    return table.drop(columns=["is_guided", "exact_half_ms", "ideal_half_ms", "felt_half_ms"])
+    return table.drop(columns=["is_guided", "feed_forward", "exact_half_ms", "ideal_half_ms", "felt_half_ms"])
 
 
 def lines_of(table: pd.DataFrame) -> list[str]:
@@ -103,4 +108,8 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
         study.say(line)
     if (table["method"] == "implicit").any():
         study.say(bar_line_of(table))
+    if options.feed_forward:
+        from osteomill.studies.stability_onset_chart import chart_of
+
+        study.chart("onset", chart_of(table))
     study.say(f"onset.csv is in {study.out}")

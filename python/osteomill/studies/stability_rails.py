@@ -31,13 +31,14 @@ def motion_of(case: dict[str, Any]) -> _studies.SteadyCase:
 
 
 def measure(case: dict[str, Any]) -> dict[str, Any]:
-    hand_n, model_n, is_driven = _studies.run_on_rails(motion_of(case), case["method"])
+    hand_n, model_n, is_driven = _studies.run_on_rails(motion_of(case), case["method"], case["feed_forward"])
     return {"error": relative_error(hand_n, model_n), "is_driven": is_driven}
 
 
 def run(options: argparse.Namespace, study: StudyRun) -> None:
     methods = options.methods or ["implicit"]
-    drawn = {"count": options.rails, "seed": options.seed, "edge_forces": options.edge_forces}
+    drawn = {"count": options.rails, "seed": options.seed, "edge_forces": options.edge_forces,
+             "feed_forward": options.feed_forward}
     cases = [drawn | {"method": method, "index": index} for method in methods
              for index in range(len(_motions(options.rails, options.seed)))]
     outcomes = study.sweep(measure, cases, lambda case: f"{case['method']}, {motion_of(case).name}")

@@ -46,7 +46,7 @@ def cases_of(options: argparse.Namespace) -> list[Case]:
                        for index in range(len(_named(diameter_mm, rpm)))]
     places += [{"of": "tilts", "index": index} for index in range(len(_tilts()))]
     places += [{"of": "walks", "seed": options.seed, "index": number} for number in range(1, options.walks + 1)]
-    made = [place | its_hand | {"method": method, "edge_forces": options.edge_forces}
+    made = [place | its_hand | {"method": method, "edge_forces": options.edge_forces, "feed_forward": options.feed_forward}
             for method in options.methods or ["implicit"] for its_hand in hands for place in places]
     return [case for case in made if options.only in name_of(case)]
 
@@ -83,7 +83,8 @@ def measure(has_trace: bool, case: Case) -> dict[str, Any]:
     if case["edge_forces"]:
         site = site.with_edges(EDGES_N_PER_MM)
     verdict, trace = _studies.run_site(site, method=case["method"], grip=case["grip"],
-                                       is_ideal_device=case["is_ideal_device"], delay_ticks=case["delay_ticks"])
+                                       is_ideal_device=case["is_ideal_device"], delay_ticks=case["delay_ticks"],
+                                       feed_forward=case["feed_forward"])
     return {"kind": site.kind} | verdict | ({"trace": trace} if has_trace else {})
 
 
@@ -148,6 +149,6 @@ def summary_of(sites: pd.DataFrame, options: argparse.Namespace) -> dict[str, An
 
 def command_of(name: str, options: argparse.Namespace) -> str:
     return "".join(["osteomill_study stability --sites", " --quick" if options.quick else "",
-                    " --edge-forces" if options.edge_forces else "",
+                    " --edge-forces" if options.edge_forces else "", " --feed-forward" if options.feed_forward else "",
                     f" --walks {options.walks} --seed {options.seed}" if options.walks else "",
                     f" --methods {','.join(options.methods or ['implicit'])} --only '{name}'"])

@@ -24,6 +24,7 @@ struct MapCase {
     MapGrip grip = MapGrip::light;
     double milling_rate_hz = 1000.0;
     int delay_ticks = 0;  ///< haptic ticks from a reading of the device to its force, beyond the loop's own
+    bool feed_forward = false;    ///< of bone's change, of a method that has one
     bool is_ideal_device = true;  ///< no encoder steps and no Coulomb friction: they hide limit cycles
 
     double spindle_rpm = 10'000.0;    ///< cutting

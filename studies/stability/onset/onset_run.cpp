@@ -164,10 +164,11 @@ class IdealBurr {
 /// The program's coupling beside the milling model.
 class CoupledBurr {
   public:
-    CoupledBurr(const Onset& onset, const OnsetLine& line, const PatientLimits& arm, const std::string& name)
+    CoupledBurr(const Onset& onset, const OnsetLine& line, const PatientLimits& arm, const OnsetHand& hand)
         : line_(line),
           model_(bone_of(onset), {onset.burr}, {}),
-          coupling_(make_coupling(coupling_named(name), {.device = arm})) {
+          coupling_(make_coupling(coupling_named(hand.coupling),
+                                  {.device = arm, .feed_forward = hand.feed_forward})) {
         for (const bool spindle_on : {false, true}) mill(line.at(0.0), spindle_on, 0.0);
     }
 
@@ -229,7 +230,7 @@ OnsetRun run_onset(const Onset& onset, const OnsetHand& hand) {
     arm.max_stiffness_n_per_mm = hand.stiffness_n_per_mm;
     arm.damping_n_s_per_mm = hand.damping_n_s_per_mm;
     IdealBurr ideal(arm, impulse, line);
-    CoupledBurr coupled(onset, line, arm, hand.coupling);
+    CoupledBurr coupled(onset, line, arm, hand);
     return {.exact_n = exact_forces(onset, impulse, hand.is_guided),
             .ideal_n = sampled_forces(onset, line, hand.is_guided,
                                       [&](const HandOnLine& at, double) { return ideal.tick(at.way_mm()); }),

@@ -22,6 +22,7 @@ namespace osteomill::study {
 
 struct OnsetHand {
     std::string coupling = "implicit";  ///< as of --coupling
+    bool feed_forward = false;          ///< of bone's change, of a coupling that has one
     double stiffness_n_per_mm = 1.5;    ///< of the spring, above 0
     double damping_n_s_per_mm = 0.004;
     bool is_guided = false;  ///< by a firm hand; else prescribed

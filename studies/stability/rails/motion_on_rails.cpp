@@ -40,7 +40,7 @@ std::vector<SteadyCase> motions_on_rails(int count, std::uint64_t seed) {
     return motions;
 }
 
-OnRails run_on_rails(const SteadyCase& c, const std::string& coupling_name) {
+OnRails run_on_rails(const SteadyCase& c, const std::string& coupling_name, bool feed_forward) {
     const glm::dvec3 start_mm = (c.burr.radius_mm() - c.depth_mm) * c.up;
     const glm::dvec3 end_mm = start_mm + (ticks_to_get_there + measured_ticks) * tick_s * c.velocity_mm_per_s;
     // The burr yields: it lags, and is pushed out and aside by some tenths of a millimetre.
@@ -49,7 +49,8 @@ OnRails run_on_rails(const SteadyCase& c, const std::string& coupling_name) {
                           .high_mm = glm::max(start_mm, end_mm) + margin_mm,
                           .up = c.up};
     MillingModel model(voxelised(block, rail_voxel_mm), {c.burr}, {});
-    const auto coupling = make_coupling(coupling_named(coupling_name), {});
+    const auto coupling =
+        make_coupling(coupling_named(coupling_name), {.device = {}, .feed_forward = feed_forward});
     ForgottenChanges changes;
     const auto latest = std::make_unique<MillingResult>();
     const auto mill = [&](const ToolPose& pose, bool spindle_on, double now_s) {

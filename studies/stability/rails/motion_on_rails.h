@@ -25,6 +25,6 @@ struct OnRails {
 /// A quarter of a second of `c` with the coupling of that name, after three quarters to get there: milling
 /// and haptic loop at 1 kHz, in turns, a device without steps or friction that goes where it is meant to.
 /// Throws std::invalid_argument for an unknown coupling.
-OnRails run_on_rails(const SteadyCase& c, const std::string& coupling);
+OnRails run_on_rails(const SteadyCase& c, const std::string& coupling, bool feed_forward = false);
 
 }  // namespace osteomill::study

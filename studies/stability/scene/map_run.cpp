@@ -39,8 +39,9 @@ double most_off_the_truth_mm(const ScenePlan& plan, const std::vector<TruthTick>
     return astray_mm + highest->tool_mm.z - lowest->tool_mm.z;
 }
 
-Scene scene_of(const ScenePlan& plan) {
+Scene scene_of(const MapCase& c, const ScenePlan& plan) {
     Scene scene;
+    scene.feed_forward = c.feed_forward;
     scene.burrs = {plan.burr};
     scene.start_pose.position_mm = guided_position_mm(plan, plan.timing.guided);
     return scene;
@@ -50,7 +51,7 @@ RunRecord run_session(const MapCase& c, const ScenePlan& plan, const Bone& bone,
                       const std::vector<TruthTick>& truth) {
     const std::size_t ticks = plan.timing.guided + plan.timing.released();
     BenchDevice device(c, plan);
-    MillingSession session(scene_of(plan), bone, device,
+    MillingSession session(scene_of(c, plan), bone, device,
                            {.clock = ClockKind::virtual_time,
                             .milling_rate_hz = c.milling_rate_hz,
                             .coupling = coupling_named(c.method),

@@ -93,6 +93,7 @@ SiteRun run_site(const Site& site, const SiteHand& hand) {
     SiteDevice device(site, hand);
     Scene scene;
     scene.burrs = {site.burr};
+    scene.feed_forward = hand.feed_forward;
     scene.start_pose = site.motion.front().pose;
     MillingSession session(scene, bone, device,
                            {.clock = ClockKind::virtual_time,

@@ -17,6 +17,7 @@ namespace osteomill::study {
 /// How a site is worked on.
 struct SiteHand {
     std::string method = "implicit";  ///< as of --coupling
+    bool feed_forward = false;        ///< of bone's change, of a method that has one
     Grip grip = Grip::firm;
     bool is_ideal_device = true;  ///< no encoder steps and no Coulomb friction
     int delay_ticks = 0;          ///< from a reading of the device to its force, beyond the loop's own

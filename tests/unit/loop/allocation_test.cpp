@@ -44,6 +44,7 @@ struct Rig {
                             {.device = in_patient_space(device.limits(), ArmScale()),
                              .milling_period_s = 0.001,
                              .model_holds_wall = !osteomill::find_force_model(force_model).has_cutting_law,
+                             .feed_forward = true,
                              .fixtures = fixtures})),
           vibration({used}, {.max_force_n = 3.3, .max_slew_n_per_s = ForceGuard::slew_n_per_s}),
           haptic({device, *coupling, *results, commands, tool, status, &log, &vibration, &gate},

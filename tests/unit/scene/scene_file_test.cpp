@@ -229,7 +229,7 @@ TEST(SceneFile, IsWrittenWithEveryKeyThatHasAValue) {
         EXPECT_EQ(parse_scene(text, "again.toml"), scene) << entry.path();
         for (const char* key :
              {"wall_friction = ", "force_scale = ", "knots = ", "cutting_coefficients_n_per_mm2 = ",
-              "rotation = ", "spindle_axis = ", "speed_mm_per_s = "})
+              "feed_forward = ", "rotation = ", "spindle_axis = ", "speed_mm_per_s = "})
             EXPECT_THAT(text, HasSubstr(key)) << entry.path();
     }
 }
@@ -322,6 +322,15 @@ TEST(SceneFile, MakesForcesOfCuttingLargerForAnArmThatNeedsIt) {
     EXPECT_EQ(felt.cutting_coefficients_n_per_mm2, 2.0 * own.cutting_coefficients_n_per_mm2);
     EXPECT_EQ(felt.edge_coefficients_n_per_mm, 2.0 * own.edge_coefficients_n_per_mm);
     EXPECT_THAT(error_of("force_scale = 0\n" + smallest), HasSubstr("'force_scale' is 0"));
+}
+
+TEST(SceneFile, SaysWhetherTheCouplingFeedsForward) {
+    EXPECT_FALSE(parse_scene(smallest, "my.toml").feed_forward);
+    const Scene scene = parse_scene(smallest + "[coupling]\nfeed_forward = true\n", "my.toml");
+    EXPECT_TRUE(scene.feed_forward);
+    EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene);
+    EXPECT_THAT(error_of(smallest + "[coupling]\nfeed_forward = 1\n"), HasSubstr("true or false"));
+    EXPECT_THAT(error_of(smallest + "[coupling]\nstiffness = 1\n"), HasSubstr("stiffness"));
 }
 
 TEST(SceneFile, ReadsAndWritesHeadsThatAreNoBall) {
