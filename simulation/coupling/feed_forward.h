@@ -1,11 +1,12 @@
 // The force of bone's change, which a spring passes too late: what a burr that is rigidly the hand would feel
 // beyond the spring's force, for as long as the spring takes to catch up.
 //
-//     b  = min(B, 150 N s/m)                        B: resistance of the bone to the burr along the hand's
-//     way s' = (b - s) / 80 ms                          its slow part f' = d(e)/dt v - f / tau e: b - s
-//     beyond a quarter of s, differentiated at that s 0 <= f <= max(0, B v - |u|)                   u: the
-//     spring's force against the way tau = min(60 ms, B / K)                       K: the spring; so long it
-//     takes to catch up
+//     b  = min(B, 150 N s/m)          B: resistance of bone to a burr on the hand's way
+//     s' = (b - s) / 80 ms            its slow part
+//     e  = b - s, less s / 4          0 within that dead zone
+//     f' = d(e)/dt v - f / tau        e differentiated at a constant s
+//     tau = min(60 ms, B / K)         K: the spring's, which takes so long to catch up
+//     0 <= f <= max(0, B v - |u|)     u: the spring's force against the way
 //
 // A spring K before a resistance B is a low pass of B / K, and f is what it leaves of a step of B: both
 // together are B v at once. Since f comes from changes of the bone alone, it is zero in bone that resists
