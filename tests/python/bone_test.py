@@ -124,7 +124,7 @@ class BoneTest(unittest.TestCase):
     def test_of_a_session_that_went_on_counts_what_it_removed(self):
         with tempfile.TemporaryDirectory() as folder:
             saved = pathlib.Path(folder) / "left.nrrd"
-            measured, _, _ = run_server(pathlib.Path(folder), "--duration-s", "3.5", "--save-bone", str(saved))
+            measured, *_ = run_server(pathlib.Path(folder), "--duration-s", "3.5", "--save-bone", str(saved))
             case = om.Case("tooth", bone=saved)
             self.assertEqual(case.bone.checksum(), measured["bone_checksum"])
             self.assertLess(case.bone.volume_mm3, tooth().bone.volume_mm3)

@@ -94,8 +94,8 @@ class DatasetTest(unittest.TestCase):
         (cls.folder / "hand.csv").write_text(TRAJECTORY)
         (cls.folder / "cameras.toml").write_text(CAMERAS)
         (cls.folder / "path.csv").write_text(PATH)
-        cls.measured, cls.log, _ = run_server(cls.folder, "--scene", "tooth", "--record", cls.folder / "s.pcap",
-                                              "--trajectory", cls.folder / "hand.csv", "--duration-s", "2.4")
+        cls.measured, cls.log, *_ = run_server(cls.folder, "--scene", "tooth", "--record", cls.folder / "s.pcap",
+                                               "--trajectory", cls.folder / "hand.csv", "--duration-s", "2.4")
         cls.make("set", "--dataset-images", "colour,depth,ray-depth,labels,normals")
         (cls.folder / "fine.toml").write_text(FINE_CAMERAS)
         cls.look_at(cls, "set")

@@ -47,7 +47,7 @@ class Converted(unittest.TestCase):
         (cls.folder / "hand.csv").write_text(TRAJECTORY)
         (cls.folder / "controls.csv").write_text(CONTROLS)
         cls.pcap = cls.folder / "session.pcap"
-        cls.measured, cls.log, _ = run_server(
+        cls.measured, cls.log, *_ = run_server(
             cls.folder, "--record", cls.pcap, "--trajectory", cls.folder / "hand.csv", "--controls",
             cls.folder / "controls.csv", "--trainee", "Anna", "--duration-s", "5.9")
         cls.recording = om.Recording(cls.pcap)
