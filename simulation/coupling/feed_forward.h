@@ -1,27 +1,29 @@
 // The force of bone's change, which a spring passes too late: what a burr that is rigidly the hand would feel
 // beyond the spring's force, for as long as the spring takes to catch up.
 //
-//     b  = min(B, 150 N s/m)          B: resistance of bone to a burr on the hand's way
-//     s' = (b - s) / 80 ms            its slow part
-//     e  = b - s, less s / 4          0 within that dead zone
-//     f' = d(e)/dt v - f / tau        e differentiated at a constant s
-//     tau = min(60 ms, B / K)         K: the spring's, which takes so long to catch up
-//     0 <= f <= max(0, B v - |u|)     u: the spring's force against the way
+//     b = min(B, 150 N s/m),  s' = (b - s) / 80 ms
+//     f' = d(e)/dt v - f / tau,  tau = min(60 ms, B / K)
+//     0 <= f <= max(0, B v - |u|)
+//
+// with B the resistance of the bone to the burr along the hand's way, s its slow part, e what of b - s is
+// beyond a quarter of s (differentiated at that s), v the hand's speed, K the spring and u its force along
+// the way.
 //
 // A spring K before a resistance B is a low pass of B / K, and f is what it leaves of a step of B: both
-// together are B v at once. Since f comes from changes of the bone alone, it is zero in bone that resists
-// evenly, however the hand moves, and takes nothing from the range in which the spring is stable. Open loop,
-// as event transients are (Kuchenbecker, Fiene and Niemeyer 2006), so it is bounded: it only resists, with
-// the spring it is never more than the rigid burr's force, and its step in a tick is at most 0.1 N, with the
-// spring's 0.15 N, or what the spring alone makes. Of bone that ends the spring lets go by itself; a force
-// below 0, which would take from the spring's, helped no hand and strayed farther from the model's force.
+// together are B v at once. In bone that resists evenly f is zero, however the hand moves, so it takes
+// nothing from the range in which the spring is stable. It is open loop, as event transients are
+// (Kuchenbecker, Fiene and Niemeyer 2006), and bounded: it only resists; with the spring it tends to no more
+// than the rigid burr's force; its step in a tick is at most 0.1 N, with the spring's 0.15 N, or what the
+// spring alone makes. A step that is cut short comes in the ticks after, while there is cause. Of bone that
+// ends the spring lets go by itself: an f below 0, tried, strayed farther from the model's force.
 //
-// Three axes: f acts along the way of the hand, and B is the bone's force on a burr that goes that way with 1
-// mm/s, its part against the way. A full 3 x 3 law would feed the edges' sideways pull forward, too, which is
-// up to six times as strong and drives the burr: no force that only resists. The way is the hand's velocity
-// over 30 ms, v the part along it of the velocity over 5 ms. A way by the last 5 ms turned round with each
-// swing of a hand on the spring; bone that the burr has just cut then resisted nothing, and the next forward
-// swing met it anew: a limit cycle in slots of 350 to 440 N s/m.
+// Three axes: f acts along the way of the hand, and B is the part against that way of the bone's force on a
+// burr that goes there with 1 mm/s. Sideways nothing is fed forward: the edges' pull across the way is up to
+// six times as strong and does work on a hand that it turns aside. So where a burr enters the side of a
+// block, and that pull is most of the force, f is next to nothing. The way is the hand's velocity over 30 ms,
+// v the part along it of the velocity over 5 ms. A way by the last 5 ms turned round with each swing of a
+// hand on the spring; bone that was just cut then resisted nothing, and the next forward swing met it anew:
+// a limit cycle in slots of 350 to 440 N s/m.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +56,11 @@ class FeedForward {
         smooth_mm_per_s_ += tick_s / (way_s + tick_s) * (velocity_mm_per_s_ - smooth_mm_per_s_);
         hand_mm_ = hand_mm;
         const double speed_mm_per_s = glm::length(smooth_mm_per_s_);
-        if (speed_mm_per_s > at_rest_mm_per_s) way_ = smooth_mm_per_s_ / speed_mm_per_s;
+        if (speed_mm_per_s > at_rest_mm_per_s) {
+            const glm::dvec3 before = way_;
+            way_ = smooth_mm_per_s_ / speed_mm_per_s;
+            wanted_n_ *= std::max(0.0, glm::dot(before, way_));
+        }
         along_mm_per_s_ = std::max(0.0, glm::dot(velocity_mm_per_s_, way_));
         return std::max(least_step_mm, along_mm_per_s_ * tick_s) * way_;
     }
@@ -68,13 +74,12 @@ class FeedForward {
         last_n_s_per_mm_ = now_n_s_per_mm;
 
         const double lasts_s = std::min(longest_s, resistance_n_s_per_mm / spring_n_per_mm_);
-        const double before_n = -glm::dot(force_n_, way_);
-        const double against_n =
-            (before_n + change_n_s_per_mm * along_mm_per_s_) * lasts_s / (lasts_s + tick_s);
         const double rigid_n = resistance_n_s_per_mm * along_mm_per_s_;
         const double left_n = rigid_n - std::abs(glm::dot(spring_n, way_));
-        const double bounded_n = std::clamp(against_n, 0.0, std::max(0.0, left_n));
-        force_n_ += within_jump(-bounded_n * way_ - force_n_, spring_n - spring_n_);
+        wanted_n_ =
+            std::clamp((wanted_n_ + change_n_s_per_mm * along_mm_per_s_) * lasts_s / (lasts_s + tick_s), 0.0,
+                       std::max(0.0, left_n));
+        force_n_ += within_jump(-wanted_n_ * way_ - force_n_, spring_n - spring_n_);
         spring_n_ = spring_n;
         return force_n_;
     }
@@ -125,6 +130,7 @@ class FeedForward {
     double along_mm_per_s_ = 0.0;
     double slow_n_s_per_mm_ = 0.0;
     double last_n_s_per_mm_ = 0.0;
+    double wanted_n_ = 0.0;     // against the way: f, which force_n_ follows within its steps
     glm::dvec3 spring_n_{0.0};  // in the last tick, as force_n_
     glm::dvec3 force_n_{0.0};
 };

@@ -35,5 +35,5 @@ def chart_of(table: pd.DataFrame) -> Figure:
         rows[1, column].minorticks_off()
     rows[0, 0].set_ylabel("share of the exact peak")
     rows[1, 0].set_ylabel("half of it, ms later")
-    figure.legend(*rows[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    rows[0, 0].legend(loc="lower left", fontsize="small")
     return figure
