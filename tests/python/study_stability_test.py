@@ -219,7 +219,7 @@ class OnsetTest(unittest.TestCase):
         words = ("--onset", "--quick", "--feed-forward")
         with run_of("stability", stability, *words) as (out, said):
             table = pd.read_csv(out / "onset.csv")
-            self.assertIn("implicit with feed-forward", (out / "onset.svg").read_text())
+            self.assertIn("N/mm with feed-forward", (out / "onset.svg").read_text())
         self.assertIn("met    16 of 16 plunges within 3 points", said, "without it")
         # A firm hand's plunge at 20 mm/s, on the springs of arms that there are.
         guided = table[(table["hand"] == "guided") & (table["kind"] != stability_onset.ENTRY) & (table["stiffness_n_per_mm"] < 5.0)]

@@ -27,7 +27,7 @@ def chart_of(table: pd.DataFrame) -> Figure:
                     ["felt_share", "felt_late_ms"]].mean()
                 for axes, number in zip(rows[:, column], ("felt_share", "felt_late_ms")):
                     axes.plot(means.index, means[number], style, marker="o", markersize=3, color=colour,
-                              label=f"{stiffness:g} N/mm, {method}")
+                              label=f"{stiffness:g} N/mm {method.partition(' ')[2]}")
         rows[0, column].set(title=way, ylim=(0.0, 1.15))
         rows[0, column].axhline(1.0, color=charts.BLACK, linewidth=0.6)
         rows[1, column].set(xlabel="speed of the hand, mm/s", xscale="log")
@@ -35,5 +35,5 @@ def chart_of(table: pd.DataFrame) -> Figure:
         rows[1, column].minorticks_off()
     rows[0, 0].set_ylabel("share of the exact peak")
     rows[1, 0].set_ylabel("half of it, ms later")
-    rows[0, 0].legend(loc="lower left", fontsize="small")
+    rows[0, min(1, len(ways) - 1)].legend(loc="lower left", fontsize="x-small")
     return figure
