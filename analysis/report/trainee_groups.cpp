@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <sstream>
@@ -66,6 +67,15 @@ std::string spreadsheet_text(const std::filesystem::path& file) {
     return lines;
 }
 
+/// As teachers write it.
+bool are_experts(std::string group) {
+    for (char& letter : group)
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    constexpr std::array<std::string_view, 6> words{"expert",   "experts",  "experte",
+                                                    "experten", "expertin", "expertinnen"};
+    return std::ranges::find(words, group) != words.end();
+}
+
 }  // namespace
 
 std::map<std::string, TraineeGroup> trainee_groups(const std::filesystem::path& file) {
@@ -86,7 +96,8 @@ std::map<std::string, TraineeGroup> trainee_groups(const std::filesystem::path& 
         if (cells.size() < 2) fail("a line is TRAINEE,GROUP");
         if (number == 1 && cells.size() > 2 && trimmed(cells.front()) == "trainee")
             fail(fmt::format("has {} columns; a line is TRAINEE,GROUP alone", cells.size()));
-        const std::string group = trimmed(cells.back());
+        std::string group = trimmed(cells.back());
+        if (are_experts(group)) group = expert_group;
         cells.pop_back();
         const std::string trainee = trimmed(fmt::format("{}", fmt::join(cells, ",")));
         if (number == 1 && trainee == "trainee" && group == "group") continue;

@@ -1,7 +1,8 @@
 // Groups of trainees, from a teacher's file groups.csv, a line TRAINEE,GROUP each.
 //
-// Others are shown against the group "expert". A first line "trainee,group" is a heading. Lines may end as on
-// any system; text that is no UTF-8 is read as Windows-1252, as Excel saves a CSV in western Europe.
+// Others are shown against the group "expert", also written "Experts" or as in German. A first line
+// "trainee,group" is a heading. Lines may end as on any system; text that is no UTF-8 is read as
+// Windows-1252, as Excel saves a CSV in western Europe.
 #pragma once
 
 #include <filesystem>

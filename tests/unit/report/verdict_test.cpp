@@ -119,6 +119,9 @@ TEST(TraineeGroups, AreALineEach) {
     EXPECT_EQ(written("trainee,group\rAnna, A.,novice\rEva,expert\r"), two) << "as an old Mac ends lines";
     const std::map<std::string, std::string> german{{"J\xc3\xbcrgen \xe2\x80\x93", "expert"}};
     EXPECT_EQ(written("trainee;group\r\nJ\xfcrgen \x96;expert\r\n"), german) << "as German Excel saves a CSV";
+    for (const char* word : {"Expert", "experts", "Experte", "EXPERTIN", "Experten"})
+        EXPECT_EQ(written(std::string("Eva;") + word).at("Eva"), "expert") << word;
+    EXPECT_EQ(written("Eva;expert in 2027").at("Eva"), "expert in 2027");
     std::ofstream(file) << "trainee,group\r\n\r\nEva,expert\r\n";
     EXPECT_EQ(trainee_groups(file).at("Eva"), (TraineeGroup{"expert", 3}));
     const auto error_of = [&](const std::string& text) {
