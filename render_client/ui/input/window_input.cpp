@@ -1,5 +1,7 @@
 #include "render_client/ui/input/window_input.h"
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace osteomill {
@@ -16,6 +18,11 @@ void WindowInput::append(const WindowInput& later) {
         went_down[i] = went_down[i] || before.went_down[i];
         if (!pressed_at[i]) pressed_at[i] = before.pressed_at[i];
         if (!released_at[i]) released_at[i] = before.released_at[i];
+    }
+    const bool clicked_before = std::ranges::any_of(before.went_down, std::identity{});
+    for (TypedCharacter& character : typed) {
+        character.after_presses += before.presses.size();
+        character.after_click = character.after_click || clicked_before;
     }
     presses.insert(presses.begin(), before.presses.begin(), before.presses.end());
     typed.insert(typed.begin(), before.typed.begin(), before.typed.end());

@@ -21,6 +21,15 @@ struct KeyPress {
     bool operator==(const KeyPress&) const = default;
 };
 
+/// A character, as the keyboard's layout makes it.
+struct TypedCharacter {
+    TypedCharacter(char32_t is, std::size_t presses_before = 0, bool comes_after_click = false)
+        : character(is), after_presses(presses_before), after_click(comes_after_click) {}
+    char32_t character;
+    std::size_t after_presses;  ///< so many of the same input's keys went down before
+    bool after_click;           ///< a button of the mouse went down before
+};
+
 struct WindowInput {
     static constexpr std::size_t most_keys = 512;  ///< GLFW numbers fewer
     enum Button : std::size_t { left, right, middle, buttons };
@@ -42,9 +51,9 @@ struct WindowInput {
     /// Where it last went down, and up: the cursor may be elsewhere by now.
     std::array<std::optional<glm::dvec2>, buttons> pressed_at{}, released_at{};
     std::vector<KeyPress> presses{};  ///< though the key may be up again
-    std::vector<char32_t> typed{};    ///< characters, as the keyboard's layout makes them
-    glm::dvec2 wheel{0.0};            ///< notches
-    bool has_news = false;            ///< anything happened, or part of the window has to be shown anew
+    std::vector<TypedCharacter> typed{};
+    glm::dvec2 wheel{0.0};  ///< notches
+    bool has_news = false;  ///< anything happened, or part of the window has to be shown anew
 
     /// Pixels of the picture in a unit of the window.
     glm::dvec2 px_per_unit() const { return glm::dvec2(framebuffer_size_px) / size; }

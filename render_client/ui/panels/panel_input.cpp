@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/vec2.hpp>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -24,6 +25,12 @@ constexpr std::array panel_keys{
     // With Ctrl: all, copy, paste, cut, redo, undo.
     std::pair{GLFW_KEY_A, ImGuiKey_A}, std::pair{GLFW_KEY_C, ImGuiKey_C}, std::pair{GLFW_KEY_V, ImGuiKey_V},
     std::pair{GLFW_KEY_X, ImGuiKey_X}, std::pair{GLFW_KEY_Y, ImGuiKey_Y}, std::pair{GLFW_KEY_Z, ImGuiKey_Z}};
+
+/// A press that Dear ImGui would not see, such as that of a letter without ctrl, takes no frame.
+bool is_seen(const KeyPress& press) {
+    if (press.key >= GLFW_KEY_A && press.key <= GLFW_KEY_Z && !press.ctrl) return false;
+    return std::ranges::any_of(panel_keys, [&](const auto& key) { return key.first == press.key; });
+}
 
 #if IMGUI_VERSION_NUM >= 18700
 
@@ -83,10 +90,18 @@ bool PanelInput::Button::next(bool is_pressed, bool is_held) {
 }
 
 std::optional<KeyPress> PanelInput::next_press(const WindowInput& input) {
-    waiting_.insert(waiting_.end(), input.presses.begin(), input.presses.end());
+    for (TypedCharacter character : input.typed) {
+        const auto end = input.presses.begin() + static_cast<std::ptrdiff_t>(character.after_presses);
+        const auto before = std::count_if(input.presses.begin(), end, is_seen);
+        character.after_presses = waiting_.size() + static_cast<std::size_t>(before);
+        typed_.push_back(character);
+    }
+    std::ranges::copy_if(input.presses, std::back_inserter(waiting_), is_seen);
+    const bool has_text = !typed_.empty() && typed_.front().after_presses == 0;
     std::optional<KeyPress> press;
     std::bitset<WindowInput::most_keys> down = keys_down_ & input.keys_down;
-    if (!waiting_.empty()) {
+    // A command acts on the text that is there: not in the frame that brings some of it.
+    if (!waiting_.empty() && !(has_text && waiting_.front().ctrl)) {
         const auto key = static_cast<std::size_t>(waiting_.front().key);
         if (keys_down_[key]) {
             down.reset(key);  // the release before the next press
@@ -114,22 +129,39 @@ void PanelInput::feed_button(WindowInput::Button button, const WindowInput& inpu
     io.MousePos = {at.x, at.y};
 }
 
+void PanelInput::feed_text(bool is_command, bool clicks, ImGuiIO& io) {
+    // Dear ImGui takes no text while ctrl is held.
+    while (!is_command && !typed_.empty() && typed_.front().after_presses == 0 &&
+           !(clicks && typed_.front().after_click)) {
+        io.AddInputCharacter(typed_.front().character);
+        typed_.pop_front();
+    }
+}
+
 bool PanelInput::feed(const WindowInput& input, ImGuiIO& io) {
     constexpr float nowhere = -std::numeric_limits<float>::max();
     const glm::vec2 at(input.cursor * input.px_per_unit());
     io.MousePos = input.has_cursor ? ImVec2(at.x, at.y) : ImVec2(nowhere, nowhere);
     // Dear ImGui counts left, right, middle, as WindowInput does.
-    for (const auto button : {WindowInput::left, WindowInput::right, WindowInput::middle})
+    bool clicks = false;
+    for (const auto button : {WindowInput::left, WindowInput::right, WindowInput::middle}) {
+        const bool was_down = buttons_[button].is_down;
         feed_button(button, input, io);
+        clicks = clicks || (buttons_[button].is_down && !was_down) || buttons_[button].waiting > 0;
+    }
     io.MouseWheel += static_cast<float>(input.wheel.y);
     io.MouseWheelH += static_cast<float>(input.wheel.x);
-    for (const char32_t character : input.typed) io.AddInputCharacter(character);
+    const std::optional<KeyPress> press = next_press(input);
     const KeyPress held =
-        next_press(input).value_or(KeyPress{.shift = input.shift, .ctrl = input.ctrl, .alt = input.alt});
+        press.value_or(KeyPress{.shift = input.shift, .ctrl = input.ctrl, .alt = input.alt});
+    feed_text(held.ctrl && !held.alt, clicks, io);
+    if (press)
+        for (TypedCharacter& character : typed_)
+            if (character.after_presses > 0) --character.after_presses;
     feed_modifiers(held.shift, held.ctrl, held.alt, io);
     for (const auto& [key, in_imgui] : panel_keys)
         feed_key(in_imgui, keys_down_[static_cast<std::size_t>(key)], io);
-    return !waiting_.empty() ||
+    return !waiting_.empty() || !typed_.empty() ||
            std::any_of(buttons_.begin(), buttons_.end(), [](const Button& b) { return b.waiting > 0; });
 }
 

@@ -24,8 +24,8 @@ void give_clipboard(Clipboard& clipboard, ImGuiIO& io);
 
 /// Mouse and keys, frame after frame. A press that is shorter than a frame lasts for one. Each frame presses
 /// one key, in order, with the keys that were held at its time; a key that is pressed again is released
-/// first. A button goes down and up where the pointer was at that time. So no press is lost or mistaken,
-/// however long a frame takes.
+/// first. A button goes down and up where the pointer was at that time. A character comes after the clicks
+/// and the keys that came before it. So nothing is lost or mistaken, however long a frame takes.
 class PanelInput {
   public:
     /// Whether presses wait for the frames after the next one.
@@ -43,7 +43,11 @@ class PanelInput {
     /// The press that the next frame sees, if one is due; keys are up and down by it and by `input`.
     std::optional<KeyPress> next_press(const WindowInput& input);
 
+    /// The characters that are due in a frame of this key, and whose button goes down in it or not.
+    void feed_text(bool is_command, bool clicks, ImGuiIO& io);
+
     std::deque<KeyPress> waiting_;
+    std::deque<TypedCharacter> typed_;  ///< after_presses: of waiting_
     std::bitset<WindowInput::most_keys> keys_down_;
     std::array<Button, WindowInput::buttons> buttons_{};
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <glm/common.hpp>
 #include <stdexcept>
 
@@ -93,7 +94,9 @@ void Window::watch_input() {
                                      .alt = (held & GLFW_MOD_ALT) != 0});
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {
-        input_of(window).typed.push_back(character);
+        WindowInput& input = input_of(window);
+        const bool after_click = std::ranges::any_of(input.went_down, std::identity{});
+        input.typed.emplace_back(character, input.presses.size(), after_click);
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
         WindowInput& input = input_of(window);

@@ -131,6 +131,39 @@ TEST_F(PanelInputTest, CommandsOfOneSlowFrameComeInTheirOrderThoughCtrlIsUpAgain
     EXPECT_EQ(text(), "cdc");
 }
 
+TEST_F(PanelInputTest, TextOfOneSlowFrameComesAfterTheClickAndTheKeysBeforeIt) {
+    input_.has_cursor = true;
+    input_.cursor = {text_at_.x + 4.0, text_at_.y + 4.0};
+    input_.went_down[WindowInput::left] = true;
+    input_.typed = {{U'a', 0, true}, {U'b', 0, true}};
+    for (int i = 0; i < 3; ++i) draw();
+    EXPECT_EQ(text(), "ab");
+
+    // All is replaced by "c", and "d" comes in place of that.
+    input_.presses = {{.key = GLFW_KEY_LEFT_CONTROL},
+                      {.key = GLFW_KEY_A, .ctrl = true},
+                      {.key = GLFW_KEY_C},
+                      {.key = GLFW_KEY_BACKSPACE},
+                      {.key = GLFW_KEY_D}};
+    input_.typed = {{U'c', 3}, {U'd', 5}};
+    for (int i = 0; i < 6; ++i) draw();
+    EXPECT_EQ(text(), "d");
+    EXPECT_FALSE(is_waiting_);
+}
+
+TEST_F(PanelInputTest, LaterInputComesAfterTheInputThatNoFrameHasTaken) {
+    WindowInput before;
+    before.went_down[WindowInput::left] = true;
+    before.presses = {{GLFW_KEY_HOME}};
+    WindowInput later;
+    later.presses = {{GLFW_KEY_E}};
+    later.typed = {{U'e', 1}};
+    before.append(later);
+    ASSERT_EQ(before.typed.size(), 1U);
+    EXPECT_EQ(before.typed.front().after_presses, 2U);
+    EXPECT_TRUE(before.typed.front().after_click);
+}
+
 TEST_F(PanelInputTest, AKeyThatIsHeldIsPressedOnce) {
     click(button_at_);
     input_.cursor = {300.0, 250.0};
