@@ -110,9 +110,7 @@ struct PatchCrossings::Loops {
         Floats behind = fractions[2];
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{3}})
             behind = simd::larger(behind, fractions[i]);
-        // Within a burr that has not carved where it is, the ramp that others left would count as thin bone.
         behind = fractions[2] >= whole_near_face ? simd::floats(255.0f) : behind;
-        if (look.inside == InsideBurr::any) behind = simd::floats(255.0f);
         const Ints is_some = behind >= least_fraction;
         // From the outside inward, so the innermost crossing remains.
         Floats offset = simd::floats(0.0f);
