@@ -21,8 +21,8 @@ constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::re
 /// Of whole bone at least this much is seen half a voxel behind the face that a burr has just cut; so bone of
 /// more is whole.
 constexpr float whole_near_face = 0.85f * 255.0f;
-/// Less is the burr's own ramp, or dust.
-constexpr float least_fraction = 0.1f * 255.0f;
+/// Less may be the ramp of a wall beside the burr.
+constexpr float least_fraction = 0.3f * 255.0f;
 
 /// Fractions, 0 to 255, trilinear between the centres of voxels, at eight positions from the bricks' base.
 [[gnu::always_inline]] inline Floats fractions_at(const BrickNeighbourhood& bricks, Floats3 position) {
@@ -107,11 +107,10 @@ struct PatchCrossings::Loops {
         if (look.inside == InsideBurr::any || simd::bits_of(fractions[2] >= 0.5f * least_fraction) != 0)
             fractions[1] = sample(look, surface, outward, 1);
 
-        Floats behind = fractions[2];
-        for (const std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{3}})
-            behind = simd::larger(behind, fractions[i]);
+        Floats behind = simd::larger(fractions[2], fractions[3]);
         behind = fractions[2] >= whole_near_face ? simd::floats(255.0f) : behind;
-        const Ints is_some = behind >= least_fraction;
+        // If there is nothing to speak of ahead, a burr may yet stand in bone.
+        behind = behind >= least_fraction ? behind : simd::floats(255.0f);
         // From the outside inward, so the innermost crossing remains.
         Floats offset = simd::floats(0.0f);
         Floats bone_offset = offset;
@@ -120,7 +119,7 @@ struct PatchCrossings::Loops {
         for (std::size_t i = offsets_voxels.size(); i-- > 0;) {
             const bool is_far = i == 3;
             const Floats level = is_far ? simd::floats(surface_fraction) : 0.5f * behind;
-            const Ints is_in_bone = (fractions[i] >= level) & is_some;
+            const Ints is_in_bone = fractions[i] >= level;
             const Floats at = i == 0 ? simd::floats(offsets_voxels[0])
                                      : offsets_voxels[i - 1] + (offsets_voxels[i] - offsets_voxels[i - 1]) *
                                                                    (level - fractions[i - 1]) /
@@ -131,6 +130,10 @@ struct PatchCrossings::Loops {
             is_found |= is_in_bone;
         }
         if (simd::bits_of(is_found) == 0) return 0;
+        // Half of what a rim has is what a burr that touches it leaves inside itself.
+        const Floats outward_by = 0.5f - 0.5f * share;
+        const Floats put_right = offset + outward_by > 0.0f ? simd::floats(0.0f) : offset + outward_by;
+        offset = offset < 0.0f ? put_right : offset;
         std::size_t count = 0;
         for (unsigned left = simd::bits_of(is_found); left != 0; left &= left - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(left));

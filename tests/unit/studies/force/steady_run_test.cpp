@@ -61,6 +61,17 @@ TEST(SteadyRun, MovesForceAndRemovalWithTheSurface) {
     EXPECT_LT(relative_error(mean_force_n(b), mean_reference_force_n(motion_of(wall), bone_of(wall))), 0.02);
 }
 
+TEST(SteadyRun, FeelsTheSameWhereverTheSurfaceLiesInTheLattice) {
+    const glm::dvec3 in_place_n = mean_force_n(run_steady(slot(), {}, voxel_model()));
+    for (const double by : {-0.25, 0.25}) {
+        const glm::dvec3 moved_n = mean_force_n(run_steady(slot(), {.surface_voxels = by}, voxel_model()));
+        EXPECT_LT(relative_error(moved_n, in_place_n), 0.02) << by;
+        EXPECT_NE(moved_n, in_place_n);
+    }
+    const SteadyPath path = path_of(slot(), {.surface_voxels = 0.25});
+    EXPECT_NEAR(path.start_mm.z, 0.4 + 0.025, 1e-12);
+}
+
 TEST(SteadyRun, CutsLessWhereAGrooveWentBefore) {
     SteadyCase second = slot();
     second.previous_groove_mm_higher = 0.1;
