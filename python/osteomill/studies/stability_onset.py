@@ -42,7 +42,7 @@ def name_of(case: Case) -> str:
 
 
 def method_of(case: Case) -> str:
-    return case["method"] + (" with feed-forward" if case["feed_forward"] else "")
+    return str(case["method"]) + (" with feed-forward" if case["feed_forward"] else "")
 
 
 def hand_of(case: Case) -> str:
