@@ -10,7 +10,10 @@
 //
 // with d(t) the distance from the tissue of the ray's point t behind the surface. Before a flat layer that is
 // the length of the ray in it, up to 60 degrees aslant; beside a nerve it rises without an edge. Depth and
-// strength are the tissue's, the constants are the project's judgement. bone_shading.glsl has the same.
+// strength are the tissue's, the constants are the project's judgement. thin_bone.glsl has the same.
+//
+// The bone's own colour is read away from the tissue, however thin it is. Labels of voxels do not tell bone
+// of less than one from none, so from two voxels down the share rises to all of the tissue's colour.
 #pragma once
 
 #include <algorithm>

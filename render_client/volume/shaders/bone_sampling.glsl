@@ -17,7 +17,7 @@
 //     vec3  normal_at(vec3 point, vec3 otherwise)   unit, out of the bone; `otherwise` where nothing slopes
 //     vec4  look_at(vec3 point)                     linear RGB and opacity of the bone that is or was there
 //     vec4  smooth_look_at(vec3 point)              the same without a trace of the voxels' steps
-//     vec4  look_under(vec3 point, vec3 normal)     smooth_look_at below a surface with that outward normal
+//     vec3  place_under(vec3 point, vec3 normal)    where below a surface with that outward normal its look is read
 //     float density_at(vec3 point)                  the fraction times the opacity of the nearest voxel
 //     vec4  surface_colour_at(vec3 point)           of surface voxels nearby: display RGB times alpha, alpha
 //     float ambient_occlusion(vec3 point, vec3 normal)    0 to 1, how much of the sky above a surface is free of
@@ -214,9 +214,9 @@ vec4 smooth_look_at(vec3 point) {
 }
 
 // At most as deep as there is bone: a shell may be thinner.
-vec4 look_under(vec3 point, vec3 normal) {
+vec3 place_under(vec3 point, vec3 normal) {
     float bone_there = fraction_at(point - bone_colour_depth * normal);
-    return smooth_look_at(point - mix(1.0, bone_colour_depth, bone_there) * normal);
+    return point - mix(1.0, bone_colour_depth, bone_there) * normal;
 }
 
 float mean_fraction_at(vec3 point) {

@@ -105,8 +105,10 @@ double height_mm(const gl::Framebuffer& framebuffer, const Camera& camera, const
 
 TEST_F(ThinBoneTest, TintsASlantedLayerEvenly) {
     constexpr double thickness_mm = 0.2, shallow_mm = 0.6;
-    const std::array<TissueColour, 2> shallow{
-        {bone_colour, {2, sinus_colour.srgb, 1.0, shallow_mm, strength}}};
+    const auto tissues_with = [](double strength_of_tissue) {
+        return std::array<TissueColour, 2>{
+            {bone_colour, {2, sinus_colour.srgb, 1.0, shallow_mm, strength_of_tissue}}};
+    };
     for (const glm::dvec3& slope : {glm::dvec3(0.18, 0.05, 1.0), glm::dvec3(0.35, 0.2, 1.0),
                                     glm::dvec3(-0.18, 0.47, 1.0), glm::dvec3(0.7, 0.5, 1.0)}) {
         const glm::dvec3 normal = glm::normalize(slope);
@@ -119,10 +121,10 @@ TEST_F(ThinBoneTest, TintsASlantedLayerEvenly) {
             [&](const glm::dvec3& p) {
                 return static_cast<std::uint8_t>(glm::dot(p, normal) > 0.0 ? 1 : 2);
             });
-        const BoneTextures textures(bone, shallow);
+        const BoneTextures textures(bone, tissues_with(strength)), hardly(bone, tissues_with(1e-4));
         Camera camera = camera_on({0.0, 0.0, 0.0}, 2.0);
         look_along(camera, -normal);
-        const Picture without = drawn(textures, camera, false);
+        const Picture without = drawn(hardly, camera);
         RaycastRenderer renderer;
         const gl::Framebuffer framebuffer(size_px);
         framebuffer.bind();
@@ -146,6 +148,32 @@ TEST_F(ThinBoneTest, TintsASlantedLayerEvenly) {
         EXPECT_NEAR(mean, 0.0, 0.05) << "slope " << slope.x;
         EXPECT_LT(std::sqrt(squares / count - mean * mean), 0.01) << "ripple, slope " << slope.x;
     }
+}
+
+/// A layer of two voxels over a slanted tissue, milled out of thick bone: stiffness varies, so that looks are
+/// read 2.5 voxels deep.
+TEST_F(ThinBoneTest, HasItsOwnColourHoweverThinItIs) {
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.35, 0.2, 1.0));
+    const Bone bone =
+        filled(BoneBuilder::heterogeneous(grid, 1.0 / 200.0, true), grid, [&](const glm::ivec3& voxel) {
+            const double height = glm::dot(centre_of_voxel_mm(grid, voxel), normal);
+            return VoxelValues{
+                .fraction = fraction_of_depth(std::min(0.2 - height, height + 1.5), grid.spacing_mm),
+                .stiffness = static_cast<std::uint8_t>(100 + 40 * (voxel.x % 2)),
+                .tissue = static_cast<std::uint8_t>(height > 0.0 ? 1 : 2)};
+        });
+    const std::array<TissueColour, 2> hardly_seen{
+        {bone_colour, {2, sinus_colour.srgb, 1.0, depth_mm, 0.001}}};
+    const BoneTextures textures(bone, hardly_seen);
+    ASSERT_GT(textures.colour_depth_voxels(), 2.0);
+    Camera camera = camera_on({0.0, 0.0, 0.0}, 2.0);
+    look_along(camera, -normal);
+    const Picture picture = drawn(textures, camera);
+    for (int y = -20; y <= 20; ++y)
+        for (int x = -20; x <= 20; ++x) {
+            const glm::dvec3 colour = linear_at(picture, size_px / 2 + glm::ivec2(x, y));
+            ASSERT_GT(colour.r, colour.b) << "bone is yellowish, the tissue blue: " << x << ", " << y;
+        }
 }
 
 TEST_F(ThinBoneTest, FollowsTheBurrThroughBoneIntoTheTissueAndBack) {
