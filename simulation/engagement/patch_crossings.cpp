@@ -111,9 +111,6 @@ struct PatchCrossings::Loops {
         behind = fractions[2] >= whole_near_face ? simd::floats(255.0f) : behind;
         // If there is nothing to speak of ahead, a burr may yet stand in bone.
         behind = behind >= least_fraction ? behind : simd::floats(255.0f);
-        // A burr that has not carved where it is may stand in bone: half of whole bone tells, lest the ramp
-        // of a deep slot count as bone in it.
-        if (look.inside == InsideBurr::any) behind = simd::floats(255.0f);
         // From the outside inward, so the innermost crossing remains.
         Floats offset = simd::floats(0.0f);
         Floats bone_offset = offset;
