@@ -109,8 +109,9 @@ struct PatchCrossings::Loops {
 
         Floats behind = simd::larger(fractions[2], fractions[3]);
         behind = fractions[2] >= whole_near_face ? simd::floats(255.0f) : behind;
-        // If there is nothing to speak of ahead, a burr may yet stand in bone.
+        // With little ahead a burr may yet stand in bone; and so may one that has not carved.
         behind = behind >= least_fraction ? behind : simd::floats(255.0f);
+        if (look.inside == InsideBurr::any) behind = simd::floats(255.0f);
         // From the outside inward, so the innermost crossing remains.
         Floats offset = simd::floats(0.0f);
         Floats bone_offset = offset;

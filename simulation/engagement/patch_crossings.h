@@ -39,7 +39,8 @@ class PatchCrossings {
     /// Crossings of the patches that have bone within Engagement::reach_voxels, in their order; valid until
     /// the next call. Bone begins where the trilinear fraction crosses half of what it is behind, the
     /// innermost time: at a rim bone fills a part of each voxel, and lies before so much of a patch. Farther
-    /// than half a voxel ahead, where nothing tells what is behind, it begins at one half. `frame`: burr axes
+    /// than half a voxel ahead, where nothing tells what is behind, and before a burr that has not carved it
+    /// begins at one half. `frame`: burr axes
     /// in patient axes; `centre_voxels` from the bricks' base. Real-time safe.
     std::span<const PatchCrossing> find(const BrickNeighbourhood& bricks, const glm::mat3& frame,
                                         const glm::vec3& centre_voxels, float radius_voxels,

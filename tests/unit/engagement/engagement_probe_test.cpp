@@ -225,11 +225,18 @@ TEST(Engagement, IsTheSameWhereWhatIsInsideACarvedBurrIsPassedOver) {
     EngagementProbe(burr, 0.1).sample(model.bone(), result->pose.position_mm, up, *any);
     const Engagement& carved = result->engagement;
     ASSERT_GT(any->count, 100U);
-    ASSERT_EQ(carved.count, any->count);
-    for (std::size_t i = 0; i < any->count; ++i) {
-        EXPECT_EQ(carved.patches[i].normal, any->patches[i].normal);
-        EXPECT_EQ(carved.patches[i].gap_mm, any->patches[i].gap_mm);
+    // Beside rims a burr that has carved is told of more.
+    ASSERT_GE(carved.count, any->count);
+    std::size_t same = 0;
+    for (std::size_t i = 0, k = 0; i < any->count; ++i, ++k) {
+        while (k + 1 < carved.count && carved.patches[k].normal != any->patches[i].normal) ++k;
+        ASSERT_EQ(carved.patches[k].normal, any->patches[i].normal);
+        EXPECT_LE(carved.patches[k].area_mm2, any->patches[i].area_mm2);
+        if (carved.patches[k].area_mm2 < any->patches[i].area_mm2) continue;
+        EXPECT_EQ(carved.patches[k].gap_mm, any->patches[i].gap_mm);
+        ++same;
     }
+    EXPECT_GT(same, any->count / 2);
 }
 
 TEST(PatchCrossings, AreTheSameWithEveryInstructionSet) {
