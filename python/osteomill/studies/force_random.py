@@ -82,6 +82,7 @@ def summary_of(drawn: Drawn, table: pd.DataFrame, outcomes: list[dict[str, Any]]
         "max_error_percent": percentile(table["error_percent"], 100),
         **{f"p{share}_change_percent": percentile(table["change_percent"], share)
            for share in (50, 95, 99, 100) if "change_percent" in table},
+        **({"along_max_change_percent": percentile(along["change_percent"], 100)} if "change_percent" in table else {}),
         "along_median_error_percent": percentile(along["error_percent"], 50),
         "along_p90_error_percent": percentile(along["error_percent"], 90),
         "ripple_p90_percent": percentile(along["ripple_percent"], 90),
@@ -102,7 +103,7 @@ def percentile(values: Any, share: float) -> float:
 
 def words_of(summary: dict[str, Any]) -> str:
     moved = ("; with the surface a quarter of a voxel off in the lattice the mean changes by at most {p95_change_percent:.2f} % in 95 of "
-             "100, {p99_change_percent:.2f} in 99, {p100_change_percent:.2f} at worst" if "p50_change_percent" in summary else "")
+             "100, {p99_change_percent:.2f} in 99, {p100_change_percent:.2f} at worst; along the surface {along_max_change_percent:.2f}" if "p50_change_percent" in summary else "")
     return (
         "{cases} motions of seed {seed}: error median {median_error_percent:.2f} %, 90 % within {p90_error_percent:.2f}, "
         "95 % within {p95_error_percent:.2f}, 99 % within {p99_error_percent:.2f}, worst {max_error_percent:.2f} %; "
