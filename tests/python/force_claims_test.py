@@ -22,7 +22,7 @@ class ForceClaimsTest(ForceClaims):
     def test_hold_over_random_motions(self):
         # Slower steps than 5 mm/s take a level here and there of a voxel's 255.
         self.expect(500, "--seed", "20261122", median_error_percent=0.3, p95_error_percent=2.0, p99_error_percent=4.0,
-                    max_error_percent=6.0, ripple_p90_from_5_mm_per_s_percent=2.5, ripple_p90_percent=5.0)
+                    max_error_percent=7.0, ripple_p90_from_5_mm_per_s_percent=2.5, ripple_p90_percent=5.0)
 
     def test_hold_with_edges_that_rub(self):
         self.expect(300, "--seed", "20261123", "--edge-forces", median_error_percent=1.0, p95_error_percent=4.0, p99_error_percent=6.0,
