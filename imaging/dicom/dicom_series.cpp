@@ -1,6 +1,7 @@
 #include "imaging/dicom/dicom_series.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
