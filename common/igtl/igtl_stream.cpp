@@ -13,6 +13,15 @@ namespace osteomill {
 
 namespace {
 
+/// The protocol's version; newer OpenIGTLink names its field otherwise.
+template <typename Header>
+auto version_of(const Header& header) {
+    if constexpr (requires { header.version; })
+        return header.version;
+    else
+        return header.header_version;
+}
+
 constexpr std::uint16_t newest_version = 3;
 constexpr std::size_t extended_header_bytes = 12;
 static_assert(IgtlStream::longest_name == IGTL_HEADER_NAME_SIZE);
@@ -97,7 +106,7 @@ bool IgtlStream::begin_message() {
     igtl_header_convert_byte_order(&header);
     std::optional<std::string> type = text_of(header.name);
     std::optional<std::string> name = text_of(header.device_name);
-    if (header.version < 1 || header.version > newest_version || !type || type->empty() || !name ||
+    if (version_of(header) < 1 || version_of(header) > newest_version || !type || type->empty() || !name ||
         header.body_size > longest_skipped_bytes)
         return false;
     is_wanted_ = sinks_.wants(*type, *name);
@@ -106,7 +115,7 @@ bool IgtlStream::begin_message() {
         is_wanted_ = false;
     }
     head_ = {.type = *std::move(type), .name = *std::move(name), .stamp = header.timestamp};
-    version_ = header.version;
+    version_ = version_of(header);
     crc_ = header.crc;
     body_left_ = header.body_size;
     has_header_ = true;
