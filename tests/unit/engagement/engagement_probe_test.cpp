@@ -225,7 +225,7 @@ TEST(Engagement, IsTheSameWhereWhatIsInsideACarvedBurrIsPassedOver) {
     EngagementProbe(burr, 0.1).sample(model.bone(), result->pose.position_mm, up, *any);
     const Engagement& carved = result->engagement;
     ASSERT_GT(any->count, 100U);
-    // Beside rims a burr that has carved is told of more.
+    // Beside rims the map of a burr that has carved has thinner bone, too.
     ASSERT_GE(carved.count, any->count);
     std::size_t same = 0;
     for (std::size_t i = 0, k = 0; i < any->count; ++i, ++k) {
