@@ -1,5 +1,5 @@
-// Readings of an arm whose driver has a thread of its own: the newest crosses to the haptic loop, and is
-// valid while it is fresh.
+// Readings of an arm whose driver has a thread of its own: the newest crosses to the haptic loop
+// (simulation/loop/haptic_loop.h), and is valid while it is fresh.
 #pragma once
 
 #include <functional>

@@ -16,9 +16,9 @@ namespace {
 constexpr double leaves_within_voxels = 2.0;
 
 /// The cavity and the questions asked of it, in a box beyond which it exposes nothing.
-class Opening {
+class BareSurface {
   public:
-    explicit Opening(const SessionTrace& trace)
+    explicit BareSurface(const SessionTrace& trace)
         : grid_(trace.at_start.grid()),
           cavity_(cavity_of(trace)),
           surface_mm_(cavity_.surface_mm()),
@@ -74,7 +74,7 @@ double area(const StructureMask& structure, const glm::ivec3& voxel) {
     return std::sqrt(static_cast<double>(axes));
 }
 
-ExposureMetrics exposure_of(const Structure& structure, const Opening& opening, std::string name) {
+ExposureMetrics exposure_of(const Structure& structure, const BareSurface& bare, std::string name) {
     constexpr double nothing_mm = 1e-6;
     ExposureMetrics metrics{.name = std::move(name)};
     const StructureMask& mask = structure.mask;
@@ -87,7 +87,7 @@ ExposureMetrics exposure_of(const Structure& structure, const Opening& opening, 
             const double faces = area(mask, voxel);
             if (faces == 0.0) return;
             surface += faces;
-            const auto over_mm = opening.thickness_mm(mask, voxel);
+            const auto over_mm = bare.thickness_mm(mask, voxel);
             if (!over_mm) return;
             if (*over_mm < nothing_mm) metrics.bare_share += faces;
             for (std::size_t k = 0; k < thin_mm.size(); ++k)
@@ -104,11 +104,11 @@ ExposureMetrics exposure_of(const Structure& structure, const Opening& opening, 
 
 std::vector<ExposureMetrics> exposure_metrics(const SessionTrace& trace) {
     std::vector<ExposureMetrics> all;
-    if (trace.where.empty()) return all;
-    const Opening opening(trace);
-    for (const Structure& structure : trace.where)
+    if (trace.structure_places.empty()) return all;
+    const BareSurface bare(trace);
+    for (const Structure& structure : trace.structure_places)
         if (trace.session.tissues[structure.tissue].is_protected && !structure.mask.empty())
-            all.push_back(exposure_of(structure, opening, trace.session.tissues[structure.tissue].name));
+            all.push_back(exposure_of(structure, bare, trace.session.tissues[structure.tissue].name));
     return all;
 }
 

@@ -1,5 +1,5 @@
 // Exposure of each protected structure: the shares of its surface that lie bare, or under thin bone, after
-// bone was removed.
+// bone was removed. structure_metrics.h: whether the structure itself was milled, "Opened" in the report.
 //
 // The surface consists of the structure's voxels that share a face with a voxel outside of it. The bone over
 // such a voxel is as thick as the straight distance from it to the nearest voxel of the cavity (cavity.h),

@@ -1,5 +1,5 @@
 // Cutting near each protected structure, compared with the same trainee elsewhere: force, feed, and where the
-// strokes lead.
+// strokes lead. structure_metrics.h: whether it was touched.
 //
 // The distance from the burr's head to the structure (structure_watch.h) decides what is near, state by
 // state; elsewhere is further than 3 mm from every protected structure. A stroke's path within the 3 mm is

@@ -138,8 +138,8 @@ std::optional<NearestApproach> nearest_approach(const SessionTrace& trace) {
                 nearest.distance_mm = *one.distance_mm;
                 tissue = one.tissue;
             }
-    const auto structure = std::ranges::find(trace.where, tissue, &Structure::tissue);
-    if (nearest.sample == nullptr || structure == trace.where.end()) return std::nullopt;
+    const auto structure = std::ranges::find(trace.structure_places, tissue, &Structure::tissue);
+    if (nearest.sample == nullptr || structure == trace.structure_places.end()) return std::nullopt;
     nearest.structure = trace.session.tissues[tissue].name;
     nearest.structure_mm = nearest_voxel_mm(structure->mask, nearest.sample->burr_mm);
     nearest.distance_mm = std::max(0.0, nearest.distance_mm);

@@ -50,7 +50,7 @@ class Pictures {
 
     ReportPicture of(const Bone& bone, const NamedView& view, int size_px,
                      const std::optional<SeenBurr>& burr = {}) const {
-        SectionMarks marks{.structures = trace_.where};
+        SectionMarks marks{.structures = trace_.structure_places};
         if (region_ != nullptr && region_->is_tissue())
             marks.is_outlined_voxel = [&](const glm::ivec3& voxel) { return region_->has_tissue(voxel); };
         else if (region_ != nullptr)

@@ -150,7 +150,7 @@ StructureWatch watch(SessionTrace& trace, std::vector<Structure> structures) {
         if (!mask.empty()) structures.push_back({tissue, std::move(mask)});
     }
     std::ranges::sort(structures, {}, &Structure::tissue);
-    trace.where = structures;
+    trace.structure_places = structures;
     return {std::move(structures), session.tissues, session.burrs};
 }
 

@@ -66,8 +66,8 @@ struct SessionTrace {
     Bone at_end;
     std::vector<TraceSample> samples{};
     std::vector<ControlEvent> events{};
-    std::vector<StructureAccount> structures{};  ///< of each protected tissue that is somewhere
-    std::vector<Structure> where{};              ///< they are
+    std::vector<StructureAccount> structures{};  ///< those that have a place in this bone
+    std::vector<Structure> structure_places{};   ///< their voxels
     std::vector<Breakthrough> breakthroughs{};
     std::optional<double> peak_force_n{};  ///< of all ticks, where the recording says it
     std::int64_t began_unix_ns = 0;        ///< 0: not said

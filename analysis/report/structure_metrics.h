@@ -1,5 +1,6 @@
-// Nearness of the burr to each protected structure: the least distance, when and how long the burr touched
-// it, and how much of it is gone.
+// Harm to each protected structure: how near the burr came, when and how long it touched, and how much of the
+// structure is gone. nearness_metrics.h: how the trainee cuts near one; exposure_metrics.h: how much of one
+// lies bare.
 //
 // A structure is where the recording says it is, or else where the bone has its tissue's label. Distances
 // are from the burr's head, whatever its shape, to the structure, at the states of the recording

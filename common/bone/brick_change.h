@@ -35,7 +35,8 @@ struct ChangedBrick {
     ByteBrick fractions{};
 };
 
-/// Receiver of a milling step's changes. Real-time safe: never blocks, allocates or throws.
+/// Receiver of a milling step's changes; in a session the ChangeQueue (simulation/exchange/change_queue.h).
+/// Real-time safe: never blocks, allocates or throws.
 class ChangeSink {
   public:
     virtual ~ChangeSink() = default;

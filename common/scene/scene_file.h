@@ -59,7 +59,7 @@ Scene parse_scene(std::string_view text, const std::string& name_for_messages,
 enum class SceneText { concise, complete };
 
 /// The scene as TOML for people: a line of comment before each block, every number in the fewest digits that
-/// read back as it. parse_scene gives the same scene back.
+/// read back as it. parse_scene gives the same scene back. In scene_writer.cpp.
 std::string write_scene(const Scene& scene, SceneText extent = SceneText::concise);
 
 }  // namespace osteomill

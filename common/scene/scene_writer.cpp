@@ -16,31 +16,31 @@ namespace osteomill {
 namespace {
 
 /// Reads back as the same number, bit for bit.
-std::string toml_text(double number) {
+std::string as_toml(double number) {
     return fmt::format("{}", number);
 }
 
-std::string toml_text(bool value) {
+std::string as_toml(bool value) {
     return value ? "true" : "false";
 }
 
-std::string toml_text(std::string_view text) {
+std::string as_toml(std::string_view text) {
     return toml_quoted(text);
 }
 
-std::string toml_text(const std::string& text) {
-    return toml_text(std::string_view(text));
+std::string as_toml(const std::string& text) {
+    return as_toml(std::string_view(text));
 }
 
-std::string toml_text(const char* text) {
-    return toml_text(std::string_view(text));
+std::string as_toml(const char* text) {
+    return as_toml(std::string_view(text));
 }
 
-std::string toml_text(const std::filesystem::path& path) {
-    return toml_text(path.generic_string());
+std::string as_toml(const std::filesystem::path& path) {
+    return as_toml(path.generic_string());
 }
 
-std::string toml_text(const glm::dvec3& v) {
+std::string as_toml(const glm::dvec3& v) {
     return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
 }
 
@@ -51,7 +51,7 @@ class Keys {
 
     template <typename Value>
     Keys& add(const char* key, const Value& value) {
-        text_ += fmt::format("{} = {}\n", key, toml_text(value));
+        text_ += fmt::format("{} = {}\n", key, as_toml(value));
         return *this;
     }
     /// Nothing if the value is that of an absent key, unless all is written.
@@ -171,8 +171,8 @@ std::string device_text(const DeviceMapping& device, SceneText extent) {
     Keys keys(extent);
     if (device.rotation != usual.rotation || extent == SceneText::complete) {
         const glm::dmat3 rows = glm::transpose(device.rotation);
-        keys.add_text(fmt::format("rotation = [{}, {}, {}]\n", toml_text(rows[0]), toml_text(rows[1]),
-                                  toml_text(rows[2])));
+        keys.add_text(
+            fmt::format("rotation = [{}, {}, {}]\n", as_toml(rows[0]), as_toml(rows[1]), as_toml(rows[2])));
     }
     keys.add("scale", device.scale, usual.scale).add("offset_mm", device.offset_mm, usual.offset_mm);
     return keys.below("\n# How the device lies on the patient.\n[device]\n");
@@ -207,11 +207,10 @@ void add_region(Keys& keys, const PlanRegion& region) {
     if (const auto* tissue = std::get_if<TissueRegion>(&region)) keys.add("tissue", tissue->tissue);
     if (const auto* sphere = std::get_if<SphereRegion>(&region))
         keys.add_text(fmt::format("sphere = {{ centre_mm = {}, radius_mm = {} }}\n",
-                                  toml_text(sphere->centre_mm), sphere->radius_mm));
+                                  as_toml(sphere->centre_mm), sphere->radius_mm));
     if (const auto* cylinder = std::get_if<CylinderRegion>(&region))
         keys.add_text(fmt::format("cylinder = {{ from_mm = {}, to_mm = {}, radius_mm = {} }}\n",
-                                  toml_text(cylinder->from_mm), toml_text(cylinder->to_mm),
-                                  cylinder->radius_mm));
+                                  as_toml(cylinder->from_mm), as_toml(cylinder->to_mm), cylinder->radius_mm));
 }
 
 std::string plan_text(const Plan& plan, SceneText extent) {
@@ -235,11 +234,11 @@ std::string rating_text(const Rating& rating, SceneText extent) {
 
 std::string path_text(const std::variant<LineGuide, PlaneGuide>& path) {
     if (const auto* line = std::get_if<LineGuide>(&path))
-        return fmt::format("line = {{ from_mm = {}, to_mm = {} }}\n", toml_text(line->from_mm),
-                           toml_text(line->to_mm));
+        return fmt::format("line = {{ from_mm = {}, to_mm = {} }}\n", as_toml(line->from_mm),
+                           as_toml(line->to_mm));
     const auto& plane = std::get<PlaneGuide>(path);
-    return fmt::format("plane = {{ at_mm = {}, normal = {} }}\n", toml_text(plane.at_mm),
-                       toml_text(plane.normal));
+    return fmt::format("plane = {{ at_mm = {}, normal = {} }}\n", as_toml(plane.at_mm),
+                       as_toml(plane.normal));
 }
 
 std::string fixture_text(const Fixture& fixture, SceneText extent) {

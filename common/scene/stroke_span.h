@@ -34,6 +34,7 @@ class StrokeSpan {
 
 /// The slice of a stroke that one undo gives back. A stroke may last a minute. A slice ends with its stroke,
 /// and once it has cut for longest_cut_s, so that one key press never takes back more.
+/// Kept in haptic_server/streaming/stroke_journal.h.
 class UndoSlice {
   public:
     static constexpr double longest_cut_s = 3.0;

@@ -4,7 +4,7 @@
 //   waiting --the pedal is pressed--> open --pedal up, arm lost, too far, too much energy ...--> shut
 //
 // A force is bounded in size and in its change; the energy that the hand got lately is bounded as in any
-// session (safety/watchdog.h).
+// session (safety/watchdog.h), and the change as in safety/force_guard.h.
 #pragma once
 
 #include <cstdint>

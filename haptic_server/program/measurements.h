@@ -1,4 +1,5 @@
-// Measurements of a session, as JSON. The keys are fixed by the design; others may join them.
+// Measurements of a session, as JSON. Programs of others read the keys: none goes or changes its meaning;
+// others may join them.
 #pragma once
 
 #include <filesystem>

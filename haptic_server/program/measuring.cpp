@@ -40,7 +40,7 @@ void run_measuring(const ServerOptions& options, const std::atomic<bool>& stop, 
     const DeviceLimits stated = parts.device->limits();
     const ArmMeasurement found =
         measure_arm(*parts.device, {.delay_s = parts.delay_s,
-                                    .is_virtual = options.session.clock == ClockKind::virtual_time,
+                                    .is_virtual = options.milling.clock == ClockKind::virtual_time,
                                     .stop = stop,
                                     .say = say});
     const std::string name = parts.device->name();

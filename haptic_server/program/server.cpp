@@ -74,7 +74,7 @@ std::optional<ShownOptions> shown_options(const ServerOptions& options, const st
                                ? fmt::format("its report: {} on the server",
                                              (*options.outputs.report / "report.html").string())
                                : "",
-        .accepts_controls = options.session.clock == ClockKind::real,
+        .accepts_controls = options.milling.clock == ClockKind::real,
         .version = version,
         .trainee = options.trainee,
         .case_name = options.case_name};
@@ -177,7 +177,7 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
     say_what_is_felt(device.device->limits(), scene.scene, *output.out);
     scene = seated(std::move(scene), device);
     nlohmann::ordered_json settings = session_settings(
-        options.session, options.scene, scene,
+        options.milling, options.scene, scene,
         {.device = options.device.entry->name, .grip = options.grip, .arm = device.device->limits()},
         version);
     if (options.controls) settings["controls"] = options.controls->filename().string();
@@ -192,7 +192,7 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
 
     TickMeter meter;
     SessionAssembly assembly(std::move(scene), std::move(device),
-                             {.milling = options.session,
+                             {.milling = options.milling,
                               .logs = options.logs,
                               .more_ticks = options.metrics ? &meter : nullptr,
                               .shown = std::move(shown)});
@@ -212,7 +212,7 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
             fmt::format("listening on {}\n",
                         text_of_address(options.listen->address, assembly.shown()->server().port())));
     cost.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    say_what_to_know(options.session, assembly.scene());
+    say_what_to_know(options.milling, assembly.scene());
     run(assembly, places, stop, *output.err);
 
     std::ifstream process("/proc/self/status");

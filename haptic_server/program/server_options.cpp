@@ -29,7 +29,7 @@ std::optional<ListenAddress> listen_address(const TypedServerOptions& typed) {
 }
 
 CouplingChoice coupling_of(const TypedServerOptions& typed, const DeviceEntry& device) {
-    const std::string& force_model = typed.options.session.force_model;
+    const std::string& force_model = typed.options.milling.force_model;
     const bool has_cutting_law = find_force_model(force_model).has_cutting_law;
     if (!typed.coupling) return usual_coupling(has_cutting_law, device);
     const CouplingChoice choice =
@@ -208,13 +208,13 @@ ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& acce
     if (typed.grip == rails_name) options.grip.reset();
     if (!options.grip && !device.is_simulated)
         throw std::invalid_argument(fmt::format("--grip {}: goes with --device simulated", rails_name));
-    options.session.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
-    options.session.coupling = coupling_of(typed, device);
-    require_cutting_law_to_vibrate(options.session);
-    options.session.milling_rate_hz =
+    options.milling.clock = is_virtual ? ClockKind::virtual_time : ClockKind::real;
+    options.milling.coupling = coupling_of(typed, device);
+    require_cutting_law_to_vibrate(options.milling);
+    options.milling.milling_rate_hz =
         typed.milling_rate_hz > 0.0
             ? typed.milling_rate_hz
-            : usual_milling_rate_hz(options.session.coupling, options.session.force_model);
+            : usual_milling_rate_hz(options.milling.coupling, options.milling.force_model);
     options.listen = said_of_option("--listen", [&] { return listen_address(typed); });
     if (options.listen) options.access = access.access_to(*options.listen);
     options.metrics = metrics_address(typed);

@@ -1,4 +1,9 @@
 // The command line of haptic_server.
+//
+// The way of an option: declared in typed_server_options.cpp or, if it is a device's, in its entry in
+// haptic_server/session/devices; checked in server_options.cpp; ServerOptions here; server.cpp makes
+// SessionOptions of it (session/session_assembly.h); the part that it concerns gets it, mostly through
+// MillingSessionOptions (simulation/loop/milling_session.h).
 #pragma once
 
 #include <filesystem>
@@ -20,7 +25,7 @@ struct ServerOptions {
     SceneChoice scene;
     DeviceChoice device;
     std::optional<Grip> grip = Grip::firm;  ///< nothing: on rails
-    MillingSessionOptions session;
+    MillingSessionOptions milling;          ///< of the two loops
     LogFiles logs;
     std::optional<ListenAddress> listen;  ///< nullopt: nobody is served
     Access access;

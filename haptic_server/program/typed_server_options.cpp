@@ -74,7 +74,7 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
                    "The motion that the simulated hand follows, instead of the scene's")
         ->type_name("FILE.csv");
     app.add_option("--coupling", typed.coupling, coupling_help())->type_name("NAME");
-    app.add_option("--force-model", to.session.force_model, force_model_help())
+    app.add_option("--force-model", to.milling.force_model, force_model_help())
         ->check(one_of(force_model_names()))
         ->capture_default_str();
     app.add_option("--milling-rate-hz", typed.milling_rate_hz,
@@ -83,18 +83,18 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
                                least_milling_rate_hz, most_milling_rate_hz))
         ->check(within(least_milling_rate_hz, most_milling_rate_hz));
     app.add_flag(
-        "--vibration", to.session.vibration,
+        "--vibration", to.milling.vibration,
         "Add what the arm can render of the handpiece's vibration, up to 300 Hz: run-out, once a turn of "
         "the spindle (to 18 000 rpm), and the edges' passing");
     app.add_option("--clock", typed.clock, "real, or virtual: as fast as it can, repeatable to the bit")
         ->check(one_of({"real", "virtual"}))
         ->capture_default_str();
-    app.add_option("--haptic-cpu", to.session.haptic_cpu,
+    app.add_option("--haptic-cpu", to.milling.haptic_cpu,
                    "Bind the haptic loop to this processor; best one that the kernel keeps free (isolcpus)")
         ->check(not_below_zero());
-    app.add_option("--milling-cpu", to.session.milling_cpu, "Bind the milling loop to this processor")
+    app.add_option("--milling-cpu", to.milling.milling_cpu, "Bind the milling loop to this processor")
         ->check(not_below_zero());
-    app.add_option("--duration-s", to.session.duration_s, "Stop after this long (or at the trajectory's end)")
+    app.add_option("--duration-s", to.milling.duration_s, "Stop after this long (or at the trajectory's end)")
         ->check(above_zero());
     app.add_option("--listen", typed.listen,
                    "Where clients connect, port 0: any free one; \"none\": nobody does (127.0.0.1:7010; none "
@@ -169,8 +169,8 @@ void declare(CLI::App& app, TypedServerOptions& typed) {
         ->type_name("FILE.toml");
     app.add_flag(
         "--check", to.checks_machine,
-        "Look whether the machine is ready for a session with these options, say for all that is not "
-        "what it costs and what mends it, and end: 0 where nothing is wrong, else 1");
+        "Look whether the machine is ready for a session with these options; for everything that is "
+        "not ready, print what it costs and how to mend it, and end: 0 where nothing is wrong, else 1");
 }
 
 }  // namespace osteomill

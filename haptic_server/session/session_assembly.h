@@ -1,6 +1,6 @@
 // A session with all its parts, made in order: the scene with its bone, the device, logs, the milling
-// session, and its streaming. haptic_server, Python and tests each make one for a session; there may be many
-// in a process.
+// session (its two loops: simulation/loop/milling_session.h), and its streaming. haptic_server, Python and
+// tests each make one for a session; there may be many in a process.
 //
 // On the real clock it runs to its end; on the virtual one it can also be advanced tick by tick, and is the
 // same to the bit however its ticks are divided.

@@ -25,8 +25,8 @@ class SessionKeeper {
     SessionKeeper(const SessionKeeper&) = delete;
     SessionKeeper& operator=(const SessionKeeper&) = delete;
 
-    /// For the session's controls, called on their thread. Outlived by this. A save holds a copy of the
-    /// bone's fractions until it is written; one at a time.
+    /// Callbacks for SessionControls, called on the streaming thread; this object must outlive them. A save
+    /// holds a copy of the bone's fractions until it is written; one at a time.
     SessionControls::Requests requests();
 
     /// Any thread: in the log, and to clients, as the answer to a save. A failure to save or record is

@@ -8,6 +8,16 @@
 // redone in one frame is one change of the bone, even a thousand strokes. Before the session goes on, the
 // tool is lifted out of the restored bone. A command that must wait for this, for the end of a stroke or for
 // the arm waits in line, a second at most: then it is refused, with the reason.
+//
+//     asks    the window (render_client/ui/input/commands.h; its panels leave SessionRequests there), another
+//             client, or a script (control_script.h): each a SessionControl (session_control.h).
+//             control_lease.h and tool_lease.h decide which client may
+//     acts    SessionControls, here; the loops through SessionGate (simulation/exchange/session_gate.h) and
+//     the
+//             queue of restored changes
+//     writes  SaveAndFinish (haptic_server/session/save_and_finish.h) the saved bone, and it ends the session
+//     told    ControlEvents, to every client and the recording; the window words them by ControlNotices
+//             (render_client/ui/input/control_notices.h)
 #pragma once
 
 #include <deque>

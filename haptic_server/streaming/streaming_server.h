@@ -32,7 +32,7 @@ struct StreamingTraffic {
 
 class StreamingServer {
   public:
-    /// `mirror` equals the bone of `shown` before the first update(). The server is the one writer of
+    /// `mirror` equals the bone of `source` before its first update(). The server is the one writer of
     /// `operator_channel`, which is null unless the device is driven by a client; both outlive it.
     /// `structures`: the protected ones, so far as clients cannot tell from the bone where they are. Throws
     /// std::invalid_argument for a frame rate that is not above zero, a bone or structures too large to send,
@@ -44,8 +44,8 @@ class StreamingServer {
     StreamingServer(const StreamingServer&) = delete;
     StreamingServer& operator=(const StreamingServer&) = delete;
 
-    /// Binds, begins the recording and to serve. Throws std::runtime_error, in one line, if the address
-    /// cannot be had or nothing can be recorded.
+    /// Binds the port, begins the recording and starts to serve. Throws std::runtime_error, in one line, if
+    /// the address cannot be had or nothing can be recorded.
     void start();
 
     /// Sends a frame of the shown session, and returns when that is done: with paced_by_session.

@@ -1,4 +1,5 @@
-# Types of the kernels of osteomill.studies; their interface is not promised.
+# Types of the kernels of osteomill.studies; their interface is not promised. Sources: python/studies_module, one *_bindings.cpp for each
+# folder of studies/ that it binds.
 import os
 from collections.abc import Sequence
 from typing import Any

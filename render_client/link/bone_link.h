@@ -50,7 +50,7 @@ class BoneLink final : public SessionSource {
     /// The server before is left, and its bone stays until the next has come.
     void connect_to(const ListenAddress& server) override;
     void ask_for_ct() override;
-    /// Be it applied by poll() or not; nothing while not connected.
+    /// The newest received state, even if poll() has not applied it yet; nothing while not connected.
     std::optional<ToolState> newest_tool() const override;
     /// Ends the recording and waits until it is written; one line where some of it is not.
     std::string finish() override;

@@ -1,5 +1,5 @@
-// Source of a session, which a client asks in every frame for news: a server (BoneLink), a recording of one
-// (RecordingPlayer), or a script in its place.
+// Source of a session, which a client asks in every frame for news (render_client/ui/view/session_picture.cpp
+// polls it): a server (BoneLink), a recording of one (RecordingPlayer), or a script in its place.
 #pragma once
 
 #include <cstdint>

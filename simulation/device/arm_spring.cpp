@@ -11,7 +11,7 @@ namespace {
 
 constexpr double own_damping_n_s_per_m = 0.5;
 constexpr std::array dampings_n_s_per_mm{0.004, 0.008, 0.012, 0.002, 0.001};
-/// Less more is not worth a stronger damper.
+/// A gain in stiffness below 5 % does not justify a stronger damper.
 constexpr double worth = 1.05;
 
 /// Whether arm, spring, damper and filter are stable from tick to tick. The state: x, v, the last x, the

@@ -56,8 +56,8 @@ struct HapticLoopOptions {
     std::vector<double> spindle_rev_per_s{};  ///< each burr's; empty: no other speed can be chosen
     bool has_shank = false;                   ///< any burr of the set: its torque is reported
     double removed_before_mm3 = 0.0;  ///< by the sessions before: the reported volume continues from there
-    bool has_fixtures = false;        ///< the coupling has
-    FixtureSet fixtures_on = 0;       ///< of the scene's, at the start
+    bool has_fixtures = false;        ///< whether the coupling holds any of the scene's fixtures
+    FixtureSet fixtures_on = 0;       ///< of them, at the start
     /// The hand's pose before the first tick.
     ToolPose start_pose{};
 };
@@ -77,8 +77,8 @@ class HapticLoop {
     /// settle().
     void tick(double now_s, std::uint64_t missed_periods) noexcept;
     /// Ends the last tick's millisecond and completes its row: so much was removed since the start, and so
-    /// many bricks were restored. Otherwise the next tick does so, with the numbers that it knows; for callers
-    /// that keep the order of the loops, and at the end.
+    /// many bricks were restored. Otherwise the next tick does so, with the numbers that it knows; for
+    /// callers that keep the order of the loops, and at the end.
     void settle(double total_removed_mm3, std::uint64_t restored_changes) noexcept;
 
     /// Ends the session: from the next tick on the force fades, whatever is requested, and the spindle stops.

@@ -14,6 +14,10 @@
 //   fading in   the wanted force times a gain that grows linearly from 0 to 1 over fade_in_s
 //
 // No state holds or repeats an old force: fading out only ever shrinks it.
+//
+// Other bounds on how fast a force changes: ArmSpring::felt_jump_n (simulation/device/arm_spring.h) a tick,
+// for a spring that meets or leaves bone; FadingForce (simulation/device/fading_force.h), for a driver whose
+// loop falls silent; MeasuringGuard (haptic_server/measuring/measuring_guard.h), while an arm is measured.
 #pragma once
 
 #include <glm/vec3.hpp>

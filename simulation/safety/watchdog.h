@@ -24,8 +24,7 @@ struct Observation {
     Clearance clearance = Clearance::clear;  ///< the burr's, were it where the hand is
 };
 
-/// Bone is not its business: that is no fault by itself, see safety_monitor.h.
-/// Finds every fault of a tick, each by itself:
+/// Finds every fault of a tick, each by itself. Bone in the burr is not among them (safety_monitor.h):
 ///   device_lost     the device is not connected, or reads values that are not finite
 ///   device_jumped   it moved farther than a hand can since the last tick
 ///   model_stalled   no new milling result for longest_model_age_s
@@ -35,7 +34,7 @@ struct Observation {
 ///   overrun         longest_overrun_s of deadlines missed with no tick in time between them
 class Watchdog {
   public:
-    /// DESIGN's limit: no fresh model result for 50 ms.
+    /// No fresh model result for 50 ms.
     static constexpr double longest_model_age_s = 0.05;
     /// Twice as fast as a hand in surgery ever moves, with a margin of an encoder step or two.
     static constexpr double fastest_hand_mm_per_s = 2000.0;

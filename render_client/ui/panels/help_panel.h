@@ -22,7 +22,7 @@ struct HelpLayout {
     float letters = 1.0f;  ///< their size, as a share of the usual
 };
 
-/// At most `space` large.
+/// The layout with the largest letters that fits `room`.
 HelpLayout lay_out_help(const PanelPainter& painter, Situation situation, const glm::vec2& room);
 void draw_help(const PanelPainter& painter, const HelpLayout& help, const PanelPlace& place);
 

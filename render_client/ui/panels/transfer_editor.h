@@ -1,5 +1,5 @@
 // A transfer function while it is being edited: presets to begin with, points to take hold of, move, add and
-// remove. No drawing.
+// remove. It draws nothing: transfer_panel.h does.
 #pragma once
 
 #include <cstddef>

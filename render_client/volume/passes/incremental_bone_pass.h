@@ -32,8 +32,8 @@ TileMask tiles_of_changes(std::span<const VoxelBox> changed, const BoneTextures&
 class IncrementalBonePass {
   public:
     /// `stopwatch` makes it draw on demand, at whatever quality keeps the rate of frames; null: always in
-    /// full, however long it takes. Both must outlive the layer. The size is at least one pixel each way.
-    /// `frame_s` is the part of a frame's time that it may take.
+    /// full, however long it takes. Renderer and stopwatch must outlive this object. The size is at least one
+    /// pixel each way. `frame_s` is the part of a frame's time that it may take.
     IncrementalBonePass(BoneRenderer& renderer, const glm::ivec2& size_px, Stopwatch* stopwatch,
                         double frame_s = target_frame_s);
 

@@ -1,4 +1,6 @@
-// Table of the files that each shader program is made of.
+// Table of the files that each shader program is made of. The renderers in render_client/volume/passes
+// compile them: by BoneProgram (bone_program.h) where the bone is sampled, else by make_program
+// (shader_files.h).
 #pragma once
 
 #include <array>

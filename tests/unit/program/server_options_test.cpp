@@ -30,9 +30,9 @@ TEST(ServerOptions, NeedNoneToServeTheToothOnThisMachine) {
     const ServerOptions options = *parse({}).options;
     EXPECT_FALSE(options.scene.name);
     EXPECT_STREQ(options.device.entry->name, "simulated");
-    EXPECT_EQ(options.session.clock, ClockKind::real);
-    EXPECT_EQ(name_of(options.session.coupling), "implicit");
-    EXPECT_TRUE(std::isinf(options.session.duration_s));
+    EXPECT_EQ(options.milling.clock, ClockKind::real);
+    EXPECT_EQ(name_of(options.milling.coupling), "implicit");
+    EXPECT_TRUE(std::isinf(options.milling.duration_s));
     ASSERT_TRUE(options.listen.has_value());
     EXPECT_EQ(options.listen->address, "127.0.0.1");
     EXPECT_EQ(options.listen->port, 7010);
@@ -116,10 +116,10 @@ TEST(ServerOptions, PutTheBurrOfATrackedHandWhereTheHandIs) {
     };
     const ServerOptions options = *parse(tracked).options;
     EXPECT_STREQ(options.device.entry->name, "tracker");
-    EXPECT_EQ(name_of(options.session.coupling), "hold");
-    EXPECT_EQ(options.session.milling_rate_hz, 1000.0);
-    EXPECT_EQ(name_of(parse(with({"--coupling", "implicit"})).options->session.coupling), "implicit");
-    EXPECT_EQ(name_of(parse(with({"--force-model", "morris"})).options->session.coupling), "hold");
+    EXPECT_EQ(name_of(options.milling.coupling), "hold");
+    EXPECT_EQ(options.milling.milling_rate_hz, 1000.0);
+    EXPECT_EQ(name_of(parse(with({"--coupling", "implicit"})).options->milling.coupling), "implicit");
+    EXPECT_EQ(name_of(parse(with({"--force-model", "morris"})).options->milling.coupling), "hold");
     EXPECT_EQ(error_of(with({"--tracker", "[::1]:20000"})), "");
     EXPECT_THAT(error_of(with({"--tracker", "10.0.0.7:18944"})),
                 HasSubstr("ssh -L 18944:localhost:18944 10.0.0.7"));
@@ -132,7 +132,7 @@ TEST(ServerOptions, PutTheBurrOfATrackedHandWhereTheHandIs) {
 TEST(ServerOptions, LookForHaplysServiceOnThisMachine) {
     const ServerOptions usual = *parse({"--device", "haply"}).options;
     EXPECT_STREQ(usual.device.entry->name, "haply");
-    EXPECT_EQ(name_of(usual.session.coupling), "implicit");
+    EXPECT_EQ(name_of(usual.milling.coupling), "implicit");
     EXPECT_EQ(error_of({"--device", "haply", "--haply", "[::1]:10002"}), "");
     EXPECT_THAT(error_of({"--device", "haply", "--haply", "10.0.0.7:10001"}),
                 HasSubstr("ssh -L 10001:localhost:10001 10.0.0.7"));
@@ -143,19 +143,19 @@ TEST(ServerOptions, LookForHaplysServiceOnThisMachine) {
 }
 
 TEST(ServerOptions, MillAtThePublishedRateWithThePublishedCoupling) {
-    EXPECT_EQ(parse({}).options->session.milling_rate_hz, 1000.0);
-    EXPECT_EQ(parse({"--coupling", "interpolate"}).options->session.milling_rate_hz, 100.0);
-    EXPECT_EQ(parse({"--coupling", "sample-estimate-interpolate"}).options->session.milling_rate_hz, 100.0);
-    EXPECT_EQ(parse({"--coupling", "hold"}).options->session.milling_rate_hz, 1000.0);
-    EXPECT_EQ(parse({"--coupling=interpolate", "--milling-rate-hz=500"}).options->session.milling_rate_hz,
+    EXPECT_EQ(parse({}).options->milling.milling_rate_hz, 1000.0);
+    EXPECT_EQ(parse({"--coupling", "interpolate"}).options->milling.milling_rate_hz, 100.0);
+    EXPECT_EQ(parse({"--coupling", "sample-estimate-interpolate"}).options->milling.milling_rate_hz, 100.0);
+    EXPECT_EQ(parse({"--coupling", "hold"}).options->milling.milling_rate_hz, 1000.0);
+    EXPECT_EQ(parse({"--coupling=interpolate", "--milling-rate-hz=500"}).options->milling.milling_rate_hz,
               500.0);
 }
 
 TEST(ServerOptions, ShakeTheHandpieceOnlyWhereAskedToAndWhereTheModelCuts) {
-    EXPECT_FALSE(parse({}).options->session.vibration);
-    EXPECT_TRUE(parse({"--vibration"}).options->session.vibration);
+    EXPECT_FALSE(parse({}).options->milling.vibration);
+    EXPECT_TRUE(parse({"--vibration"}).options->milling.vibration);
     EXPECT_TRUE(parse({"--vibration", "--coupling", "hold", "--force-model", "milling-bins"})
-                    .options->session.vibration);
+                    .options->milling.vibration);
     EXPECT_THAT(error_of({"--vibration", "--force-model", "agus"}),
                 AllOf(HasSubstr("--vibration"), HasSubstr("agus"), Not(HasSubstr("\n"))));
 }
@@ -167,17 +167,17 @@ TEST(ServerOptions, CoupleAForceModelThatHasNoCuttingLawByInterpolatingAtTheHapt
         EXPECT_EQ(name_of(session.coupling), "interpolate") << model;
         EXPECT_EQ(session.milling_rate_hz, 1000.0) << "a wall needs what there is";
         EXPECT_EQ(
-            name_of(parse({"--force-model", model, "--coupling", "interpolate"}).options->session.coupling),
+            name_of(parse({"--force-model", model, "--coupling", "interpolate"}).options->milling.coupling),
             "interpolate");
         EXPECT_THAT(error_of({"--force-model", model, "--coupling", "implicit"}),
                     AllOf(HasSubstr("--coupling implicit"), HasSubstr(model), HasSubstr("interpolate"),
                           Not(HasSubstr("\n"))));
     }
-    EXPECT_EQ(name_of(parse({"--force-model", "milling-bins"}).options->session.coupling), "implicit");
+    EXPECT_EQ(name_of(parse({"--force-model", "milling-bins"}).options->milling.coupling), "implicit");
 }
 
 TEST(ServerOptions, TakeACouplingWithADamper) {
-    EXPECT_EQ(name_of(parse({"--coupling", "interpolate+damper"}).options->session.coupling),
+    EXPECT_EQ(name_of(parse({"--coupling", "interpolate+damper"}).options->milling.coupling),
               "interpolate+damper");
     EXPECT_THAT(error_of({"--coupling", "implicit+damper"}), HasSubstr("+damper or +passivity"));
 }

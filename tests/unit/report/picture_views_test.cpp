@@ -112,9 +112,9 @@ TEST_F(Approached, DrawsStructureAndPlanIntoTheSection) {
     const std::vector<Tissue> tissues{
         {.label = 2, .name = "nerve", .colour_rgb = {250, 10, 20}, .is_protected = true}};
     const BoneView view{.direction = {0, 1, 0}, .up = {0, 0, 1}, .half_width_mm = 3.0, .is_section = true};
-    const RgbPicture picture = picture_of(
-        read.at_end, tissues, view, 30,
-        {.structures = read.where, .is_outlined = [](const glm::dvec3& at) { return at.x > 1.5; }});
+    const RgbPicture picture = picture_of(read.at_end, tissues, view, 30,
+                                          {.structures = read.structure_places,
+                                           .is_outlined = [](const glm::dvec3& at) { return at.x > 1.5; }});
     const auto red_of = [&](int row, int column) {
         return picture.rgb[static_cast<std::size_t>(3 * (30 * row + column))];
     };
