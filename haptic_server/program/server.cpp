@@ -18,7 +18,7 @@
 #include "haptic_server/check/session_check.h"
 #include "haptic_server/monitoring/metrics_page.h"
 #include "haptic_server/monitoring/metrics_text.h"
-#include "haptic_server/program/measuring.h"
+#include "haptic_server/program/measure_arm.h"
 #include "haptic_server/program/report_folder.h"
 #include "haptic_server/program/resident_memory.h"
 #include "haptic_server/program/session_outputs.h"

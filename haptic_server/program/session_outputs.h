@@ -10,7 +10,7 @@
 
 #include "common/files/output_place.h"
 #include "common/program/program_output.h"
-#include "haptic_server/program/measurements.h"
+#include "haptic_server/program/session_json.h"
 #include "haptic_server/session/session_assembly.h"
 
 namespace osteomill {

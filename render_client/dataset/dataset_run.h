@@ -8,7 +8,7 @@
 #include <string>
 
 #include "render_client/ui/options.h"
-#include "render_client/ui/report.h"
+#include "render_client/ui/run_json.h"
 
 namespace osteomill {
 

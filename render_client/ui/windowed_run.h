@@ -7,7 +7,7 @@
 
 #include "render_client/link/session_source.h"
 #include "render_client/ui/options.h"
-#include "render_client/ui/report.h"
+#include "render_client/ui/run_json.h"
 
 namespace osteomill {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/panels/orientation_cube.h"
+#include "render_client/ui/panels/widget_panel.h"
 
 namespace osteomill {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "common/words/translation.h"
-#include "render_client/ui/panels/input_panel.h"
+#include "render_client/ui/panels/widget_panel.h"
 
 namespace osteomill {
 

@@ -11,7 +11,7 @@
 
 #include "common/words/translation.h"
 #include "render_client/ui/input/window_input.h"
-#include "render_client/ui/panels/input_panel.h"
+#include "render_client/ui/panels/widget_panel.h"
 
 namespace osteomill {
 

@@ -9,11 +9,11 @@
 
 #include "common/words/translation.h"
 #include "render_client/ui/input/key_bindings.h"
-#include "render_client/ui/panels/case_card.h"
+#include "render_client/ui/panels/card_view.h"
 #include "render_client/ui/panels/import_panel.h"
-#include "render_client/ui/panels/input_panel.h"
 #include "render_client/ui/panels/page_widgets.h"
 #include "render_client/ui/panels/tour.h"
+#include "render_client/ui/panels/widget_panel.h"
 
 namespace osteomill {
 

@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "render_client/link/session_source.h"
-#include "render_client/ui/panels/case_card.h"
+#include "render_client/ui/panels/card_view.h"
 #include "render_client/ui/panels/layout.h"
 #include "render_client/ui/panels/panel_painter.h"
 #include "render_client/ui/start/start_page.h"

@@ -13,7 +13,7 @@
 #include "common/scene/burr_profile.h"
 #include "common/words/translation.h"
 #include "render_client/ui/input/key_bindings.h"
-#include "render_client/ui/panels/input_panel.h"
+#include "render_client/ui/panels/widget_panel.h"
 
 namespace osteomill {
 

@@ -9,7 +9,7 @@
 
 #include "common/scene/pass_marks.h"
 #include "common/scene/tissue_tables.h"
-#include "render_client/ui/start/scan_preview.h"
+#include "render_client/ui/start/shown_scan.h"
 
 namespace osteomill {
 

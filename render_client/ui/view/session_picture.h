@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "render_client/link/session_source.h"
+#include "render_client/ui/panels/imgui_context.h"
 #include "render_client/ui/panels/overlay.h"
-#include "render_client/ui/panels/panels.h"
-#include "render_client/ui/report.h"
+#include "render_client/ui/run_json.h"
 #include "render_client/ui/view/bone_on_screen.h"
 #include "render_client/ui/view/fixture_borders.h"
 #include "render_client/ui/view/session_news.h"

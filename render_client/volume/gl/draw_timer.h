@@ -7,7 +7,7 @@
 #include <chrono>
 
 #include "render_client/volume/gl/name.h"
-#include "render_client/volume/passes/stopwatch.h"
+#include "render_client/volume/gl/stopwatch.h"
 
 namespace osteomill::gl {
 

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "render_client/volume/gl/framebuffer.h"
+#include "render_client/volume/gl/stopwatch.h"
 #include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/passes/detail_control.h"
-#include "render_client/volume/passes/stopwatch.h"
 #include "render_client/volume/passes/tile_mask.h"
 #include "render_client/volume/passes/upscaler.h"
 #include "render_client/volume/picture_quality.h"

@@ -10,8 +10,8 @@
 #include "simulation/coupling/couplings.h"
 #include "simulation/coupling/implicit_coupling.h"
 #include "simulation/force_models/milling_model.h"
-#include "studies/stability/scene/held_tool.h"
-#include "studies/stability/scene/scene_plan.h"
+#include "studies/stability/map/held_tool.h"
+#include "studies/stability/map/scene_plan.h"
 
 namespace osteomill::study {
 namespace {

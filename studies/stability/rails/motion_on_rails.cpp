@@ -8,7 +8,7 @@
 #include "simulation/force_models/milling_model.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/random_motions.h"
-#include "studies/stability/scene/scene_plan.h"
+#include "studies/stability/map/scene_plan.h"
 
 namespace osteomill::study {
 namespace {

@@ -10,7 +10,7 @@
 #include "devices/simulated/simulated_device.h"
 #include "simulation/force_models/milling_model.h"
 #include "simulation/loop/milling_session.h"
-#include "studies/stability/scene/scene_plan.h"
+#include "studies/stability/map/scene_plan.h"
 #include "studies/stability/sites/site_bone.h"
 
 namespace osteomill::study {

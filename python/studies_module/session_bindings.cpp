@@ -1,0 +1,123 @@
+// Recordings as the study of several sessions reads them, and the names and forms of metrics on all pages.
+// Errors are RuntimeError in one printable line.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "analysis/report/headlines.h"
+#include "analysis/report/page_style.h"
+#include "analysis/report/session_metrics.h"
+#include "analysis/report/session_trace.h"
+#include "analysis/report/start_conditions.h"
+#include "analysis/report/trainee_groups.h"
+#include "common/files/input_file.h"
+#include "common/recording/packet_reader.h"
+#include "common/text/plain_text.h"
+#include "common/words/translation.h"
+#include "imaging/bone_file/digest.h"
+#include "python/studies_module/bindings.h"
+#include "python/studies_module/printable_error.h"
+
+namespace osteomill::python {
+
+namespace py = pybind11;
+
+namespace {
+
+std::string digest_of_recording(const std::filesystem::path& file) {
+    return with_printable_error([&] {
+        PacketReader{file};  // a file that is no recording is not read to its end
+        const InputFile in(file, {.what = "a recording"});
+        Digest digest;
+        std::array<std::byte, 1 << 16> bytes{};
+        for (std::uint64_t done = 0; done < in.size();) {
+            const std::size_t read = in.read_at(done, bytes);
+            if (read == 0) break;
+            digest.add(std::span(bytes).first(read));
+            done += read;
+        }
+        return digest.text();
+    });
+}
+
+SessionTrace whole_trace(const std::filesystem::path& file) {
+    const py::gil_scoped_release released;
+    return with_printable_error([&] {
+        SessionTrace trace = read_trace(file, [](double) {});
+        if (!trace.error.empty()) throw std::runtime_error(trace.error);
+        if (!trace.ends) throw std::runtime_error(file.string() + ": is torn: the session's end is missing");
+        return trace;
+    });
+}
+
+/// Names may come from a hostile file.
+py::dict read_session(const std::filesystem::path& file) {
+    const SessionTrace trace = whole_trace(file);
+    py::list metrics;
+    for (const MetricRow& row : metric_rows(session_metrics(trace)))
+        metrics.append(py::make_tuple(row.key, printable(row.of), row.value, row.unit, printable(row.text)));
+    const SessionInfo& session = trace.session;
+    py::dict record;
+    record["trainee"] = session.trainee.empty() ? "(no name)" : printable(session.trainee);
+    record["case_name"] = printable(session.case_name.empty() ? session.scene_name : session.case_name);
+    record["began_unix_ns"] = trace.began_unix_ns;
+    record["metrics"] = metrics;
+    const StartConditions start = start_conditions(trace);
+    py::dict felt;
+    for (const auto& [name, value] : start.settings) felt[py::str(printable(name))] = printable(value);
+    record["bone_at_start"] = start.bone;
+    record["settings"] = felt;
+    return record;
+}
+
+py::dict groups_of(const std::filesystem::path& file) {
+    const auto groups = with_printable_error([&] { return trainee_groups(file); });
+    py::dict printed;
+    for (const auto& [trainee, found] : groups)
+        printed[py::str(printable(trainee))] = py::make_tuple(printable(found.group), found.line);
+    return printed;
+}
+
+py::list headline_rows() {
+    py::list rows;
+    for (const Headline& one : headlines)
+        rows.append(
+            py::make_tuple(one.key, one.text, one.unit, one.scale, text_of(one.better), one.is_count));
+    return rows;
+}
+
+}  // namespace
+
+void bind_sessions(py::module_& module) {
+    module.attr("PAGE_STYLE") = page_style;
+    module.def(
+        "headlines", &headline_rows,
+        "By which metrics people judge a session, the weightiest first: key, text, unit, scale from the "
+        "metric's own unit, which is better, whether it is a count.");
+    module.def(
+        "number_text", [](const std::string& key, double value) { return shown_value(key, value).number; },
+        py::arg("key"), py::arg("value"), "A metric's value as every page shows it, in its headline's unit.");
+    module.def("local_time_text", &local_time_text, py::arg("unix_ns"),
+               "By the clock of this machine; empty where the recording does not say.");
+    module.def("languages", &languages, "Codes of ISO 639-1; en is the first.");
+    module.def("words_in", &translation_into, py::arg("language"),
+               "Texts of window and report in one of languages(), by the English ones; none in English.");
+    module.def("trainee_groups", &groups_of, py::arg("file"),
+               "Reads groups.csv: the group, and the line that says so, by the trainee's name.");
+    module.def("digest_of_recording", &digest_of_recording, py::arg("file"),
+               "Digest of the bytes of a file.");
+    module.def(
+        "read_session", &read_session, py::arg("file"),
+        "Whose a whole recording is, of what, when, its metrics (key, of, value, unit, text), and what it "
+        "began with: the bone's digest and the settings that are felt.");
+}
+
+}  // namespace osteomill::python

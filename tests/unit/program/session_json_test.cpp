@@ -1,0 +1,90 @@
+#include "haptic_server/program/session_json.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <stdexcept>
+
+namespace osteomill {
+namespace {
+
+std::unique_ptr<MillingSessionReport> some_report() {
+    auto report = std::make_unique<MillingSessionReport>();
+    report->haptic.ticks = 1000;
+    report->haptic.missed = 3;
+    report->haptic.late = 4;
+    for (int i = 1; i <= 100; ++i) report->haptic.wakeup_latency.add(1e-6 * i);
+    report->milling.duration.add(250e-6);
+    report->removed_mm3[0] = 0.25;
+    report->removed_mm3[3] = 1.5;
+    report->peak_force_n = 2.5;
+    report->fault_counts[static_cast<std::size_t>(Fault::overrun)] = 2;
+    report->bone_checksum = 0x00ab00000000cdefULL;
+    return report;
+}
+
+Scene labelled_scene() {
+    Scene scene;
+    scene.name = "test";
+    scene.tissues = {{3, "dentine", {}, false}, {4, "enamel", {}, false}};
+    return scene;
+}
+
+TEST(Measurements, HaveTheKeysThatAreFixed) {
+    const auto json = measurements(*some_report(), {}, 0, labelled_scene(), {});
+    EXPECT_EQ(json.at("ticks"), 1000);
+    EXPECT_EQ(json.at("missed_deadlines"), 3);
+    EXPECT_NEAR(json.at("wakeup_latency_us").at("p50").get<double>(), 50.0, 2.0);
+    EXPECT_NEAR(json.at("wakeup_latency_us").at("p99").get<double>(), 99.0, 3.0);
+    EXPECT_NEAR(json.at("wakeup_latency_us").at("p999").get<double>(), 100.0, 1e-6);
+    EXPECT_NEAR(json.at("wakeup_latency_us").at("max").get<double>(), 100.0, 1e-6);
+    EXPECT_NEAR(json.at("milling_step_us").at("max").get<double>(), 250.0, 1e-6);
+    EXPECT_EQ(json.at("peak_force_n"), 2.5);
+    EXPECT_EQ(json.at("bone_checksum"), "00ab00000000cdef");
+    EXPECT_EQ(json.at("faults").at("overrun"), 2);
+    EXPECT_EQ(json.at("late_ticks"), 4);
+    const auto steps = histograms_us(*some_report()).at("milling_step");
+    ASSERT_EQ(steps.size(), 1u);
+    EXPECT_NEAR(steps.at(0).at(0).get<double>(), 250.0, 1e-6);
+    EXPECT_EQ(steps.at(0).at(1), 1);
+}
+
+TEST(Measurements, NameEveryTissueOfTheSceneAndWhatHasNoLabel) {
+    const auto removed = measurements(*some_report(), {}, 0, labelled_scene(), {}).at("removed_mm3");
+    EXPECT_EQ(removed.at("total"), 1.75);
+    EXPECT_EQ(removed.at("dentine"), 1.5);
+    EXPECT_EQ(removed.at("enamel"), 0.0);
+    EXPECT_EQ(removed.at("unlabelled"), 0.25);
+}
+
+TEST(Measurements, NameNoTissueWhereTheSceneHasNone) {
+    const auto removed = measurements(*some_report(), {}, 0, Scene{}, {}).at("removed_mm3");
+    EXPECT_EQ(removed.size(), 1u);
+}
+
+TEST(Measurements, SayWhatTheBoneCost) {
+    const BoneCost cost{.memory_bytes = 3000, .bone_mm3 = 1.5, .startup_s = 0.25};
+    const auto bone = measurements(*some_report(), cost, 4096, Scene{}, {}).at("bone");
+    EXPECT_EQ(bone.at("memory_bytes"), 3000);
+    EXPECT_EQ(bone.at("bone_mm3"), 1.5);
+    EXPECT_EQ(bone.at("bytes_per_mm3"), 2000.0);
+    EXPECT_EQ(bone.at("startup_s"), 0.25);
+    EXPECT_EQ(bone.at("peak_resident_bytes"), 4096);
+}
+
+TEST(Measurements, SayNoBytesPerVolumeWhereThereIsNoBone) {
+    const auto bone = measurements(*some_report(), {}, 4096, Scene{}, {}).at("bone");
+    EXPECT_FALSE(bone.contains("bytes_per_mm3"));
+}
+
+TEST(Measurements, SayWhichFileCannotBeWritten) {
+    try {
+        write_json({{"ticks", 1}}, "/nowhere/out.json");
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_EQ(std::string(error.what()).rfind("/nowhere/out.json: ", 0), 0u) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace osteomill
