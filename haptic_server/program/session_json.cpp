@@ -58,7 +58,7 @@ nlohmann::ordered_json cost(const BoneCost& bone, std::uint64_t peak_resident_by
 
 }  // namespace
 
-nlohmann::ordered_json measurements(const MillingSessionReport& report, const BoneCost& bone,
+nlohmann::ordered_json session_json(const MillingSessionReport& report, const BoneCost& bone,
                                     std::uint64_t peak_resident_bytes, const Scene& scene,
                                     const MillingSessionOptions& options) {
     nlohmann::ordered_json json;

@@ -20,7 +20,7 @@ struct BoneCost {
 };
 
 /// `peak_resident_bytes` counts the whole program, with the streaming loop's copy of the bone.
-nlohmann::ordered_json measurements(const MillingSessionReport& report, const BoneCost& bone,
+nlohmann::ordered_json session_json(const MillingSessionReport& report, const BoneCost& bone,
                                     std::uint64_t peak_resident_bytes, const Scene& scene,
                                     const MillingSessionOptions& options);
 

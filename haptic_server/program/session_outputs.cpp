@@ -110,7 +110,7 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
                      recording->missed_ticks);
     failure.of([&] {
         if (!files.json) return;
-        auto json = measurements(report, cost, peak_bytes, assembly.scene(), assembly.options());
+        auto json = session_json(report, cost, peak_bytes, assembly.scene(), assembly.options());
         json["settings"] = settings;
         if (shown) add_structures(json, shown->structures(), assembly.scene());
         if (recording) json["recording"] = recorded(*recording);

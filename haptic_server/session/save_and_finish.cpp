@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-SessionControls::Requests SessionKeeper::requests() {
+SessionControls::Requests SaveAndFinish::requests() {
     return {.save = [this](const Bone& bone, const std::string& ending) { return save(bone, ending); },
             .finish =
                 [this] {
@@ -19,18 +19,18 @@ SessionControls::Requests SessionKeeper::requests() {
             .save_news = [this] { return take_news(); }};
 }
 
-void SessionKeeper::tell(const std::string& line) {
+void SaveAndFinish::tell(const std::string& line) {
     spdlog::error("{}", line);
     const std::lock_guard lock(mutex_);
     news_.push_back(line);
 }
 
-std::vector<std::string> SessionKeeper::take_news() {
+std::vector<std::string> SaveAndFinish::take_news() {
     const std::lock_guard lock(mutex_);
     return std::exchange(news_, {});
 }
 
-std::string SessionKeeper::save(const Bone& bone, const std::string& mesh_ending) {
+std::string SaveAndFinish::save(const Bone& bone, const std::string& mesh_ending) {
     // The server makes the rest of the name: no client chooses a path on this disk.
     if (!mesh_ending.empty() && !is_mesh_ending(mesh_ending))
         return fmt::format("a surface is saved as {}", mesh_endings);

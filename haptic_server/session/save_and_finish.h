@@ -13,17 +13,17 @@
 
 namespace osteomill {
 
-class SessionKeeper {
+class SaveAndFinish {
   public:
     /// Writes a bone, or its surface if there is an ending of mesh_endings; returns one line about an error,
     /// or nothing. Called on a thread of its own.
     using Save = std::function<std::string(const Bone&, const std::string& mesh_ending)>;
 
     /// An empty `save`: there is no file to save in, and it is refused.
-    explicit SessionKeeper(Save save) : save_(std::move(save)) {}
-    ~SessionKeeper() { wait(); }
-    SessionKeeper(const SessionKeeper&) = delete;
-    SessionKeeper& operator=(const SessionKeeper&) = delete;
+    explicit SaveAndFinish(Save save) : save_(std::move(save)) {}
+    ~SaveAndFinish() { wait(); }
+    SaveAndFinish(const SaveAndFinish&) = delete;
+    SaveAndFinish& operator=(const SaveAndFinish&) = delete;
 
     /// Callbacks for SessionControls, called on the streaming thread; this object must outlive them. A save
     /// holds a copy of the bone's fractions until it is written; one at a time.

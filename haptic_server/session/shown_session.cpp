@@ -29,7 +29,7 @@ void save_surface(const std::filesystem::path& path, const Bone& bone) {
     write_mesh(path, mesh, Link::replace);
 }
 
-SessionKeeper::Save save_into(const OutputPlace* place, const BoneSource& source) {
+SaveAndFinish::Save save_into(const OutputPlace* place, const BoneSource& source) {
     if (place == nullptr) return {};
     return [place, &source](const Bone& now, const std::string& mesh_ending) -> std::string {
         try {
@@ -62,7 +62,7 @@ SessionInfo info_of(const ShownOptions& options, const SessionScene& scene, cons
 }
 
 /// Clients receive errors of the recording like those of saving.
-StreamingOptions with_teller(StreamingOptions streaming, SessionKeeper& keeper) {
+StreamingOptions with_teller(StreamingOptions streaming, SaveAndFinish& keeper) {
     if (streaming.record) streaming.record->tell = [&keeper](const std::string& line) { keeper.tell(line); };
     return streaming;
 }

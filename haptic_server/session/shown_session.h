@@ -59,7 +59,7 @@ class ShownSession {
                                        const DeviceParts& device, FixtureSet held);
 
     const bool waits_for_client_;
-    SessionKeeper keeper_;
+    SaveAndFinish keeper_;
     std::optional<ToolPose> placed_;  // the streaming thread's until end()
     SessionControls controls_;
     LiveSession live_;

@@ -38,7 +38,7 @@ RenderReport run_film(const RenderOptions& options, SessionSource& source,
     player.pause();
     const gl::OffscreenContext context(options.gpu);
     gl::require_opengl_3_3();
-    Panels panels;
+    ImguiContext panels;
     RecordingCamera camera(options, &player, player.has_view() ? "trainee" : "");
     const glm::ivec2 size_px =
         options.window_size_px.value_or(camera.size_px().value_or(default_offscreen_size_px));

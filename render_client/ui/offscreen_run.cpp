@@ -62,7 +62,7 @@ RenderReport run_offscreen(const RenderOptions& options, SessionSource& source,
     Screenshots screenshots(options.screenshots, screenshot_interval(options));
     const gl::OffscreenContext context(options.gpu);
     gl::require_opengl_3_3();
-    Panels panels;
+    ImguiContext panels;
     SessionPicture session(source, panels, options.window_size_px.value_or(default_offscreen_size_px),
                            FrameQuality::full, options.renderer, options.look, options.stereo);
     take_over(session, options);

@@ -356,7 +356,7 @@ class Drawing {
     Window& window_;
     Shared& shared_;
     const Clock::time_point began_ = Clock::now();
-    Panels panels_;
+    ImguiContext panels_;
     std::optional<StartScreen> start_;
     std::optional<gl::StorageThread> storage_;
     SettingsFile settings_{home_of(options_) / "window.toml"};

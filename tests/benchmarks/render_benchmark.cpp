@@ -73,7 +73,7 @@ class Client {
     }
 
     gl::OffscreenContext context_;
-    Panels panels_;
+    ImguiContext panels_;
     PhantomSession session_;
     SessionPicture picture_;
     std::vector<double> frame_s_;

@@ -41,7 +41,7 @@ void draw_cube(const PanelPainter& painter, Camera& camera, const PanelPlace& pl
         const glm::vec2 half(0.5f * painter.width_of(letter), 0.5f * ImGui::GetFontSize());
         painter.draw_text(in_picture(face.middle) - half, painter.theme()[Tone::plain], letter);
     }
-    const InputPanel window("cube", place, InputPanel::Background::none);
+    const WidgetPanel window("cube", place, WidgetPanel::Background::none);
     ImGui::SetCursorPos({0.0f, 0.0f});
     if (!ImGui::InvisibleButton("side", to_imgui(place.size))) return;
     const ImVec2 mouse = ImGui::GetIO().MousePos;

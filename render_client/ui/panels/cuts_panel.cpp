@@ -44,8 +44,8 @@ glm::vec2 cuts_panel_size(const PanelPainter& painter) {
 }
 
 void draw_cuts_panel(CutSettings& cuts, const Camera& camera, const PanelPlace& place) {
-    const InputPanel window("cuts", place, InputPanel::Background::filled,
-                            place.choice == 0 ? InputPanel::Size::whole : InputPanel::Size::scrolls);
+    const WidgetPanel window("cuts", place, WidgetPanel::Background::filled,
+                             place.choice == 0 ? WidgetPanel::Size::whole : WidgetPanel::Size::scrolls);
     for (std::size_t index = 0; index < CutSettings::count; ++index) {
         ImGui::PushID(static_cast<int>(index));
         draw_row(cuts, index, camera);

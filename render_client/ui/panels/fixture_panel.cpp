@@ -74,7 +74,7 @@ glm::vec2 fixture_panel_size(const PanelText& text) {
 
 void draw_fixture_panel(const SeenSession& session, const Theme& theme, const PanelText& text,
                         const PanelPlace& place, SessionRequests& requests) {
-    const InputPanel window("fixtures", place);
+    const WidgetPanel window("fixtures", place);
     const SessionStatus& can = session.link.controls;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const TextPiece& words = text[i].front();

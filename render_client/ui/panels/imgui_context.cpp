@@ -76,22 +76,22 @@ std::vector<PixelBox> boxes_of(const ImDrawData& drawn) {
 
 }  // namespace
 
-Panels::Panels() {
+ImguiContext::ImguiContext() {
     ImGui::CreateContext();
     // No file is written beside the program.
     ImGui::GetIO().IniFilename = nullptr;
-    prepare_panel_input(ImGui::GetIO());
+    prepare_imgui_input(ImGui::GetIO());
     if (ImGui_ImplOpenGL3_Init("#version 330 core")) return;
     ImGui::DestroyContext();
     throw std::runtime_error("Dear ImGui finds no OpenGL 3 (libGL.so.1); install it: apt-get install libgl1");
 }
 
-Panels::~Panels() {
+ImguiContext::~ImguiContext() {
     ImGui_ImplOpenGL3_Shutdown();
     ImGui::DestroyContext();
 }
 
-void Panels::set_style(ThemeName theme, float scale) {
+void ImguiContext::set_style(ThemeName theme, float scale) {
     if (scale != scale_) load_letters(scale);
     theme_ = theme;
     scale_ = scale;
@@ -106,7 +106,7 @@ void Panels::set_style(ThemeName theme, float scale) {
     ImGui::GetStyle() = style;
 }
 
-void Panels::load_letters(float scale) {
+void ImguiContext::load_letters(float scale) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     atlas.Clear();
     ImFontConfig config;
@@ -126,16 +126,16 @@ void Panels::load_letters(float scale) {
     ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
-void Panels::use(Clipboard& clipboard) {
+void ImguiContext::use(Clipboard& clipboard) {
     give_clipboard(clipboard, ImGui::GetIO());
 }
 
-bool Panels::feed(const WindowInput& input) {
+bool ImguiContext::feed(const WindowInput& input) {
     return input_.feed(input, ImGui::GetIO());
 }
 
-void Panels::begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s, ThemeName theme,
-                   float scale) {
+void ImguiContext::begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s,
+                         ThemeName theme, float scale) {
     if (theme != theme_ || scale != scale_) set_style(theme, scale);
     ImGui_ImplOpenGL3_NewFrame();
     ImGuiIO& io = ImGui::GetIO();
@@ -147,7 +147,7 @@ void Panels::begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double
     wheel_notches_ = io.MouseWheel;
 }
 
-std::vector<PixelBox> Panels::input_boxes() const {
+std::vector<PixelBox> ImguiContext::input_boxes() const {
     std::vector<PixelBox> boxes;
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
         if (!window->WasActive || window->Hidden || window->IsFallbackWindow) continue;
@@ -157,7 +157,7 @@ std::vector<PixelBox> Panels::input_boxes() const {
     return boxes;
 }
 
-std::vector<PixelBox> Panels::end(std::span<const gl::Framebuffer* const> pictures) {
+std::vector<PixelBox> ImguiContext::end(std::span<const gl::Framebuffer* const> pictures) {
     ImGui::Render();
     const ImDrawData* drawn = ImGui::GetDrawData();
     for (const gl::Framebuffer* picture : pictures) {

@@ -18,12 +18,12 @@
 
 namespace osteomill {
 
-class Panels {
+class ImguiContext {
   public:
-    Panels();
-    Panels(const Panels&) = delete;
-    Panels& operator=(const Panels&) = delete;
-    ~Panels();
+    ImguiContext();
+    ImguiContext(const ImguiContext&) = delete;
+    ImguiContext& operator=(const ImguiContext&) = delete;
+    ~ImguiContext();
 
     /// Joins the panels' texts to the desktop's; it must outlive them.
     void use(Clipboard& clipboard);
@@ -50,7 +50,7 @@ class Panels {
     void set_style(ThemeName theme, float scale);
     void load_letters(float scale);
 
-    PanelInput input_;
+    ImguiInput input_;
     ThemeName theme_ = ThemeName::dark;
     float scale_ = 0.0f;  // none yet
     float wheel_notches_ = 0.0f;

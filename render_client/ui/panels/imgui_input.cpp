@@ -62,7 +62,7 @@ void feed_key(ImGuiKey_ key, bool is_down, ImGuiIO& io) {
 
 }  // namespace
 
-void prepare_panel_input(ImGuiIO& io) {
+void prepare_imgui_input(ImGuiIO& io) {
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
 #if IMGUI_VERSION_NUM >= 18700
     // A frame gets all that happened since the last one, as the rest of the window does.
@@ -78,7 +78,7 @@ void give_clipboard(Clipboard& clipboard, ImGuiIO& io) {
     io.GetClipboardTextFn = [](void* from) { return static_cast<Clipboard*>(from)->paste().c_str(); };
 }
 
-bool PanelInput::Button::next(bool is_pressed, bool is_held) {
+bool ImguiInput::Button::next(bool is_pressed, bool is_held) {
     waiting += is_pressed ? 1 : 0;
     const bool was_down = std::exchange(is_down, waiting > 0 || is_held);
     if (waiting == 0) return is_down;
@@ -89,7 +89,7 @@ bool PanelInput::Button::next(bool is_pressed, bool is_held) {
     return is_down;
 }
 
-std::optional<KeyPress> PanelInput::next_press(const WindowInput& input) {
+std::optional<KeyPress> ImguiInput::next_press(const WindowInput& input) {
     for (TypedCharacter character : input.typed) {
         const auto end = input.presses.begin() + static_cast<std::ptrdiff_t>(character.after_presses);
         const auto before = std::count_if(input.presses.begin(), end, is_seen);
@@ -115,7 +115,7 @@ std::optional<KeyPress> PanelInput::next_press(const WindowInput& input) {
     return press;
 }
 
-void PanelInput::feed_button(WindowInput::Button button, const WindowInput& input, ImGuiIO& io) {
+void ImguiInput::feed_button(WindowInput::Button button, const WindowInput& input, ImGuiIO& io) {
     Button& passed_on = buttons_[button];
     if (input.pressed_at[button]) passed_on.pressed_at = input.pressed_at[button];
     if (input.released_at[button]) passed_on.released_at = input.released_at[button];
@@ -129,7 +129,7 @@ void PanelInput::feed_button(WindowInput::Button button, const WindowInput& inpu
     io.MousePos = {at.x, at.y};
 }
 
-void PanelInput::feed_text(bool is_command, bool clicks, ImGuiIO& io) {
+void ImguiInput::feed_text(bool is_command, bool clicks, ImGuiIO& io) {
     // Dear ImGui takes no text while ctrl is held.
     while (!is_command && !typed_.empty() && typed_.front().after_presses == 0 &&
            !(clicks && typed_.front().after_click)) {
@@ -138,7 +138,7 @@ void PanelInput::feed_text(bool is_command, bool clicks, ImGuiIO& io) {
     }
 }
 
-bool PanelInput::feed(const WindowInput& input, ImGuiIO& io) {
+bool ImguiInput::feed(const WindowInput& input, ImGuiIO& io) {
     constexpr float nowhere = -std::numeric_limits<float>::max();
     const glm::vec2 at(input.cursor * input.px_per_unit());
     io.MousePos = input.has_cursor ? ImVec2(at.x, at.y) : ImVec2(nowhere, nowhere);

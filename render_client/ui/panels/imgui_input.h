@@ -16,7 +16,7 @@
 namespace osteomill {
 
 /// Once for each context, before its first frame.
-void prepare_panel_input(ImGuiIO& io);
+void prepare_imgui_input(ImGuiIO& io);
 
 /// Texts are cut, copied and pasted by way of `clipboard`, which must outlive the context. Without one Dear
 /// ImGui keeps them to itself.
@@ -26,7 +26,7 @@ void give_clipboard(Clipboard& clipboard, ImGuiIO& io);
 /// one key, in order, with the keys that were held at its time; a key that is pressed again is released
 /// first. A button goes down and up where the pointer was at that time. A character comes after the clicks
 /// and the keys that came before it. So nothing is lost or mistaken, however long a frame takes.
-class PanelInput {
+class ImguiInput {
   public:
     /// Whether presses wait for the frames after the next one.
     bool feed(const WindowInput& input, ImGuiIO& io);

@@ -62,7 +62,8 @@ void PanelPainter::draw(const PanelText& text, const PanelPlace& place, float fo
 }
 
 void PanelPainter::draw_background(const PanelPlace& place) const {
-    // A command of its own for each panel: the space between them need not be drawn again, see Panels::end.
+    // A command of its own for each panel: the space between them need not be drawn again, see
+    // ImguiContext::end.
     canvas_.AddDrawCmd();
     canvas_.AddRectFilled(to_imgui(place.first), to_imgui(place.first + place.size), colour_of(theme_.panel),
                           4.0f * scale_);

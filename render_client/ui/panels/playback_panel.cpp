@@ -52,7 +52,7 @@ glm::vec2 playback_panel_size(const PanelPainter& painter, const glm::vec2& pict
 }
 
 void draw_playback_panel(RecordingPlayer& player, const PanelPainter& painter, const PanelPlace& place) {
-    const InputPanel window("playback", place);
+    const WidgetPanel window("playback", place);
     const float letter = ImGui::GetFontSize();
     if (ImGui::Button(player.is_playing() ? tr("pause") : tr("play"), {button_width * letter, 0.0f}))
         player.is_playing() ? player.pause() : player.play();

@@ -76,8 +76,8 @@ void draw_session_dialog(ViewSettings& view, bool started_session, const PanelPl
                          SessionRequests& requests) {
     const bool takes_note = view.question == SessionQuestion::mark;
     // A panel that keys do not reach gives its field no keyboard (Dear ImGui 1.90).
-    const InputPanel window("question", place, InputPanel::Background::filled, InputPanel::Size::whole,
-                            takes_note ? InputPanel::Keys::reach_it : InputPanel::Keys::none);
+    const WidgetPanel window("question", place, WidgetPanel::Background::filled, WidgetPanel::Size::whole,
+                             takes_note ? WidgetPanel::Keys::reach_it : WidgetPanel::Keys::none);
     const Question question = question_of(view.question, started_session);
     ImGui::TextUnformatted(question.text);
     bool is_answered = false;

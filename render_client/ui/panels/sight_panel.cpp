@@ -77,7 +77,7 @@ glm::vec2 sight_panel_size(const SightWords& words, bool has_buttons, const glm:
 
 void draw_sight_panel(const SightWords& words, const std::optional<SightButtons>& buttons,
                       const PanelPlace& place) {
-    const InputPanel window("sight", place);
+    const WidgetPanel window("sight", place);
     ImGui::PushTextWrapPos(0.0f);
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_NavHighlight));
     ImGui::TextUnformatted(words.title.c_str());

@@ -145,9 +145,9 @@ std::vector<glm::vec2> slices_panel_sizes(const PanelPainter&) {
 
 void draw_slices_panel(SlicesView& slices, const SeenSession& session, const SlicedBone& bone,
                        const PanelPlace& place, SessionRequests* requests) {
-    const InputPanel window(
-        "slices", place, InputPanel::Background::filled,
-        place.choice < edges.size() ? InputPanel::Size::whole : InputPanel::Size::scrolls);
+    const WidgetPanel window(
+        "slices", place, WidgetPanel::Background::filled,
+        place.choice < edges.size() ? WidgetPanel::Size::whole : WidgetPanel::Size::scrolls);
     if (slices.ct() == nullptr) {
         const bool has_ct = !session.is_recording && session.info != nullptr && session.info->has_ct;
         ImGui::TextWrapped("%s", has_ct ? tr("the CT is on its way")

@@ -142,8 +142,8 @@ glm::vec2 start_panel_size(const StartPage& page, const glm::vec2& available) {
 }
 
 void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place) {
-    const InputPanel window("start", place, InputPanel::Background::filled, InputPanel::Size::whole,
-                            InputPanel::Keys::reach_it);
+    const WidgetPanel window("start", place, WidgetPanel::Background::filled, WidgetPanel::Size::whole,
+                             WidgetPanel::Keys::reach_it);
     switch (page.view()) {
         case StartPage::View::cases:
             draw_cases(page, picture);

@@ -281,7 +281,7 @@ std::vector<glm::vec2> tool_bar_sizes(const SeenSession& session, const ViewSett
 
 void draw_tool_bar(const SeenSession& session, ViewSettings& view, const PanelPlace& place,
                    SessionRequests& requests) {
-    const InputPanel window("tool bar", place);
+    const WidgetPanel window("tool bar", place);
     const bool has_words = place.choice == 0;
     bool is_first = true;
     const auto all = buttons(session, view);

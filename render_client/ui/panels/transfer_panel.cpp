@@ -181,8 +181,8 @@ glm::vec2 transfer_panel_size(const PanelPainter& painter) {
 }
 
 void draw_transfer_panel(const PanelPainter& painter, ViewSettings& view, const PanelPlace& place) {
-    const InputPanel window("transfer", place, InputPanel::Background::filled,
-                            place.choice == 0 ? InputPanel::Size::whole : InputPanel::Size::scrolls);
+    const WidgetPanel window("transfer", place, WidgetPanel::Background::filled,
+                             place.choice == 0 ? WidgetPanel::Size::whole : WidgetPanel::Size::scrolls);
     TransferEditor& editor = view.transfer;
     const float letter = ImGui::GetFontSize();
     const float save_width = 5.5f * letter;

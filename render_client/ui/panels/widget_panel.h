@@ -8,7 +8,7 @@
 namespace osteomill {
 
 /// Open for widgets as long as it lives.
-class InputPanel {
+class WidgetPanel {
   public:
     enum class Background { filled, none };
 
@@ -18,8 +18,8 @@ class InputPanel {
     /// A page has the keyboard: Tab and arrows go from widget to widget, Return presses one.
     enum class Keys { none, reach_it };
 
-    InputPanel(const char* name, const PanelPlace& place, Background background = Background::filled,
-               Size size = Size::whole, Keys keys = Keys::none) {
+    WidgetPanel(const char* name, const PanelPlace& place, Background background = Background::filled,
+                Size size = Size::whole, Keys keys = Keys::none) {
         ImGui::SetNextWindowPos({place.first.x, place.first.y}, ImGuiCond_Always);
         ImGui::SetNextWindowSize({place.size.x, place.size.y}, ImGuiCond_Always);
         ImGui::Begin(
@@ -31,9 +31,9 @@ class InputPanel {
                 (keys == Keys::none ? ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav : 0) |
                 (background == Background::none ? ImGuiWindowFlags_NoBackground : 0));
     }
-    ~InputPanel() { ImGui::End(); }
-    InputPanel(const InputPanel&) = delete;
-    InputPanel& operator=(const InputPanel&) = delete;
+    ~WidgetPanel() { ImGui::End(); }
+    WidgetPanel(const WidgetPanel&) = delete;
+    WidgetPanel& operator=(const WidgetPanel&) = delete;
 };
 
 }  // namespace osteomill

@@ -24,7 +24,7 @@ std::vector<TissueColour> colours_of(const SessionInfo* session) {
 
 }  // namespace
 
-SessionPicture::SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
+SessionPicture::SessionPicture(SessionSource& source, ImguiContext& panels, const glm::ivec2& size_px,
                                FrameQuality quality, RendererChoice renderer, const ShadingSettings& look,
                                const StereoSettings& stereo)
     : source_(source),

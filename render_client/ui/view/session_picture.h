@@ -29,7 +29,7 @@ enum class FrameQuality {
 
 class SessionPicture {
   public:
-    SessionPicture(SessionSource& source, Panels& panels, const glm::ivec2& size_px,
+    SessionPicture(SessionSource& source, ImguiContext& panels, const glm::ivec2& size_px,
                    FrameQuality quality = FrameQuality::full,
                    RendererChoice renderer = RendererChoice::raycast, const ShadingSettings& look = {},
                    const StereoSettings& stereo = {});
@@ -115,7 +115,7 @@ class SessionPicture {
     const gl::Framebuffer* draw_inset(const std::optional<DrawnTool>& tool, const SceneAppearance& look);
 
     SessionSource& source_;
-    Panels& panels_;
+    ImguiContext& panels_;
     std::unique_ptr<BoneRenderer> renderer_;
     BoneOnScreen bone_;
     FrameQuality frame_quality_;

@@ -57,7 +57,7 @@ class Window {
         picture_.draw(frame_s).depth_at({0, 0});
     }
 
-    Panels panels_;
+    ImguiContext panels_;
     PhantomSession& session_;
     SessionPicture picture_;
     Camera first_view_;

@@ -30,8 +30,8 @@ Scene labelled_scene() {
     return scene;
 }
 
-TEST(Measurements, HaveTheKeysThatAreFixed) {
-    const auto json = measurements(*some_report(), {}, 0, labelled_scene(), {});
+TEST(SessionJson, HaveTheKeysThatAreFixed) {
+    const auto json = session_json(*some_report(), {}, 0, labelled_scene(), {});
     EXPECT_EQ(json.at("ticks"), 1000);
     EXPECT_EQ(json.at("missed_deadlines"), 3);
     EXPECT_NEAR(json.at("wakeup_latency_us").at("p50").get<double>(), 50.0, 2.0);
@@ -49,22 +49,22 @@ TEST(Measurements, HaveTheKeysThatAreFixed) {
     EXPECT_EQ(steps.at(0).at(1), 1);
 }
 
-TEST(Measurements, NameEveryTissueOfTheSceneAndWhatHasNoLabel) {
-    const auto removed = measurements(*some_report(), {}, 0, labelled_scene(), {}).at("removed_mm3");
+TEST(SessionJson, NameEveryTissueOfTheSceneAndWhatHasNoLabel) {
+    const auto removed = session_json(*some_report(), {}, 0, labelled_scene(), {}).at("removed_mm3");
     EXPECT_EQ(removed.at("total"), 1.75);
     EXPECT_EQ(removed.at("dentine"), 1.5);
     EXPECT_EQ(removed.at("enamel"), 0.0);
     EXPECT_EQ(removed.at("unlabelled"), 0.25);
 }
 
-TEST(Measurements, NameNoTissueWhereTheSceneHasNone) {
-    const auto removed = measurements(*some_report(), {}, 0, Scene{}, {}).at("removed_mm3");
+TEST(SessionJson, NameNoTissueWhereTheSceneHasNone) {
+    const auto removed = session_json(*some_report(), {}, 0, Scene{}, {}).at("removed_mm3");
     EXPECT_EQ(removed.size(), 1u);
 }
 
-TEST(Measurements, SayWhatTheBoneCost) {
+TEST(SessionJson, SayWhatTheBoneCost) {
     const BoneCost cost{.memory_bytes = 3000, .bone_mm3 = 1.5, .startup_s = 0.25};
-    const auto bone = measurements(*some_report(), cost, 4096, Scene{}, {}).at("bone");
+    const auto bone = session_json(*some_report(), cost, 4096, Scene{}, {}).at("bone");
     EXPECT_EQ(bone.at("memory_bytes"), 3000);
     EXPECT_EQ(bone.at("bone_mm3"), 1.5);
     EXPECT_EQ(bone.at("bytes_per_mm3"), 2000.0);
@@ -72,12 +72,12 @@ TEST(Measurements, SayWhatTheBoneCost) {
     EXPECT_EQ(bone.at("peak_resident_bytes"), 4096);
 }
 
-TEST(Measurements, SayNoBytesPerVolumeWhereThereIsNoBone) {
-    const auto bone = measurements(*some_report(), {}, 4096, Scene{}, {}).at("bone");
+TEST(SessionJson, SayNoBytesPerVolumeWhereThereIsNoBone) {
+    const auto bone = session_json(*some_report(), {}, 4096, Scene{}, {}).at("bone");
     EXPECT_FALSE(bone.contains("bytes_per_mm3"));
 }
 
-TEST(Measurements, SayWhichFileCannotBeWritten) {
+TEST(SessionJson, SayWhichFileCannotBeWritten) {
     try {
         write_json({{"ticks", 1}}, "/nowhere/out.json");
         FAIL();

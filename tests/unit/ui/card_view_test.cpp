@@ -5,7 +5,7 @@
 #include "render_client/ui/panels/page_widgets.h"
 #include "tests/support/temporary_folder.h"
 
-namespace osteomill::case_card_test {
+namespace osteomill::card_view_test {
 namespace {
 
 /// The built-in cases, without anything to draw on.
@@ -49,4 +49,4 @@ TEST_F(CaseCardTest, IsAsHighAsTheLongestTextNeeds) {
 }
 
 }  // namespace
-}  // namespace osteomill::case_card_test
+}  // namespace osteomill::card_view_test

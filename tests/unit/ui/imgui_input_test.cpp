@@ -7,7 +7,7 @@
 #include <array>
 #include <string>
 
-namespace osteomill::panel_input_test {
+namespace osteomill::imgui_input_test {
 namespace {
 
 /// A page of one text and one button, without anything to draw on.
@@ -20,7 +20,7 @@ class PanelInputTest : public ::testing::Test {
         io.DisplaySize = {400.0f, 300.0f};
         unsigned char* pixels = nullptr;
         io.Fonts->GetTexDataAsRGBA32(&pixels, nullptr, nullptr);
-        prepare_panel_input(io);
+        prepare_imgui_input(io);
         input_.size = {400.0, 300.0};
         input_.framebuffer_size_px = {400, 300};
         for (int i = 0; i < 3; ++i) draw();
@@ -28,7 +28,7 @@ class PanelInputTest : public ::testing::Test {
     ~PanelInputTest() override { ImGui::DestroyContext(); }
 
     void draw() {
-        is_waiting_ = panel_input_.feed(input_, ImGui::GetIO());
+        is_waiting_ = imgui_input_.feed(input_, ImGui::GetIO());
         input_.forget_events();
         ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
         ImGui::NewFrame();
@@ -58,7 +58,7 @@ class PanelInputTest : public ::testing::Test {
     std::string text() const { return text_.data(); }
 
     WindowInput input_;
-    PanelInput panel_input_;
+    ImguiInput imgui_input_;
     bool is_waiting_ = false;
     std::array<char, 32> text_{};
     ImVec2 text_at_{}, button_at_{};
@@ -244,4 +244,4 @@ TEST_F(PanelInputTest, CursorOutsideOfTheWindowIsNowhere) {
 }
 
 }  // namespace
-}  // namespace osteomill::panel_input_test
+}  // namespace osteomill::imgui_input_test

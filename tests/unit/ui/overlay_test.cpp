@@ -11,7 +11,7 @@ using OverlayTest = OffscreenTest;
 
 TEST_F(OverlayTest, LeavesTheMiddleToTheBurrInEveryWindow) {
     ScriptedSession session(1000, true);
-    Panels panels;
+    ImguiContext panels;
     SessionPicture picture(session, panels, {500, 400});
     picture.view().transfer.choose(transfer_presets()[0]);
     picture.take_in();

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace osteomill::report_test {
+namespace osteomill::run_json_test {
 namespace {
 
 TEST(Report, HasTheKeysThatOthersReadByName) {
@@ -47,4 +47,4 @@ TEST(Report, NamesTheFileThatItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace osteomill::report_test
+}  // namespace osteomill::run_json_test

@@ -59,7 +59,7 @@ class SessionPictureTest : public OffscreenTest {
     }
 
     ToldSession session_;
-    std::optional<Panels> panels_;
+    std::optional<ImguiContext> panels_;
     std::optional<SessionPicture> picture_;
 };
 

@@ -11,7 +11,7 @@
 #include "studies/stability/map/fast_part.h"
 #include "tests/support/bench/bench_run.h"
 
-namespace osteomill::study::verdict_test {
+namespace osteomill::study::stability_verdict_test {
 namespace {
 
 using testing::bare_arm;
@@ -159,4 +159,4 @@ TEST(Verdict, FindsTheChatterOfHeldCuttingForces) {
 }
 
 }  // namespace
-}  // namespace osteomill::study::verdict_test
+}  // namespace osteomill::study::stability_verdict_test
