@@ -15,8 +15,8 @@
 
 #include "common/log/limited_log.h"
 #include "common/log/token_bucket.h"
-#include "common/scene/structure_distance.h"
-#include "common/scene/tool_state.h"
+#include "common/session/structure_distance.h"
+#include "common/session/tool_state.h"
 #include "render_client/link/bone_link.h"
 #include "slicer/image_schedule.h"
 #include "slicer/slicer_port.h"

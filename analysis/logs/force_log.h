@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/logs/csv_log.h"
-#include "common/scene/tick_sample.h"
+#include "common/session/tick_sample.h"
 #include "simulation/loop/milling_sample.h"
 
 namespace osteomill {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "common/scene/trajectory_columns.h"
-#include "common/scene/written_pose.h"
+#include "common/session/written_pose.h"
 #include "common/text/csv_cell.h"
 #include "common/text/plain_text.h"
 

@@ -11,7 +11,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
-#include "common/scene/viewpoint.h"
+#include "common/session/viewpoint.h"
 
 namespace osteomill {
 

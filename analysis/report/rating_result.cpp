@@ -8,7 +8,7 @@
 #include "analysis/report/session_metrics.h"
 #include "common/scene/rating_condition.h"
 #include "common/scene/rating_quantities.h"
-#include "common/scene/structure_distance.h"
+#include "common/session/structure_distance.h"
 
 namespace osteomill {
 

@@ -15,9 +15,9 @@
 #include "analysis/report/plunge_watch.h"
 #include "common/bone/bone.h"
 #include "common/program/progress.h"
-#include "common/scene/session_control.h"
 #include "common/scene/structure.h"
-#include "common/scene/structure_watch.h"
+#include "common/session/session_control.h"
+#include "common/session/structure_watch.h"
 #include "common/wire/session_info.h"
 
 namespace osteomill {

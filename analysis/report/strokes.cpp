@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "analysis/report/smoothness.h"
-#include "common/scene/stroke_span.h"
+#include "common/session/stroke_span.h"
 #include "common/statistics/percentile.h"
 
 namespace osteomill {

@@ -1,6 +1,6 @@
 // The strokes of a session, and which of them were undone.
 //
-// Undo takes a stroke back slice by slice (common/scene/stroke_span.h). A stroke is measured
+// Undo takes a stroke back slice by slice (common/session/stroke_span.h). A stroke is measured
 // from the first touch of the turning burr to the last; motion in air after that does not belong to it.
 #pragma once
 

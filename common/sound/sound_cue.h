@@ -1,7 +1,7 @@
 // Cues for the sound of a tool: which notes its spindle makes, and how hard it works.
 #pragma once
 
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 
 namespace osteomill {
 

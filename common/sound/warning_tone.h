@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include "common/scene/structure_distance.h"
+#include "common/session/structure_distance.h"
 
 namespace osteomill {
 

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "common/scene/session_control.h"
+#include "common/session/session_control.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v2/session.pb.h"
 

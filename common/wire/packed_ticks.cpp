@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "common/scene/seen_steps.h"
+#include "common/session/seen_steps.h"
 #include "common/wire/parse_message.h"
 
 namespace osteomill {

@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "common/scene/decimal_code.h"
-#include "common/scene/tick_sample.h"
+#include "common/session/decimal_code.h"
+#include "common/session/tick_sample.h"
 #include "common/wire/wire_error.h"
 #include "common/wire/zstd_compressor.h"
 #include "osteomill/v2/session.pb.h"

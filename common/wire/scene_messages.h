@@ -5,9 +5,9 @@
 #include <variant>
 #include <vector>
 
-#include "common/scene/operator_command.h"
 #include "common/scene/scene.h"
-#include "common/scene/tool_state.h"
+#include "common/session/operator_command.h"
+#include "common/session/tool_state.h"
 #include "common/wire/session_info.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v2/session.pb.h"

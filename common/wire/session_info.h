@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/hand_limits.h"
 #include "common/scene/scene.h"
+#include "common/session/hand_limits.h"
 #include "common/wire/protocol_version.h"
 
 namespace osteomill {

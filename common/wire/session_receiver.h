@@ -10,7 +10,7 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
-#include "common/scene/session_state.h"
+#include "common/session/session_state.h"
 #include "common/wire/packed_ticks.h"
 #include "common/wire/running_checksum.h"
 #include "common/wire/session_info.h"

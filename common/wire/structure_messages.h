@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/scene/structure.h"
-#include "common/scene/structure_distance.h"
+#include "common/session/structure_distance.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v2/session.pb.h"
 

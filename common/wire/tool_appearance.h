@@ -1,7 +1,7 @@
 // Appearance of a tool: whether two states of it look the same in a picture.
 #pragma once
 
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 
 namespace osteomill {
 

@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "common/scene/viewpoint.h"
+#include "common/session/viewpoint.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v2/session.pb.h"
 

@@ -10,8 +10,8 @@
 #include "common/bone/patient_space.h"
 #include "common/files/input_file.h"
 #include "common/files/table_line.h"
-#include "common/scene/session_control.h"
 #include "common/scene/trajectory_columns.h"
+#include "common/session/session_control.h"
 #include "common/text/plain_text.h"
 #include "common/text/words.h"
 

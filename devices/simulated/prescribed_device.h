@@ -7,7 +7,7 @@
 
 #include "common/scene/device_mapping.h"
 #include "common/scene/scene.h"
-#include "common/scene/written_pose.h"
+#include "common/session/written_pose.h"
 #include "simulation/device/haptic_device.h"
 
 namespace osteomill {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "common/scene/device_mapping.h"
-#include "common/scene/tick_sample.h"
+#include "common/session/tick_sample.h"
 #include "simulation/device/haptic_device.h"
 
 namespace osteomill {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "common/scene/hand_limits.h"
+#include "common/session/hand_limits.h"
 
 namespace osteomill {
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "common/scene/tick_sample.h"
+#include "common/session/tick_sample.h"
 #include "simulation/exchange/sample_log.h"
 #include "simulation/exchange/triple_buffer.h"
 #include "simulation/safety/fault.h"

@@ -7,7 +7,7 @@
 
 #include "common/recording/recording_writer.h"
 #include "common/scene/scene.h"
-#include "common/scene/structure_watch.h"
+#include "common/session/structure_watch.h"
 #include "simulation/loop/milling_session.h"
 
 namespace osteomill {

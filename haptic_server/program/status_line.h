@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "common/log/line_stream.h"
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 
 namespace osteomill {
 

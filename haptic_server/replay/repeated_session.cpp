@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "common/recording/playhead.h"
-#include "common/scene/decimal_code.h"
 #include "common/scene/scene_file.h"
-#include "common/scene/seen_steps.h"
+#include "common/session/decimal_code.h"
+#include "common/session/seen_steps.h"
 #include "common/text/plain_text.h"
 #include "common/text/words.h"
 #include "devices/simulated/hand_model.h"

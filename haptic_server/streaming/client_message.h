@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "common/scene/viewpoint.h"
+#include "common/session/viewpoint.h"
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/answered_states.h"
 #include "haptic_server/streaming/outgoing_frames.h"

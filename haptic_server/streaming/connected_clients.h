@@ -17,7 +17,7 @@
 
 #include "common/bone/brick_change.h"
 #include "common/log/limited_log.h"
-#include "common/scene/session_state.h"
+#include "common/session/session_state.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/wire_error.h"
 #include "haptic_server/streaming/client_connection.h"

@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <string>
 
-#include "common/scene/session_control.h"
+#include "common/session/session_control.h"
 
 namespace osteomill {
 

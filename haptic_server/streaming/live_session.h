@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "common/scene/scene.h"
-#include "common/scene/structure_watch.h"
-#include "common/scene/tool_state.h"
+#include "common/session/structure_watch.h"
+#include "common/session/tool_state.h"
 #include "common/wire/session_info.h"
 #include "haptic_server/streaming/control_script.h"
 #include "haptic_server/streaming/session_controls.h"

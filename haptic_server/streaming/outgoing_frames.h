@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "common/bone/brick_change.h"
-#include "common/scene/session_state.h"
+#include "common/session/session_state.h"
 #include "common/wire/bone_comparison.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/ct_pieces.h"

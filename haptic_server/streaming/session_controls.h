@@ -28,9 +28,9 @@
 #include <variant>
 #include <vector>
 
-#include "common/scene/session_control.h"
-#include "common/scene/stroke_span.h"
-#include "common/scene/tool_state.h"
+#include "common/session/session_control.h"
+#include "common/session/stroke_span.h"
+#include "common/session/tool_state.h"
 #include "common/wire/bone_replica.h"
 #include "haptic_server/streaming/stroke_journal.h"
 #include "simulation/exchange/change_queue.h"

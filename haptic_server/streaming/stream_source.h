@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "common/bone/ct_volume.h"
-#include "common/scene/session_control.h"
-#include "common/scene/session_state.h"
+#include "common/session/session_control.h"
+#include "common/session/session_state.h"
 #include "common/wire/bone_replica.h"
 
 namespace osteomill {

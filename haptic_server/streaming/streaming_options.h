@@ -12,7 +12,7 @@
 
 #include "common/net/tls_context.h"
 #include "common/recording/packet.h"
-#include "common/scene/tick_sample.h"
+#include "common/session/tick_sample.h"
 #include "haptic_server/streaming/connection_quota.h"
 #include "haptic_server/streaming/operator_list.h"
 #include "simulation/exchange/sample_queue.h"

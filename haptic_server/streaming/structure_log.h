@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/scene/scene.h"
-#include "common/scene/structure_distance.h"
+#include "common/session/structure_distance.h"
 
 namespace osteomill {
 

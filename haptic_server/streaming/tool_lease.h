@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "common/scene/operator_command.h"
-#include "common/scene/tool_state.h"
+#include "common/session/operator_command.h"
+#include "common/session/tool_state.h"
 #include "haptic_server/streaming/control_lease.h"
 #include "simulation/exchange/operator_channel.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "common/scene/structure_distance.h"
+#include "common/session/structure_distance.h"
 #include "haptic_server/streaming/live_session.h"
 #include "simulation/device/device_limits.h"
 

@@ -12,7 +12,7 @@
 #include "analysis/report/planned_region.h"
 #include "common/bone/distance_field.h"
 #include "common/scene/burr_clearance.h"
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 #include "haptic_server/session/session_scene.h"
 #include "simulation/exchange/milling_step.h"
 

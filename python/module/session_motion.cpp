@@ -9,7 +9,7 @@
 #include <string>
 
 #include "common/bone/patient_space.h"
-#include "common/scene/session_control.h"
+#include "common/session/session_control.h"
 #include "python/module/arrays.h"
 #include "python/module/released_lock.h"
 #include "python/module/tick_columns.h"

@@ -27,7 +27,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/scene/viewpoint.h"
+#include "common/session/viewpoint.h"
 #include "render_client/dataset/pinhole.h"
 
 namespace osteomill {

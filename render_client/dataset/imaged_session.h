@@ -9,8 +9,8 @@
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
 #include "common/recording/playhead.h"
-#include "common/scene/tool_state.h"
-#include "common/scene/viewpoint.h"
+#include "common/session/tool_state.h"
+#include "common/session/viewpoint.h"
 #include "common/wire/session_info.h"
 
 namespace osteomill {

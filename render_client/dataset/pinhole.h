@@ -12,7 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "common/scene/viewpoint.h"
+#include "common/session/viewpoint.h"
 #include "render_client/volume/camera.h"
 
 namespace osteomill {

@@ -7,7 +7,7 @@
 #include <deque>
 #include <optional>
 
-#include "common/scene/viewpoint.h"
+#include "common/session/viewpoint.h"
 #include "common/wire/frame.h"
 #include "common/wire/session_info.h"
 #include "osteomill/v2/session.pb.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 #include "common/wire/session_info.h"
 #include "render_client/sound/speaker.h"
 
@@ -33,7 +33,7 @@ class SessionSound {
     std::unique_ptr<Speaker> speaker_;
     bool is_on_ = false;
     bool has_no_speaker_ = false;  // for warnings; F9 tries again
-    double heard_time_s_ = -1.0;  // session time of the state that was passed on last
+    double heard_time_s_ = -1.0;   // session time of the state that was passed on last
 };
 
 }  // namespace osteomill

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "common/bone/bone.h"
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 
 namespace osteomill {
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "common/scene/scene.h"
-#include "common/scene/seen_steps.h"
+#include "common/session/seen_steps.h"
 #include "simulation/engagement/engagement.h"
 
 namespace osteomill {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "common/scene/operator_command.h"
+#include "common/session/operator_command.h"
 #include "simulation/exchange/triple_buffer.h"
 
 namespace osteomill {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "common/bone/bone.h"
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 #include "simulation/exchange/change_queue.h"
 #include "simulation/exchange/milling_step.h"
 #include "simulation/exchange/session_gate.h"

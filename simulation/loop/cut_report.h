@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "common/scene/motor.h"
-#include "common/scene/tool_state.h"
 #include "common/scene/turning_burrs.h"
+#include "common/session/tool_state.h"
 #include "simulation/exchange/milling_step.h"
 
 namespace osteomill {

@@ -10,7 +10,7 @@
 
 #include "common/bone/finite.h"
 #include "common/scene/device_mapping.h"
-#include "common/scene/written_pose.h"
+#include "common/session/written_pose.h"
 #include "simulation/loop/clearance.h"
 
 namespace osteomill {

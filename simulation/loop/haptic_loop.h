@@ -16,8 +16,8 @@
 #include <cstdint>
 
 #include "common/scene/scene.h"
-#include "common/scene/tick_sample.h"
-#include "common/scene/tool_state.h"
+#include "common/session/tick_sample.h"
+#include "common/session/tool_state.h"
 #include "simulation/coupling/coupling.h"
 #include "simulation/coupling/handpiece_vibration.h"
 #include "simulation/device/fading_force.h"

@@ -19,7 +19,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
-#include "common/scene/tick_sample.h"
+#include "common/session/tick_sample.h"
 #include "simulation/coupling/couplings.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/exchange/sample_log.h"

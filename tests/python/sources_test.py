@@ -12,7 +12,7 @@ REPOSITORY = pathlib.Path(__file__).parents[2]
 MODULES = {
     "common/": (),
     "bridge/": (),
-    "simulation/": ("common/bone/", "common/scene/"),
+    "simulation/": ("common/bone/", "common/scene/", "common/session/"),
     "devices/": ("common/", "bridge/", "simulation/device/", "simulation/exchange/"),
     "imaging/case/": ("common/", "imaging/", "simulation/force_models/"),
     "imaging/": ("common/",),

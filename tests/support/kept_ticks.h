@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/scene/tick_sample.h"
+#include "common/session/tick_sample.h"
 #include "simulation/exchange/sample_log.h"
 
 namespace osteomill::testing {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 #include "tests/support/force_log_file.h"
 
 namespace osteomill::testing {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/scene/session_control.h"
+#include "common/session/session_control.h"
 
 namespace osteomill {
 

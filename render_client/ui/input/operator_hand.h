@@ -4,9 +4,9 @@
 // never makes the tool jump. No clock, no window: the caller passes the motions.
 #pragma once
 
-#include "common/scene/hand_limits.h"
-#include "common/scene/operator_command.h"
-#include "common/scene/tool_state.h"
+#include "common/session/hand_limits.h"
+#include "common/session/operator_command.h"
+#include "common/session/tool_state.h"
 #include "render_client/volume/camera.h"
 
 namespace osteomill {

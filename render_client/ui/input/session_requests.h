@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/scene/session_control.h"
+#include "common/session/session_control.h"
 #include "render_client/ui/input/key_bindings.h"
 
 namespace osteomill {

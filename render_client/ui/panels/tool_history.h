@@ -4,7 +4,7 @@
 #include <deque>
 #include <optional>
 
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 
 namespace osteomill {
 

@@ -12,7 +12,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 #include "common/wire/session_info.h"
 #include "render_client/volume/camera.h"
 #include "render_client/volume/textures/bone_textures.h"

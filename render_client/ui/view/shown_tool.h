@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "common/scene/operator_command.h"
-#include "common/scene/tool_state.h"
+#include "common/session/operator_command.h"
+#include "common/session/tool_state.h"
 #include "render_client/dataset/known_shanks.h"
 #include "render_client/link/session_source.h"
 #include "render_client/volume/passes/stereo_picture.h"

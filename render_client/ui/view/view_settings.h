@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "common/scene/session_control.h"
+#include "common/session/session_control.h"
 #include "render_client/ui/panels/theme.h"
 #include "render_client/ui/panels/transfer_editor.h"
 #include "render_client/ui/view/cut_settings.h"

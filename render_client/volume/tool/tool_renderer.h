@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "common/scene/tool_state.h"
+#include "common/session/tool_state.h"
 #include "render_client/volume/camera.h"
 #include "render_client/volume/gl/mesh.h"
 #include "render_client/volume/gl/program.h"

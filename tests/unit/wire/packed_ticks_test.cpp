@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <zstd.h>
 
-#include "common/scene/seen_steps.h"
-#include "common/scene/written_pose.h"
+#include "common/session/seen_steps.h"
+#include "common/session/written_pose.h"
 #include "common/wire/frame.h"
 
 namespace osteomill {

@@ -1,4 +1,4 @@
-#include "common/scene/stroke_span.h"
+#include "common/session/stroke_span.h"
 
 #include <gtest/gtest.h>
 

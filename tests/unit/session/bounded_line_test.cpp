@@ -1,4 +1,4 @@
-#include "common/scene/bounded_line.h"
+#include "common/session/bounded_line.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "common/scene/session_control.h"
+#include "common/session/session_control.h"
 
 #include <array>
 

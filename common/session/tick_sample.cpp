@@ -1,11 +1,11 @@
-#include "common/scene/tick_sample.h"
+#include "common/session/tick_sample.h"
 
 #include <array>
 #include <iterator>
 #include <type_traits>
 
-#include "common/scene/decimal_code.h"
-#include "common/scene/written_pose.h"
+#include "common/session/decimal_code.h"
+#include "common/session/written_pose.h"
 
 namespace osteomill {
 

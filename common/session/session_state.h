@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "common/scene/session_control.h"
-#include "common/scene/structure_distance.h"
-#include "common/scene/tool_state.h"
-#include "common/scene/viewpoint.h"
+#include "common/session/session_control.h"
+#include "common/session/structure_distance.h"
+#include "common/session/tool_state.h"
+#include "common/session/viewpoint.h"
 
 namespace osteomill {
 

@@ -1,4 +1,4 @@
-#include "common/scene/structure_distance.h"
+#include "common/session/structure_distance.h"
 
 namespace osteomill {
 

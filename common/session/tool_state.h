@@ -8,10 +8,10 @@
 #include <optional>
 #include <type_traits>
 
-#include "common/scene/bounded_line.h"
 #include "common/scene/burr.h"
 #include "common/scene/fixture_set.h"
-#include "common/scene/solve_counts.h"
+#include "common/session/bounded_line.h"
+#include "common/session/solve_counts.h"
 
 namespace osteomill {
 

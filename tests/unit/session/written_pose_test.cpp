@@ -1,4 +1,4 @@
-#include "common/scene/written_pose.h"
+#include "common/session/written_pose.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 
 #include "common/bone/patient_space.h"
-#include "common/scene/decimal_code.h"
-#include "common/scene/seen_steps.h"
+#include "common/session/decimal_code.h"
+#include "common/session/seen_steps.h"
 
 namespace osteomill {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/scene/decimal_code.h"
+#include "common/session/decimal_code.h"
 
 #include <array>
 #include <cmath>

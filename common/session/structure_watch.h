@@ -19,8 +19,8 @@
 #include "common/scene/burr_clearance.h"
 #include "common/scene/burr_profile.h"
 #include "common/scene/structure.h"
-#include "common/scene/structure_distance.h"
-#include "common/scene/tool_state.h"
+#include "common/session/structure_distance.h"
+#include "common/session/tool_state.h"
 
 namespace osteomill {
 

@@ -1,4 +1,4 @@
-#include "common/scene/structure_watch.h"
+#include "common/session/structure_watch.h"
 
 #include <gtest/gtest.h>
 
