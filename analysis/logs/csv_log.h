@@ -11,7 +11,9 @@
 
 #include "common/files/session_file.h"
 #include "common/log/background_writer.h"
+#include "common/session/tick_sample.h"
 #include "simulation/exchange/sample_queue.h"
+#include "simulation/loop/milling_sample.h"
 
 namespace osteomill {
 
@@ -98,5 +100,9 @@ class CsvLog final : public SampleLog<Sample> {
     CsvFile file_;
     SampleQueue<Sample> queue_;
 };
+
+/// Logs of a session: its haptic ticks, and its milling steps.
+using ForceLog = CsvLog<TickSample>;
+using MillingLog = CsvLog<MillingSample>;
 
 }  // namespace osteomill

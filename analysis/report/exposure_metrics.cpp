@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "analysis/report/cavity.h"
 #include "analysis/report/nearest_place.h"
+#include "analysis/report/voxel_set.h"
 
 namespace osteomill {
 
@@ -20,7 +20,7 @@ class BareSurface {
   public:
     explicit BareSurface(const SessionTrace& trace)
         : grid_(trace.at_start.grid()),
-          cavity_(cavity_of(trace)),
+          cavity_(cavity_of(trace.at_start, trace.at_end)),
           surface_mm_(cavity_.surface_mm()),
           nearest_(surface_mm_) {
         if (surface_mm_.empty()) return;

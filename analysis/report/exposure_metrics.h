@@ -2,7 +2,7 @@
 // bone was removed. structure_metrics.h: whether the structure itself was milled, "Opened" in the report.
 //
 // The surface consists of the structure's voxels that share a face with a voxel outside of it. The bone over
-// such a voxel is as thick as the straight distance from it to the nearest voxel of the cavity (cavity.h),
+// such a voxel is as thick as the straight distance from it to the nearest voxel of the cavity (voxel_set.h),
 // from face to face: the distance of their centres less one voxel. It counts only if this line leaves the
 // structure within two voxels; a line through the structure leads to its far side, where nothing was exposed.
 // Air that was there before counts neither as bone nor as an opening. A voxel of the surface that is cavity

@@ -183,16 +183,6 @@ std::string legend(const SessionTrace& trace) {
 
 }  // namespace
 
-std::string figures(const std::vector<ReportPicture>& pictures, const char* kind) {
-    std::string html = fmt::format("<div class='pictures {}'>", kind);
-    for (const ReportPicture& picture : pictures)
-        html += fmt::format(
-            "<figure><div class='seen'><img alt='{0}' "
-            "src='{1}'>{2}</div><figcaption>{0}</figcaption></figure>",
-            html_text(picture.title), picture.png_uri, picture.overlay);
-    return html + "</div>";
-}
-
 std::string first_page(const SessionTrace& trace, const SessionMetrics& metrics,
                        const std::vector<MetricRow>& rows, const SessionPictures& pictures,
                        const ReferenceSessions& references) {

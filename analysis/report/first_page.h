@@ -16,7 +16,4 @@ std::string first_page(const SessionTrace& trace, const SessionMetrics& metrics,
                        const std::vector<MetricRow>& rows, const SessionPictures& pictures,
                        const ReferenceSessions& references);
 
-/// Pictures with their overlays, side by side. `kind`: of .pictures in page_style.
-std::string figures(const std::vector<ReportPicture>& pictures, const char* kind = "");
-
 }  // namespace osteomill

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
-#include "analysis/report/cavity.h"
 #include "analysis/report/planned_region.h"
+#include "analysis/report/voxel_set.h"
 #include "common/statistics/percentile.h"
 #include "common/words/translation.h"
 
@@ -75,7 +75,7 @@ std::optional<PlanMetrics> plan_metrics(const SessionTrace& trace) {
     metrics.removed_share = planned > 0 ? static_cast<double>(removed) / static_cast<double>(planned) : 0.0;
     metrics.outside_mm3 = trace.mm3(outside);
     metrics.excess_mm3 = trace.mm3(excess);
-    metrics.surface = surface_distance(region.voxels(), cavity_of(trace));
+    metrics.surface = surface_distance(region.voxels(), cavity_of(trace.at_start, trace.at_end));
     return metrics;
 }
 

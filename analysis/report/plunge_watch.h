@@ -7,6 +7,7 @@
 // the next 100 ms. Sideways milling breaks through nothing: the tip does not lead.
 #pragma once
 
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -60,5 +61,14 @@ class PlungeWatch {
     std::optional<FarWall> behind_;  // of the last breakthrough, while its plunge is measured
     std::vector<Breakthrough> breakthroughs_;
 };
+
+/// Number of times that the burr broke through bone, and how far it plunged.
+struct PlungeMetrics {
+    std::size_t breakthroughs = 0;
+    std::optional<double> mean_mm{};  ///< nothing: no breakthrough
+    std::optional<double> most_mm{};
+};
+
+PlungeMetrics plunge_metrics(std::span<const Breakthrough> breakthroughs);
 
 }  // namespace osteomill

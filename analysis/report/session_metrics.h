@@ -12,7 +12,7 @@
 #include "analysis/report/motion_metrics.h"
 #include "analysis/report/nearness_metrics.h"
 #include "analysis/report/plan_metrics.h"
-#include "analysis/report/plunge_metrics.h"
+#include "analysis/report/plunge_watch.h"
 #include "analysis/report/rating_result.h"
 #include "analysis/report/removal_metrics.h"
 #include "analysis/report/structure_metrics.h"

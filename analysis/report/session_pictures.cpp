@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/report/html_text.h"
 #include "analysis/report/picture_overlay.h"
 #include "analysis/report/picture_views.h"
 #include "common/recording/playhead.h"
@@ -138,6 +139,16 @@ SessionPictures session_pictures(const std::filesystem::path& file, const Sessio
     });
     if (has_marks) add_marks(file, make, views.front(), on_frame, pictures);
     return pictures;
+}
+
+std::string figures(const std::vector<ReportPicture>& pictures, const char* kind) {
+    std::string html = fmt::format("<div class='pictures {}'>", kind);
+    for (const ReportPicture& picture : pictures)
+        html += fmt::format(
+            "<figure><div class='seen'><img alt='{0}' "
+            "src='{1}'>{2}</div><figcaption>{0}</figcaption></figure>",
+            html_text(picture.title), picture.png_uri, picture.overlay);
+    return html + "</div>";
 }
 
 }  // namespace osteomill

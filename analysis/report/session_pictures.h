@@ -29,4 +29,7 @@ struct SessionPictures {
 SessionPictures session_pictures(const std::filesystem::path& file, const SessionTrace& trace,
                                  const ReportProgress& on_frame);
 
+/// HTML: pictures with their overlays, side by side. `kind`: of .pictures in page_style.
+std::string figures(const std::vector<ReportPicture>& pictures, const char* kind = "");
+
 }  // namespace osteomill

@@ -14,8 +14,8 @@
 
 #include "analysis/report/plunge_watch.h"
 #include "common/bone/bone.h"
+#include "common/bone/structure_mask.h"
 #include "common/program/progress.h"
-#include "common/scene/structure.h"
 #include "common/session/session_control.h"
 #include "common/session/structure_watch.h"
 #include "common/wire/session_info.h"

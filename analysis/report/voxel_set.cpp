@@ -1,5 +1,6 @@
 #include "analysis/report/voxel_set.h"
 
+#include <algorithm>
 #include <array>
 
 namespace osteomill {
@@ -41,6 +42,19 @@ std::vector<glm::dvec3> VoxelSet::boundary_mm() const {
 
 std::vector<glm::dvec3> VoxelSet::surface_mm() const {
     return beside_mm([&](const glm::ivec3& voxel) { return !contains(voxel); });
+}
+
+VoxelSet cavity_of(const Bone& bone, const Bone& carved) {
+    VoxelSet cavity(bone);
+    for (std::int32_t slot = 0; slot < static_cast<std::int32_t>(bone.stored_bricks()); ++slot) {
+        const BrickFractions before = bone.fractions(slot);
+        const BrickFractions after = carved.fractions(slot);
+        if (std::ranges::equal(before, after)) continue;
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
+            if (before[offset] >= half_a_voxel && int{before[offset]} - int{after[offset]} >= half_a_voxel)
+                cavity.set(slot, offset);
+    }
+    return cavity;
 }
 
 }  // namespace osteomill

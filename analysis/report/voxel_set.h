@@ -51,4 +51,8 @@ class VoxelSet {
 /// Half of a voxel or more.
 inline constexpr std::uint8_t half_a_voxel = 128;
 
+/// The cavity: the voxels that were half bone or more and lost more than half of themselves. `before`, which
+/// outlives it, and `after` are of the same bricks.
+VoxelSet cavity_of(const Bone& before, const Bone& after);
+
 }  // namespace osteomill

@@ -56,4 +56,10 @@ class StructureMask {
     std::vector<StructureBrick> bricks_;
 };
 
+/// A structure of a scene: where one of its tissues is, on the bone's grid.
+struct Structure {
+    std::size_t tissue = 0;  ///< index in the scene's tissues
+    StructureMask mask{};
+};
+
 }  // namespace osteomill

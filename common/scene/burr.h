@@ -1,6 +1,7 @@
 // A burr: its head, its shank and its cutting coefficients, as the scene declares them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <glm/vec3.hpp>
 #include <string>
@@ -64,5 +65,23 @@ bool has_shank(const std::vector<Burr>& burrs);
 
 /// The usual set: 1, 1.5, 2, 3, 4 and 5 mm, six edges, the published coefficients, clockwise.
 std::vector<Burr> default_burr_set(double spindle_rev_per_s);
+
+/// The spindle's motor, whose speed falls under load. The fall is heard (docs/sound.md) and not felt: cut and
+/// force are computed as if the spindle kept its speed.
+///
+/// Full speed up to `steady_torque_n_mm`, as a motor with a regulator holds it; from there the speed falls
+/// along a line to a stand at `stall_torque_n_mm`.
+struct Motor {
+    double stall_torque_n_mm = 0.0;   ///< above the other
+    double steady_torque_n_mm = 0.0;  ///< 0: the speed falls from the first load on, as an air turbine's does
+
+    bool operator==(const Motor&) const = default;
+};
+
+/// Speed under a load as a share of that in air, 1 to 0.
+inline double speed_share_under(const Motor& motor, double torque_n_mm) noexcept {
+    const double over_n_mm = torque_n_mm - motor.steady_torque_n_mm;
+    return 1.0 - std::clamp(over_n_mm / (motor.stall_torque_n_mm - motor.steady_torque_n_mm), 0.0, 1.0);
+}
 
 }  // namespace osteomill

@@ -15,7 +15,6 @@
 
 #include "common/scene/burr.h"
 #include "common/scene/fixture.h"
-#include "common/scene/motor.h"
 #include "common/scene/pass_marks.h"
 #include "common/scene/plan.h"
 #include "common/scene/rating.h"

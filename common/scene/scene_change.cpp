@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/scene/apply_change.h"
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/toml_text.h"

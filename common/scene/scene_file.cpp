@@ -8,7 +8,6 @@
 #include <glm/matrix.hpp>
 
 #include "common/files/needed_version.h"
-#include "common/scene/apply_change.h"
 #include "common/scene/fixture_table.h"
 #include "common/scene/phantom_names.h"
 #include "common/scene/plan_table.h"

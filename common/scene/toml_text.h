@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/scene/scene_change.h"
 #include "common/scene/scene_file.h"
 
 namespace osteomill {
@@ -35,5 +36,9 @@ std::string read_toml_text(const std::filesystem::path& path, const char* what);
 
 /// A string as TOML writes it, in quotes; reads back as the same bytes.
 std::string toml_quoted(std::string_view text);
+
+/// The table's reader checks whether the key exists. Throws SceneError, without file and line, if the path to
+/// the key leads through a value, or through a list without an entry of that name.
+void apply(const SceneChange& change, toml::table& scene);
 
 }  // namespace osteomill

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "common/bone/brick_change.h"
+#include "common/bone/structure_mask.h"
 #include "common/scene/burr_clearance.h"
 #include "common/scene/burr_profile.h"
-#include "common/scene/structure.h"
 #include "common/session/structure_distance.h"
 #include "common/session/tool_state.h"
 

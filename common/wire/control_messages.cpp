@@ -6,7 +6,7 @@
 #include "common/bone/finite.h"
 #include "common/bone/patient_space.h"
 #include "common/text/plain_text.h"
-#include "common/wire/vec3.h"
+#include "common/wire/geometry_messages.h"
 
 namespace osteomill {
 

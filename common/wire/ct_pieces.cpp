@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "common/wire/grid_message.h"
+#include "common/wire/geometry_messages.h"
 
 namespace osteomill {
 

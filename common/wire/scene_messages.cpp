@@ -9,8 +9,8 @@
 #include "common/bone/finite.h"
 #include "common/bone/patient_space.h"
 #include "common/text/plain_text.h"
+#include "common/wire/geometry_messages.h"
 #include "common/wire/plan_messages.h"
-#include "common/wire/vec3.h"
 
 namespace osteomill {
 

@@ -4,10 +4,10 @@
 
 #include "common/text/plain_text.h"
 #include "common/wire/control_messages.h"
+#include "common/wire/geometry_messages.h"
 #include "common/wire/packed_changes.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/structure_messages.h"
-#include "common/wire/viewpoint_message.h"
 
 namespace osteomill {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/wire/grid_message.h"
+#include "common/wire/geometry_messages.h"
 
 namespace osteomill {
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "common/scene/structure.h"
+#include "common/bone/structure_mask.h"
 #include "common/session/structure_distance.h"
 #include "common/wire/wire_error.h"
 #include "osteomill/v2/session.pb.h"

@@ -16,7 +16,7 @@ namespace {
 
 std::map<std::string, Translation> all_words() {
     std::map<std::string, Translation> all{{"en", {}}};
-    for (const auto& [language, text] : embedded_words())
+    for (const auto& [language, text] : embedded_words)
         for (const auto& [english, translated] : toml::parse(text))
             all[std::string(language)][std::string(english.str())] = translated.value_or(std::string());
     return all;

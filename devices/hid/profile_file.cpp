@@ -12,7 +12,6 @@
 #include "common/scene/scene_file.h"
 #include "common/scene/toml_reader.h"
 #include "common/scene/toml_text.h"
-#include "devices/hid/shipped_profiles.h"
 #include "devices/measured/measured_profile.h"
 
 namespace osteomill {

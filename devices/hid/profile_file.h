@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,14 @@ namespace osteomill {
 /// Reads a profile; `name` stands for the file in errors. Throws SceneError (common/scene/scene_file.h) with
 /// one line: file, line, key, what would be right.
 ArmProfile parse_arm_profile(std::string_view toml, const std::string& name);
+
+/// The texts of devices/profiles/*.toml, compiled in so that their names work wherever the program lies.
+struct ShippedProfile {
+    std::string_view name;
+    std::string_view toml;
+};
+
+std::span<const ShippedProfile> shipped_profiles();
 
 /// The profiles that are built in, from devices/*.toml.
 std::vector<std::string> shipped_profile_names();

@@ -6,7 +6,7 @@
 
 #include "common/statistics/percentile.h"
 #include "haptic_server/check/machine_check.h"
-#include "simulation/loop/thread_priority.h"
+#include "simulation/loop/real_time.h"
 
 namespace osteomill {
 

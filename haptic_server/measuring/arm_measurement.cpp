@@ -13,7 +13,7 @@
 #include "haptic_server/measuring/stiffness_ramp.h"
 #include "simulation/device/measured_spring.h"
 #include "simulation/loop/clock.h"
-#include "simulation/loop/thread_priority.h"
+#include "simulation/loop/real_time.h"
 
 namespace osteomill {
 

@@ -20,14 +20,13 @@
 #include "haptic_server/monitoring/metrics_text.h"
 #include "haptic_server/program/measure_arm.h"
 #include "haptic_server/program/report_folder.h"
-#include "haptic_server/program/resident_memory.h"
+#include "haptic_server/program/session_json.h"
 #include "haptic_server/program/session_outputs.h"
 #include "haptic_server/program/status_line.h"
 #include "haptic_server/session/session_assembly.h"
 #include "haptic_server/session/session_settings.h"
 #include "simulation/coupling/handpiece_vibration.h"
 #include "simulation/loop/real_time.h"
-#include "simulation/loop/thread_priority.h"
 
 namespace osteomill {
 

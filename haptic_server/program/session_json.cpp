@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 #include "common/files/atomic_file.h"
 #include "simulation/safety/fault_name.h"
@@ -136,6 +137,15 @@ nlohmann::ordered_json recorded(const RecordingReport& recording) {
 void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file) {
     write_atomic_file(file,
                       json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+std::optional<std::uint64_t> peak_resident_bytes(std::istream& status) {
+    for (std::string key; status >> key;) {
+        std::uint64_t kib = 0;
+        if (key == "VmHWM:" && status >> kib) return kib * 1024;
+        std::getline(status, key);
+    }
+    return std::nullopt;
 }
 
 }  // namespace osteomill

@@ -2,8 +2,11 @@
 // others may join them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <istream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "common/recording/recording_writer.h"
 #include "common/scene/scene.h"
@@ -38,5 +41,9 @@ nlohmann::ordered_json recorded(const RecordingReport& recording);
 
 /// Replaces the file as a whole. Throws std::runtime_error with one line naming the file.
 void write_json(const nlohmann::ordered_json& json, const std::filesystem::path& file);
+
+/// The most bytes that were resident at once: VmHWM of the text of /proc/self/status; std::nullopt if it
+/// has none. (getrusage would also count the resident memory of the program that started this one.)
+std::optional<std::uint64_t> peak_resident_bytes(std::istream& status);
 
 }  // namespace osteomill

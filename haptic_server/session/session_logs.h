@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "analysis/logs/force_log.h"
+#include "analysis/logs/csv_log.h"
 
 namespace osteomill {
 

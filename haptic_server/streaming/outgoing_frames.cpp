@@ -5,11 +5,10 @@
 
 #include "common/wire/control_messages.h"
 #include "common/wire/frame.h"
+#include "common/wire/geometry_messages.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
 #include "common/wire/structure_messages.h"
-#include "common/wire/viewpoint_message.h"
-#include "haptic_server/streaming/update_deadband.h"
 
 namespace osteomill {
 
@@ -17,6 +16,9 @@ namespace {
 
 /// Masks and fractions shrink to less than half while a burr cuts.
 constexpr std::size_t least_shrinking = 2;
+
+/// Margin for the rounding of a product of session time and frame rate.
+constexpr double rounding_s = 1e-6;
 
 }  // namespace
 
@@ -160,6 +162,11 @@ void OutgoingFrames::add_changes(v2::StateFrame& state, std::size_t most_bytes) 
     }
     if (!milled.empty()) *state.mutable_changes() = packers_.changes.pack(mirror_.bone(), milled);
     if (!restored.empty()) *state.mutable_restored() = packers_.changes.pack(mirror_.bone(), restored);
+}
+
+bool is_within_deadband(const ToolState& sent, const ToolState& now) {
+    const double elapsed_s = now.time_s - sent.time_s;
+    return elapsed_s >= 0.0 && elapsed_s < deadband_period_s - rounding_s && looks_the_same(sent, now);
 }
 
 }  // namespace osteomill

@@ -22,6 +22,7 @@
 #include "common/wire/packed_changes.h"
 #include "common/wire/packed_ticks.h"
 #include "common/wire/snapshot.h"
+#include "common/wire/tool_appearance.h"
 #include "haptic_server/streaming/frame_pace.h"
 #include "haptic_server/streaming/pending_changes.h"
 #include "osteomill/v2/session.pb.h"
@@ -34,6 +35,13 @@ struct FramePackers {
     ChangePacker changes;
     TickPacker ticks;
 };
+
+/// A tool that rests is sent this often, in session time: often enough for a viewer that waits for its
+/// clock to go on.
+inline constexpr double deadband_period_s = 0.1;
+
+/// Whether `now` need not be sent after `sent`: it looks the same and comes less than a period later.
+bool is_within_deadband(const ToolState& sent, const ToolState& now);
 
 class OutgoingFrames {
   public:

@@ -14,8 +14,8 @@
 #include <span>
 
 #include "common/bone/bone.h"
+#include "common/bone/structure_mask.h"
 #include "common/recording/recording_writer.h"
-#include "common/scene/structure.h"
 #include "common/wire/session_info.h"
 #include "haptic_server/streaming/stream_source.h"
 #include "haptic_server/streaming/streaming_options.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "common/bone/structure_mask.h"
 #include "common/scene/scene.h"
-#include "common/scene/structure.h"
 #include "imaging/bone_file/bone_of_file.h"
 
 namespace osteomill {

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "common/bone/structure_mask.h"
 #include "common/scene/scene.h"
-#include "common/scene/structure.h"
 
 namespace osteomill {
 

@@ -6,7 +6,7 @@
 
 #include "python/studies_module/bindings.h"
 #include "render_client/link/bone_link.h"
-#include "simulation/loop/thread_priority.h"
+#include "simulation/loop/real_time.h"
 
 namespace osteomill::python {
 

@@ -4,9 +4,9 @@
 #include <variant>
 
 #include "common/wire/control_messages.h"
+#include "common/wire/geometry_messages.h"
 #include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
-#include "common/wire/viewpoint_message.h"
 
 namespace osteomill {
 

@@ -5,11 +5,24 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "render_client/ui/view/frame_times.h"
+#include "common/statistics/percentile.h"
 #include "render_client/volume/textures/texture_plan.h"
 
 namespace osteomill {
+
+/// Percentiles of the time that frames took.
+class FrameTimes {
+  public:
+    void add(double frame_ms) { frames_ms_.push_back(frame_ms); }
+    std::size_t count() const { return frames_ms_.size(); }
+    /// `share` from 0 to 1; 0 without frames.
+    double percentile_ms(double share) const { return percentile(frames_ms_, share); }
+
+  private:
+    std::vector<double> frames_ms_;
+};
 
 struct RenderReport {
     FrameTimes frame_times;

@@ -21,7 +21,7 @@
 #include "render_client/ui/input/commands.h"
 #include "render_client/ui/input/hand_input.h"
 #include "render_client/ui/input/input_mailbox.h"
-#include "render_client/ui/input/wheel_step.h"
+#include "render_client/ui/input/operator_hand.h"
 #include "render_client/ui/input/window_input.h"
 #include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/view/drawing_thread.h"

@@ -3,9 +3,14 @@
 // at the haptic rate without touching the bone.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <numbers>
+
+#include "common/scene/burr.h"
 
 namespace osteomill {
 
@@ -53,5 +58,19 @@ struct Engagement {
     std::size_t shank_count = 0;  ///< 0 for a burr without a shank
     std::array<ShankPatch, max_shank_patches> shank_patches;
 };
+
+/// Distance of a patch from the spindle's axis, mm, on a ball of the burr's diameter; `out` is the length of
+/// its unit normal across the axis. At the tip a patch is as far from the axis as it is wide.
+inline double patch_lever_mm(const Burr& burr, double out) noexcept {
+    constexpr double least_lever_share = 0.05;
+    return burr.radius_mm() * std::max(least_lever_share, out);
+}
+
+/// The relative stiffness s of the bone that a patch cuts, from the force that it takes: the law of
+/// EngagedPatch, solved for s. `lever_mm`: the patch's. Not finite for a burr without coefficients.
+inline double patch_stiffness(const EngagedPatch& patch, const Burr& burr, double lever_mm) noexcept {
+    return glm::length(patch.cutting_n_s_per_mm) * 2.0 * std::numbers::pi * lever_mm *
+           burr.spindle_rev_per_s / (glm::length(burr.cutting_coefficients_n_per_mm2) * patch.area_mm2);
+}
 
 }  // namespace osteomill

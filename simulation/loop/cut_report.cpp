@@ -6,7 +6,7 @@
 
 #include "common/bone/finite.h"
 #include "common/scene/burr_frame.h"
-#include "simulation/loop/patch_stiffness.h"
+#include "simulation/engagement/engagement.h"
 #include "simulation/loop/spindle_torque.h"
 
 namespace osteomill {

@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/scene/motor.h"
+#include "common/scene/burr.h"
 #include "common/scene/turning_burrs.h"
 #include "common/session/tool_state.h"
 #include "simulation/exchange/milling_step.h"

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "simulation/loop/real_time.h"
-#include "simulation/loop/thread_priority.h"
 
 namespace osteomill {
 

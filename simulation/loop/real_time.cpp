@@ -5,13 +5,12 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
-
-#include "simulation/loop/thread_priority.h"
 
 namespace osteomill {
 
@@ -79,6 +78,13 @@ bool bind_to_cpu(int cpu) noexcept {
     CPU_ZERO(&set);
     CPU_SET(static_cast<unsigned>(cpu), &set);
     return pthread_setaffinity_np(pthread_self(), sizeof set, &set) == 0;
+}
+
+bool ask_for_real_time(int priority) noexcept {
+    prctl(PR_SET_TIMERSLACK, 1UL);
+    sched_param parameters{};
+    parameters.sched_priority = priority;
+    return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
 }
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-// The system's means for punctual threads: resident memory, and a processor.
+// The system's means for punctual threads: priority, resident memory, and a processor.
 #pragma once
 
 #include <cstdint>
@@ -38,5 +38,17 @@ std::vector<int> usable_cpus();
 
 /// Binds the calling thread to one of them; false if the system does not.
 bool bind_to_cpu(int cpu) noexcept;
+
+/// Priorities under SCHED_FIFO, 1 to 99: above ordinary threads, below the kernel's own (50). Threads that
+/// others wait for come first.
+inline constexpr int device_priority = 45;  ///< talks to a device; mostly waits
+inline constexpr int haptic_priority = 40;
+inline constexpr int milling_priority = 30;
+
+/// Asks for SCHED_FIFO at `priority` and for sleeps that end when asked (Linux lets them overrun by 50 us
+/// otherwise), for the calling thread. Returns whether the system granted SCHED_FIFO; without the privilege
+/// (CAP_SYS_NICE or an rtprio limit) the thread goes on as an ordinary one and will miss deadlines on a busy
+/// machine.
+bool ask_for_real_time(int priority) noexcept;
 
 }  // namespace osteomill

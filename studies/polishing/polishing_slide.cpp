@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "analysis/logs/force_log.h"
+#include "analysis/logs/csv_log.h"
 #include "devices/simulated/simulated_device.h"
 #include "imaging/bone_from_hu.h"
 #include "imaging/phantoms/phantom.h"

@@ -40,7 +40,7 @@ class PolishingSlide {
     double meant_s() const { return meant_.duration_s(); }
     glm::dvec3 meant_mm(double time_s) const { return meant_.at(time_s).target.position_mm; }
 
-    /// The simulated hand slides; the session's log of forces is left in `log` (force_log.h). Throws
+    /// The simulated hand slides; the session's log of forces is left in `log` (csv_log.h). Throws
     /// std::runtime_error if that cannot be written, std::invalid_argument for a set-up that the simulator
     /// refuses.
     SlideEnd run(const PolishingSetup& setup, const std::filesystem::path& log) const;

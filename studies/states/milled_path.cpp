@@ -15,9 +15,9 @@
 #include "common/sound/burr_sound.h"
 #include "simulation/coupling/handpiece_vibration.h"
 #include "simulation/device/device_limits.h"
+#include "simulation/engagement/engagement.h"
 #include "simulation/force_models/milling_model.h"
 #include "simulation/loop/cut_report.h"
-#include "simulation/loop/patch_stiffness.h"
 #include "simulation/loop/spindle_torque.h"
 #include "simulation/safety/force_guard.h"
 

@@ -20,7 +20,7 @@
 
 #include "common/wire/frame.h"
 #include "common/wire/protocol_version.h"
-#include "haptic_server/program/resident_memory.h"
+#include "haptic_server/program/session_json.h"
 #include "osteomill/v2/session.pb.h"
 #include "render_client/link/bone_link.h"
 #include "studies/bridge/private_network.h"

@@ -10,6 +10,7 @@ REPOSITORY = pathlib.Path(__file__).parents[2]
 #: The product's modules, and what each may include beside itself and the generated messages of proto/. A file belongs to the first module
 #: whose folder holds it.
 MODULES = {
+    "common/scene/": ("common/bone/", "common/files/", "common/text/"),
     "common/": (),
     "bridge/": (),
     "simulation/": ("common/bone/", "common/scene/", "common/session/"),

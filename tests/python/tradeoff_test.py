@@ -15,7 +15,7 @@ import osteomill as om
 from osteomill import Burr, _studies
 from osteomill.studies import (tradeoff, tradeoff_coupling, tradeoff_cues, tradeoff_fixtures, tradeoff_force, tradeoff_link, tradeoff_picture,
                                tradeoff_states)
-from osteomill.studies.fronts import on_front
+from osteomill.studies.tables import on_front
 from osteomill.studies.options import UsageError
 from osteomill.studies.program import parser_of
 from osteomill.studies.study_run import StudyRun

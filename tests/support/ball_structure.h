@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/scene/structure.h"
+#include "common/bone/structure_mask.h"
 
 namespace osteomill::testing {
 

@@ -10,8 +10,8 @@
 
 namespace osteomill::testing {
 
-/// The lines of a CSV file behind its header, each up to the first field that is no number: a log that is read
-/// while it is written may end in "-" or "1e".
+/// The lines of a CSV file behind its header, each up to the first field that is no number: a log that is
+/// read while it is written may end in "-" or "1e".
 inline std::vector<std::vector<double>> read_csv_numbers(std::istream& in) {
     std::vector<std::vector<double>> rows;
     std::string text;
@@ -42,7 +42,7 @@ struct ForceLogLine {
     int fault = 0;
 };
 
-/// Columns as force_log.h says; the first line is left out, and one that is torn at the end of a log is none.
+/// Columns as csv_log.h says; the first line is left out, and one that is torn at the end of a log is none.
 inline std::vector<ForceLogLine> read_force_log(std::istream& csv) {
     std::vector<ForceLogLine> lines;
     for (const std::vector<double>& column : read_csv_numbers(csv)) {

@@ -3,10 +3,9 @@
 #include "common/scene/device_mapping.h"
 #include "devices/haply/haply_arm.h"
 #include "haptic_server/session/device_table.h"
-#include "haptic_server/session/devices/awaited_arm.h"
-#include "haptic_server/session/devices/own_machine.h"
+#include "haptic_server/session/devices/remote_arm.h"
 #include "haptic_server/session/measured_device.h"
-#include "simulation/loop/thread_priority.h"
+#include "simulation/loop/real_time.h"
 
 namespace osteomill {
 

@@ -9,7 +9,7 @@
 #include "haptic_server/session/device_table.h"
 #include "haptic_server/session/measured_device.h"
 #include "simulation/loop/clock.h"
-#include "simulation/loop/thread_priority.h"
+#include "simulation/loop/real_time.h"
 
 namespace osteomill {
 

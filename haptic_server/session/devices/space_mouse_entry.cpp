@@ -6,7 +6,7 @@
 #include "devices/simulated/hand_model.h"
 #include "haptic_server/session/device_table.h"
 #include "simulation/loop/clock.h"
-#include "simulation/loop/thread_priority.h"
+#include "simulation/loop/real_time.h"
 
 namespace osteomill {
 

@@ -7,9 +7,9 @@
 #include "devices/tracker/tracked_tool.h"
 #include "devices/tracker/transform_stream.h"
 #include "haptic_server/session/device_table.h"
-#include "haptic_server/session/devices/own_machine.h"
+#include "haptic_server/session/devices/remote_arm.h"
 #include "simulation/loop/clock.h"
-#include "simulation/loop/thread_priority.h"
+#include "simulation/loop/real_time.h"
 
 namespace osteomill {
 

@@ -2,7 +2,7 @@
 promises over the range that a surgeon reaches.
 
 A map is a table with a line for each point: its conditions, whether it was stable, and the numbers of its run beside the truth in
-continuous time (studies/stability/map/map_outcome.h). `x` is the varied quantity of the scene: the resistance of the bone in N
+continuous time (studies/stability/map/map_run.h). `x` is the varied quantity of the scene: the resistance of the bone in N
 s/m, or the wall's stiffness in N/mm. Errors are shares of the truth's mean force, without a value if that is 0.
 """
 

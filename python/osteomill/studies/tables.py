@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from osteomill.studies.text import csv_cell
@@ -44,3 +45,11 @@ def _finite(data: Any) -> Any:
     if isinstance(data, (list, tuple)):
         return [_finite(value) for value in data]
     return None if isinstance(data, float) and not math.isfinite(data) else data
+
+
+def on_front(cost: Iterable[float], error: Iterable[float]) -> list[bool]:
+    """Whether each of some choices that cost and err is on the front of the best: no other is at most as costly and as
+    wrong, and less so in one of both."""
+    points = list(zip(cost, error))
+    return [not any(c <= cost_of and e <= error_of and (c, e) != (cost_of, error_of) for c, e in points)
+            for cost_of, error_of in points]

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from osteomill import _studies
-from osteomill.studies.fronts import on_front
+from osteomill.studies.tables import on_front
 from osteomill.studies.studied_motions import LATTICE_SHIFTS, error_and_ripple, run_motion, studied_motions
 
 PUBLISHED: dict[str, Any] = {"summation": "bins", "coverage": "binary", "search": "full_scan"}

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from osteomill import Session, _studies
-from osteomill.studies.fronts import on_front
+from osteomill.studies.tables import on_front
 from osteomill.studies.tradeoff_picture import TRIED_SCENE, case_named
 
 LATENCY_S = 0.001

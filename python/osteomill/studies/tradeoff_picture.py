@@ -12,7 +12,7 @@ from typing import Any
 import pandas as pd
 
 from osteomill import Case, _studies
-from osteomill.studies.fronts import on_front
+from osteomill.studies.tables import on_front
 
 TRIED_SCENE = "tooth"
 SIZE_PX, QUICK_SIZE_PX = (640, 480), (200, 150)

@@ -8,7 +8,7 @@
 #include "common/bone/bone.h"
 #include "render_client/ui/panels/seen_session.h"
 #include "render_client/ui/view/view_settings.h"
-#include "render_client/volume/picture_quality.h"
+#include "render_client/volume/picture.h"
 
 namespace osteomill {
 

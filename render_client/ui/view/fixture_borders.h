@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "common/scene/structure.h"
+#include "common/bone/structure_mask.h"
 #include "common/wire/session_info.h"
 #include "render_client/volume/passes/stereo_picture.h"
 

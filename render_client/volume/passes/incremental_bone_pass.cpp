@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "render_client/volume/shaders/shading_reach.h"
+#include "render_client/volume/shaders/bone_program.h"
 #include "render_client/volume/textures/block_summary.h"
 
 namespace osteomill {

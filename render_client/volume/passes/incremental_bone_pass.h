@@ -20,12 +20,12 @@
 #include "render_client/volume/passes/detail_control.h"
 #include "render_client/volume/passes/tile_mask.h"
 #include "render_client/volume/passes/upscaler.h"
-#include "render_client/volume/picture_quality.h"
+#include "render_client/volume/picture.h"
 
 namespace osteomill {
 
 /// The tiles of a picture that can show changes of these voxels of the bone's grid(), if shading reads
-/// `reach_voxels` around a voxel (shading_reach.h).
+/// `reach_voxels` around a voxel (bone_program.h).
 TileMask tiles_of_changes(std::span<const VoxelBox> changed, const BoneTextures& bone, const Camera& camera,
                           const glm::ivec2& size_px, int reach_voxels);
 

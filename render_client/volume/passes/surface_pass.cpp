@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "render_client/volume/passes/incremental_bone_pass.h"
+#include "render_client/volume/shaders/bone_program.h"
 #include "render_client/volume/shaders/shader_files.h"
-#include "render_client/volume/shaders/shading_reach.h"
 
 namespace osteomill {
 

@@ -1,5 +1,5 @@
 // A point of the stability map: a scene, a hand, and the coupling between them. Plain values; a run gives a
-// MapOutcome (map_outcome.h).
+// MapOutcome (map_run.h).
 #pragma once
 
 #include <string>

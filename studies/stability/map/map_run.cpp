@@ -10,7 +10,6 @@
 #include "devices/simulated/arm_model.h"
 #include "simulation/loop/milling_session.h"
 #include "studies/stability/map/bench_device.h"
-#include "studies/stability/map/energy_ledger.h"
 #include "studies/stability/map/scene_bone.h"
 #include "studies/stability/map/stability_verdict.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/logs/force_log.h"
+#include "analysis/logs/csv_log.h"
 #include "devices/client/client_device.h"
 #include "devices/haply/haply_arm.h"
 #include "devices/simulated/simulated_device.h"

@@ -1,5 +1,3 @@
-#include "analysis/logs/force_log.h"
-
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "analysis/logs/csv_log.h"
 #include "simulation/safety/fault.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/file_text.h"

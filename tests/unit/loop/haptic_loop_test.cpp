@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "analysis/logs/force_log.h"
+#include "analysis/logs/csv_log.h"
 #include "tests/unit/loop/scripted_parts.h"
 
 namespace osteomill {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/logs/force_log.h"
+#include "analysis/logs/csv_log.h"
 #include "simulation/force_models/milling_model.h"
 #include "tests/support/block.h"
 

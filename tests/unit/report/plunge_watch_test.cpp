@@ -8,7 +8,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "analysis/report/plunge_metrics.h"
 #include "tests/support/written_session.h"
 
 namespace osteomill {

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "common/scene/scene_file.h"
-#include "devices/hid/shipped_profiles.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 

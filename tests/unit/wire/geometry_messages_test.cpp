@@ -1,10 +1,12 @@
-#include "common/wire/viewpoint_message.h"
+#include "common/wire/geometry_messages.h"
 
 #include <gmock/gmock.h>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 namespace {
