@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/scene/scene.h"
-#include "common/session/hand_limits.h"
+#include "common/session/operator_command.h"
 #include "common/wire/protocol_version.h"
 
 namespace osteomill {

@@ -32,7 +32,7 @@ glm::dvec3 TargetLimit::limited(const glm::dvec3& wanted_mm, const glm::dvec3& b
 const char* TargetLimit::notice() const noexcept {
     const bool reach = was_out_of_reach_.load(std::memory_order_relaxed);
     const bool speed = was_too_fast_.load(std::memory_order_relaxed);
-    // The values of hand_limits.h, which the messages below state.
+    // The values of operator_command.h, which the messages below state.
     static_assert(longest_reach_mm == 6.0 && fastest_hand_mm_per_s == 500.0);
     if (reach && speed)
         return "the operator's target was more than 6 mm from the burr at the arm, and faster than a hand "

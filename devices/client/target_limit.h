@@ -10,7 +10,7 @@
 #include <atomic>
 #include <glm/vec3.hpp>
 
-#include "common/session/hand_limits.h"
+#include "common/session/operator_command.h"
 
 namespace osteomill {
 

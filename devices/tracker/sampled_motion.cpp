@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "common/session/hand_limits.h"
+#include "common/session/operator_command.h"
 
 namespace osteomill {
 

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "simulation/safety/fault_name.h"
+#include "simulation/safety/fault.h"
 
 namespace osteomill {
 

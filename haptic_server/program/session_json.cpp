@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/files/atomic_file.h"
-#include "simulation/safety/fault_name.h"
+#include "simulation/safety/fault.h"
 
 namespace osteomill {
 

@@ -5,6 +5,7 @@
 #include <xxhash.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,5 +27,20 @@ class Digest {
     };
     std::unique_ptr<XXH3_state_t, Free> state_;
 };
+
+// The digest of a whole NRRD file stands in its own header: it covers every byte of header and data but the
+// digest itself. So a flipped bit is found wherever it is, even after another program rewrote the header.
+
+/// The key's line is "osteomill_digest:=" and Digest::text_length digits, all zero while the digest is taken.
+inline constexpr const char* file_digest_key = "osteomill_digest";
+
+/// The placeholder in the header until the digest is known.
+inline std::string no_digest_yet() {
+    return std::string(Digest::text_length, '0');
+}
+
+/// False if a file has none: it is no NRRD, is from elsewhere, or was written anew on purpose. Throws
+/// ImagingError if it has another than the file's.
+bool has_file_digest(const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "imaging/bone_file/file_digest.h"
+#include "imaging/bone_file/digest.h"
 #include "imaging/imaging_error.h"
 
 namespace osteomill {

@@ -11,7 +11,7 @@
 
 #include "common/files/inside_folder.h"
 #include "common/scene/toml_text.h"
-#include "imaging/bone_file/file_digest.h"
+#include "imaging/bone_file/digest.h"
 #include "imaging/bone_file/hu_file.h"
 
 namespace osteomill {

@@ -1,12 +1,66 @@
 // Geometry of a NIfTI image: spacing, axes and origin from its sform, qform and pixdim.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "imaging/formats/image_file.h"
-#include "imaging/formats/nifti_fields.h"
 
 namespace osteomill {
+
+// Fields of the header of NIfTI-1 and NIfTI-2: the same statements, each version at its own offsets.
+
+inline constexpr std::int32_t nifti1_header_bytes = 348;
+inline constexpr std::int32_t nifti2_header_bytes = 540;
+
+/// Values at offsets, in either byte order.
+class NiftiFields {
+  public:
+    NiftiFields(std::span<const std::uint8_t> bytes, bool swapped) : bytes_(bytes), swapped_(swapped) {}
+
+    template <typename T>
+    T at(std::size_t offset) const {
+        std::array<std::uint8_t, sizeof(T)> raw{};
+        std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(offset), sizeof(T), raw.begin());
+        if (swapped_) std::reverse(raw.begin(), raw.end());
+        T value{};
+        std::memcpy(&value, raw.data(), sizeof(T));
+        return value;
+    }
+
+  private:
+    std::span<const std::uint8_t> bytes_;
+    bool swapped_;
+};
+
+/// A header's statements as written, unchecked. Lengths are in the unit that `units` names, positions patient
+/// RAS.
+struct NiftiStatements {
+    std::array<std::int64_t, 8> dim{};
+    std::array<double, 4> pixdim{};
+    double voxels_begin = 0.0;
+    double slope = 0.0;
+    double intercept = 0.0;
+    int datatype = 0;
+    int bits = 0;
+    int qform = 0;
+    int sform = 0;
+    int units = 0;
+    std::array<double, 6> quaternion_and_offset{};
+    std::array<double, 12> rows{};
+    std::string magic;
+};
+
+/// Reads a NIfTI-1 header of at least nifti1_header_bytes.
+NiftiStatements read_nifti1(const NiftiFields& fields);
+/// Reads a NIfTI-2 header of at least nifti2_header_bytes.
+NiftiStatements read_nifti2(const NiftiFields& fields);
 
 /// Fills in the geometry of `image` (mm, patient LPS) and its notes on assumptions and contradictions. The
 /// sform is followed if there is one, else the qform, else pixdim with a guessed orientation. Throws

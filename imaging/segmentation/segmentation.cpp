@@ -13,7 +13,7 @@
 #include "common/scene/nearest_name.h"
 #include "common/text/plain_text.h"
 #include "common/text/words.h"
-#include "imaging/bone_file/file_digest.h"
+#include "imaging/bone_file/digest.h"
 #include "imaging/formats/image_reader.h"
 #include "imaging/imaging_error.h"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "imaging/bone_file/file_digest.h"
+#include "imaging/bone_file/digest.h"
 #include "imaging/bone_file/nrrd_writer.h"
 
 namespace osteomill {

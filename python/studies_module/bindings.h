@@ -3,6 +3,11 @@
 
 #include <pybind11/pybind11.h>
 
+#include <exception>
+#include <stdexcept>
+
+#include "common/text/plain_text.h"
+
 namespace osteomill::python {
 
 void bind_arms(pybind11::module_& module);
@@ -20,5 +25,16 @@ void bind_bridge(pybind11::module_& module);
 void bind_links(pybind11::module_& module);
 void bind_pictures(pybind11::module_& module);
 void bind_rendering(pybind11::module_& module);
+
+/// Errors for Python, which accepts only UTF-8: a path may not be UTF-8.
+/// The result of `work`. Throws std::runtime_error, printable, for whatever `work` throws.
+template <typename Work>
+auto with_printable_error(Work&& work) {
+    try {
+        return work();
+    } catch (const std::exception& error) {
+        throw std::runtime_error(printable(error.what()));
+    }
+}
 
 }  // namespace osteomill::python

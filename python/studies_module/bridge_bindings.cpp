@@ -9,7 +9,6 @@
 #include <string>
 
 #include "python/studies_module/bindings.h"
-#include "python/studies_module/printable_error.h"
 #include "studies/bridge/private_network.h"
 #include "studies/bridge/round_trips.h"
 

@@ -16,7 +16,6 @@
 #include "common/text/plain_text.h"
 #include "common/text/words.h"
 #include "python/studies_module/bindings.h"
-#include "python/studies_module/printable_error.h"
 
 namespace osteomill::python {
 

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "python/studies_module/bindings.h"
-#include "python/studies_module/printable_error.h"
 #include "render_client/volume/gl/graphics_devices.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "studies/render/carved_sphere.h"

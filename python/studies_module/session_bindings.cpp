@@ -24,7 +24,6 @@
 #include "common/words/translation.h"
 #include "imaging/bone_file/digest.h"
 #include "python/studies_module/bindings.h"
-#include "python/studies_module/printable_error.h"
 
 namespace osteomill::python {
 

@@ -52,4 +52,29 @@ constexpr bool withdraws_pedal(Fault fault) noexcept {
 /// One line for people; empty for Fault::none.
 const char* describe(Fault fault) noexcept;
 
+/// Its name for programs, in --json and --metrics. The names stay as they are.
+constexpr const char* name_of(Fault fault) noexcept {
+    switch (fault) {
+        case Fault::none:
+            return "none";
+        case Fault::device_lost:
+            return "device_lost";
+        case Fault::model_stalled:
+            return "model_stalled";
+        case Fault::not_a_number:
+            return "not_a_number";
+        case Fault::overrun:
+            return "overrun";
+        case Fault::device_jumped:
+            return "device_jumped";
+        case Fault::in_bone:
+            return "in_bone";
+        case Fault::energy_to_hand:
+            return "energy_to_hand";
+        case Fault::paused:
+            return "paused";
+    }
+    return "unknown";
+}
+
 }  // namespace osteomill

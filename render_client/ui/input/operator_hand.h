@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "common/session/hand_limits.h"
 #include "common/session/operator_command.h"
 #include "common/session/tool_state.h"
 #include "render_client/volume/camera.h"

@@ -10,7 +10,7 @@
 #include "devices/simulated/arm_model.h"
 #include "simulation/loop/milling_session.h"
 #include "studies/stability/map/bench_device.h"
-#include "studies/stability/map/scene_bone.h"
+#include "studies/stability/map/scene_cache.h"
 #include "studies/stability/map/stability_verdict.h"
 
 namespace osteomill::study {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/bone/bone.h"
 #include "common/scene/burr.h"
 #include "devices/simulated/trajectory.h"
 
@@ -28,5 +29,10 @@ struct Site {
     SiteShape shape;
     std::vector<Waypoint> motion;  ///< the hand's intent
 };
+
+inline constexpr double site_voxel_mm = 0.1;
+
+/// A voxel's fraction falls from all to nothing over a voxel about the shape's surface.
+Bone site_bone(const SiteShape& shape);
 
 }  // namespace osteomill::study

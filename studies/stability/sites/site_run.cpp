@@ -11,7 +11,7 @@
 #include "simulation/force_models/milling_model.h"
 #include "simulation/loop/milling_session.h"
 #include "studies/stability/map/scene_plan.h"
-#include "studies/stability/sites/site_bone.h"
+#include "studies/stability/sites/site.h"
 
 namespace osteomill::study {
 namespace {

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <vector>
 
-#include "studies/stability/map/fast_part.h"
 #include "tests/support/bench/bench_run.h"
 
 namespace osteomill::study::stability_verdict_test {

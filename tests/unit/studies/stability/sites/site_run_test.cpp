@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "studies/stability/sites/named_sites.h"
-#include "studies/stability/sites/site_bone.h"
+#include "studies/stability/sites/site.h"
 #include "studies/stability/sites/site_verdict.h"
 
 namespace osteomill::study::site_run_test {

@@ -1,4 +1,4 @@
-#include "studies/stability/sites/site_bone.h"
+#include "studies/stability/sites/site.h"
 
 #include <algorithm>
 #include <cmath>
