@@ -26,6 +26,18 @@ function(osteomill_program name)
     install(TARGETS ${name} RUNTIME)
 endfunction()
 
+# osteomill_embed(VARIABLE TYPE FOLDER ENDING NAMES...): sets VARIABLE to the texts of the files FOLDER/NAME.ENDING as elements of a C++ array,
+# TYPE{"NAME", text} each; a change of one of them configures anew.
+function(osteomill_embed variable type folder ending)
+    set(elements "")
+    foreach(name ${ARGN})
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/${name}${ending})
+        file(READ ${folder}/${name}${ending} text)
+        string(APPEND elements "        ${type}{\"${name}\", R\"text(${text})text\"},\n")
+    endforeach()
+    set(${variable} "${elements}" PARENT_SCOPE)
+endfunction()
+
 # osteomill_vector_loops(SOURCES...): sources of this folder whose inner loops the compiler shall turn into vectors. Square roots
 # without errno and comparisons without traps make that possible; no fused multiply-add, so that every instruction set gives the
 # same bits. Vectors are passed only to what is inlined, so that how they would be passed (-Wpsabi) does not matter.
