@@ -103,6 +103,7 @@ void ImguiContext::set_style(ThemeName theme, float scale) {
     style.WindowBorderSize = 0.0f;
     style.WindowMinSize = {1.0f, 1.0f};
     style.ScaleAllSizes(scale);
+    // From Dear ImGui 1.92 on its base size of 0 takes that of the new letters.
     ImGui::GetStyle() = style;
 }
 
@@ -119,11 +120,13 @@ void ImguiContext::load_letters(float scale) {
         config.OversampleV = 2;
         atlas.AddFontDefault(&config);
     }
-    // The first ones the back end uploads by itself. Not all of its objects are made anew for others: it
-    // would go on to write into buffers of the old ones' size.
+    // The back end uploads the first letters by itself, from 1.92 on all others, too. Not all of its objects
+    // are made anew for others: it would go on to write into buffers of the old ones' size.
+#if IMGUI_VERSION_NUM < 19200
     if (scale_ == 0.0f) return;
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
+#endif
 }
 
 void ImguiContext::use(Clipboard& clipboard) {

@@ -26,9 +26,13 @@ inline ImVec2 to_imgui(const glm::vec2& point) {
     return {point.x, point.y};
 }
 
-/// A texture by OpenGL's name.
+/// A texture by OpenGL's name: to Dear ImGui an address before 1.91.4, a number since.
 inline ImTextureID texture_of(GLuint name) {
+#if IMGUI_VERSION_NUM >= 19140
+    return name;
+#else
     return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name));
+#endif
 }
 
 class PanelPainter {

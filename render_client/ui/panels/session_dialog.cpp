@@ -87,7 +87,7 @@ void draw_session_dialog(ViewSettings& view, bool started_session, const PanelPl
         is_answered = ImGui::InputText("##note", view.note.data(), view.note.size(),
                                        ImGuiInputTextFlags_EnterReturnsTrue);
     }
-    is_answered |= ImGui::Button(question.yes) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+    is_answered |= ImGui::Button(question.yes) || ImGui::IsKeyPressed(ImGuiKey_Enter);
     ImGui::SameLine();
     if (view.question == SessionQuestion::surface)
         for (const auto& [kind, ending] : {std::pair("PLY", ".ply"), {"OBJ", ".obj"}}) {

@@ -83,7 +83,7 @@ void draw_cases(StartPage& page, StartPicture& pictures) {
     ImGui::TextDisabled("%s", trf("{} help", key_of(Action::help)).c_str());
     draw_message(page);
     // The chosen card has the keyboard before anything is gone to.
-    const bool is_return = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+    const bool is_return = ImGui::IsKeyPressed(ImGuiKey_Enter, false);
     if (is_return && !ImGui::IsAnyItemFocused() && !page.tour_card) page.start();
     ImGui::EndDisabled();
     draw_tour(page);

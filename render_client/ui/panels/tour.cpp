@@ -35,7 +35,7 @@ std::array<TourCard, 3> cards() {
 }
 
 bool is_pressed(ImGuiKey key) {
-    return !ImGui::IsAnyItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
+    return !ImGui::IsAnyItemFocused() && ImGui::IsKeyPressed(key, false);
 }
 
 void draw_card(StartPage& page) {
