@@ -4,19 +4,26 @@ import functools
 import json
 import os
 import pathlib
+import resource
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 
 import numpy as np
 
-import osteomill as om
+REPOSITORY = pathlib.Path(__file__).parents[2]
+LONGEST_S = 120.0  # a time that only a defect can take
+IS_SANITIZED = os.environ.get("OSTEOMILL_SANITIZER", "none") != "none"
+IS_OPTIMISED = os.environ.get("OSTEOMILL_BUILD_TYPE", "Release") == "Release"
 
 
 @functools.cache
 def tooth():
-    return om.Case("tooth")
+    import osteomill  # not above: under the sanitizers the programs are tested where there is no package
+
+    return osteomill.Case("tooth")
 
 
 def plunge(case, ms, depth_mm):
@@ -29,27 +36,66 @@ def program(name):
     return str(pathlib.Path(os.environ["OSTEOMILL_PROGRAMS"]) / name)
 
 
+def run(name, *words, **settings):
+    """A program to its end, with its output."""
+    streams = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    return subprocess.run([program(name), *words], text=True, **(streams | settings))
+
+
 def run_study(*words, **settings):
-    """osteomill_study to its end, with its output."""
-    return subprocess.run([program("osteomill_study"), *words], capture_output=True, text=True, stdin=subprocess.DEVNULL, **settings)
+    return run("osteomill_study", *words, **settings)
+
+
+def disk_of(kibibytes):
+    """`preexec_fn` of a program whose files may have so many KiB: a full disk."""
+    return functools.partial(resource.setrlimit, resource.RLIMIT_FSIZE, 2 * (1024 * kibibytes,))
+
+
+# A program inherits the peak of the one that starts it, so a small one does.
+STARTER = """import os, sys
+_, status, used = os.wait4(os.posix_spawn(sys.argv[1], sys.argv[1:], os.environ), 0)
+print(used.ru_maxrss)
+sys.exit(os.waitstatus_to_exitcode(status))"""
+
+
+def run_measured(name, *words):
+    """A program to its end, and its peak resident bytes."""
+    finished = subprocess.run([sys.executable, "-ISc", STARTER, program(name), *words], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    return finished, 1024 * int(finished.stdout.split()[-1])
 
 
 class FolderTest(unittest.TestCase):
-    """A test with a folder of its own."""
+    """A test with a folder of its own, in which programs leave their files."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
+    def json(self, name):
+        return json.loads((self.folder / name).read_text())
 
-def eventually(holds, longest_s=120.0):
-    """True as soon as `holds()`; false after a time that only a defect can take."""
+    def run_to(self, status, name, *words, **settings):
+        """A program that ends with this exit status."""
+        finished = run(name, *words, **settings)
+        self.assertEqual(finished.returncode, status, finished.stderr)
+        return finished
+
+    def expect_line(self, status, reason, name, *words, **settings):
+        """A program that ends with this exit status and one line, which holds the reason."""
+        said = self.run_to(status, name, *words, **settings).stderr
+        self.assertEqual(said.count("\n"), 1, said)
+        self.assertIn(reason, said)
+        return said
+
+
+def eventually(holds, longest_s=LONGEST_S, every_s=0.01):
+    """True as soon as `holds()`; false after so long."""
     until = time.monotonic() + longest_s
     while not holds():
         if time.monotonic() > until:
             return False
-        time.sleep(0.01)
+        time.sleep(every_s)
     return True
 
 
