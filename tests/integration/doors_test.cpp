@@ -29,6 +29,7 @@
 #include "tests/support/half_open_flood.h"
 #include "tests/support/lab_certificates.h"
 #include "tests/support/link_proxy.h"
+#include "tests/support/messages.h"
 
 namespace osteomill::testing {
 namespace {
@@ -86,7 +87,7 @@ class Insistent {
 class Doors : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (!has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
+        if (!has_openssl()) GTEST_SKIP() << no_openssl;
         lab_.emplace();
     }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
@@ -96,7 +97,7 @@ class Doors : public ::testing::Test {
         Command command = with({HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--device", "client"}, files);
         command.insert(command.end(), more.begin(), more.end());
         server_.emplace(command);
-        const auto address = server_->line_after("listening on ");
+        const auto address = server_->address();
         ASSERT_TRUE(address) << server_->err();
         port_ = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
     }
@@ -319,9 +320,9 @@ TEST_F(Doors, SayAtOnceInOneLineThatACertificateIsRefused) {
     TlsFiles wary = lab_->client("wary");
     wary.crl = lab_->revoke("bench");
     for (const auto& [files, words] :
-         {std::pair(stranger, "its certificate is not accepted"),
-          std::pair(lab_->impostor(stranger), "turned this client away"),
-          std::pair(wary, "its certificate is not accepted: certificate revoked")}) {
+         {std::pair(stranger, certificate_refused),
+          std::pair(lab_->impostor(stranger), std::string("turned this client away")),
+          std::pair(wary, certificate_refused + ": certificate revoked")}) {
         const Finished run = run_program(with(drawing_client(where()), files));
         EXPECT_EQ(run.status, 1);
         EXPECT_THAT(run.err, AllOf(HasSubstr(words), HasSubstr("no bone to draw")))

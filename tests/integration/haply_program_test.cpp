@@ -14,6 +14,7 @@
 #include "tests/support/eventually.h"
 #include "tests/support/haply_service.h"
 #include "tests/support/logged_removal.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::testing {
@@ -171,7 +172,7 @@ TEST_F(HaplyPrograms, SaysInOneLineWhatIsWrong) {
          {std::pair(Command{"--device", "haply", "--haply", "192.168.7.10:10001"},
                     "ssh -L 10001:localhost:10001 192.168.7.10"),
           std::pair(Command{"--device", "haply", "--haply", "here"}, "--haply: 'here' has no port"),
-          std::pair(Command{"--device", "haply", "--clock", "virtual"}, "a person needs --clock real"),
+          std::pair(Command{"--device", "haply", "--clock", "virtual"}, needs_real_clock),
           std::pair(Command{"--haply", "127.0.0.1:10001"}, "--haply: goes with --device haply")}) {
         Command command{HAPTIC_SERVER, "--listen", "none"};
         command.insert(command.end(), more.begin(), more.end());

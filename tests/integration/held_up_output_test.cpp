@@ -160,7 +160,7 @@ TEST_P(HeldUpLog, DoesNotKeepTheBurrOfAnOperatorTurningWhoHasLeft) {
     for (int attempt = 1;; ++attempt) {
         const Output log(GetParam());
         ChildProcess server(this->server({"--device", "client"}), {.err = log.descriptor()});
-        const auto address = server.line_after("listening on ");
+        const auto address = server.address();
         ASSERT_TRUE(address);
         Operator operating(*address);
         ASSERT_TRUE(operating.drill_until([](const ToolState& tool) { return tool.removed_mm3 > 0.05; }));
@@ -203,7 +203,7 @@ TEST_P(HeldUpLog, DoesNotKeepASignalFromEndingTheSessionWithAllSaved) {
     for (const int signal : GetParam() == "terminal" ? std::vector{SIGINT, SIGHUP} : std::vector{SIGTERM}) {
         const Output log(GetParam());
         ChildProcess server(milling(), {.err = log.descriptor()});
-        ASSERT_TRUE(server.line_after("listening on "));
+        ASSERT_TRUE(server.address());
         log.hold_up();
         std::this_thread::sleep_for(log.until_a_line_is_due());
         EXPECT_TRUE(has_removed(folder_ / "force.part.csv", 0.1));
@@ -227,14 +227,14 @@ TEST_P(HeldUpLog, DoesNotKeepTheProgramsFromBeginningNorFromEnding) {
         Command command = server({"--trajectory", file("motion.csv"), "--duration-s", "1"});
         command.insert(command.end(), {"--record", file("a.pcap")});
         ChildProcess server(command, {.err = log.descriptor()});
-        EXPECT_TRUE(server.line_after("listening on "));
+        EXPECT_TRUE(server.address());
         EXPECT_EQ(server.wait(), 0);
         expect_saved();
     }
     {
         ChildProcess replay({PACKET_REPLAY, file("a.pcap"), "--listen", "127.0.0.1:0"},
                             {.err = log.descriptor()});
-        EXPECT_TRUE(replay.line_after("listening on "));
+        EXPECT_TRUE(replay.address());
         replay.send_signal(SIGHUP);
         EXPECT_EQ(replay.wait(), 0);
     }
@@ -251,7 +251,7 @@ TEST_F(HeldUp, ARecordingOnADiskThatDoesNotAnswerCostsNothingElse) {
     Command command = milling();
     command.insert(command.end(), {"--record", file("a.pcap")});
     ChildProcess server(command);
-    ASSERT_TRUE(server.line_after("listening on ")) << server.err();
+    ASSERT_TRUE(server.address()) << server.err();
     disk.fill();
     EXPECT_TRUE(eventually([&] { return read_force_log(folder_ / "force.part.csv").size() > 1000; }));
     server.send_signal(SIGINT);
@@ -287,7 +287,7 @@ TEST_F(HeldUp, NorIsAPipeThatIsClosedOrATerminalThatHasGone) {
     StoppedTerminal terminal;
     for (const int log : {pipe.writer(), terminal.screen()}) {
         ChildProcess server(milling(), {.err = log});
-        ASSERT_TRUE(server.line_after("listening on "));
+        ASSERT_TRUE(server.address());
         log == pipe.writer() ? pipe.close_reader() : terminal.hang_up();
         std::this_thread::sleep_for(log == pipe.writer() ? 6s : 2s);  // a line is due
         server.send_signal(SIGHUP);

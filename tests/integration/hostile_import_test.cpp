@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "tests/support/child_process.h"
+#include "tests/support/messages.h"
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
@@ -225,7 +226,7 @@ const std::vector<Attack> attacks{
      }()), "vox_offset"},
 
     // Compressed data that shrank too much.
-    {"nrrd_gzip_bomb", large_file("x.nrrd", [] { return with(gzip_nrrd, "sizes: 3 4 5", "sizes: 3000 4000 3000") + deflated(std::string(1u << 24, '\0')); }), "no scan compresses so"},
+    {"nrrd_gzip_bomb", large_file("x.nrrd", [] { return with(gzip_nrrd, "sizes: 3 4 5", "sizes: 3000 4000 3000") + deflated(std::string(1u << 24, '\0')); }), impossible_compression},
 
     // DICOM.
     {"dicom_nested_sequences", series(spoiled([](RawSlice& one) { one.before_image = nested_sequences(20'000); })), "sequences within one another"},
@@ -251,7 +252,7 @@ const std::vector<Attack> attacks{
          one.is_encapsulated = true;
          one.rows = one.columns = 46'000;
          one.pixels = jpeg2000_start(46'000, 46'000, true) + std::string(2000, '\0');
-     })), "no scan compresses so"},
+     })), impossible_compression},
     {"dicom_codestream_of_other_size", series(spoiled([](RawSlice& one) {
          one.transfer_syntax = jpeg2000_lossless;
          one.is_encapsulated = true;

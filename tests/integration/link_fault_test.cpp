@@ -78,7 +78,7 @@ class LinkFaults : public FolderTest {
                         file("motion.csv"), "--json", file("server.json")};
         command.insert(command.end(), options.begin(), options.end());
         server_ = std::make_unique<ChildProcess>(command);
-        const auto address = server_->line_after("listening on ");
+        const auto address = server_->address();
         ASSERT_TRUE(address) << server_->err();
         port_ = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
     }

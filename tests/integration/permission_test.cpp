@@ -108,7 +108,7 @@ class Permissions : public ::testing::Test {
     Permissions()
         : server_({HAPTIC_SERVER, "--scene", "cube", "--device", "client", "--listen", "127.0.0.1:0",
                    "--log-csv", (folder_ / "log.csv").string()}) {
-        const auto address = server_.line_after("listening on ");
+        const auto address = server_.address();
         if (!address) throw std::runtime_error(server_.err());
         address_ = *address;
         port_ = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));

@@ -102,7 +102,7 @@ TEST_F(Recording, LeavesEveryoneWithTheServersBone) {
 
     ChildProcess replay(
         {PACKET_REPLAY, file("a.pcap"), "--listen", "127.0.0.1:0", "--speed", "4", "--from-s", "1"});
-    const auto address = replay.line_after("listening on ");
+    const auto address = replay.address();
     ASSERT_TRUE(address) << replay.err();
     const Finished viewer = run_program(client({"--connect", *address}, "viewer.json"));
     ASSERT_EQ(viewer.status, 0) << viewer.err;

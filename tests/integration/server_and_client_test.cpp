@@ -69,7 +69,7 @@ class Programs : public FolderTest {
 
 TEST_F(Programs, AfterASessionTheClientsBoneIsTheServersBitForBit) {
     ChildProcess server(drilling_server());
-    const auto address = server.line_after("listening on ");
+    const auto address = server.address();
     ASSERT_TRUE(address) << server.err();
     ChildProcess early(client(*address, "early.json"));
     ASSERT_TRUE(has_logged(server, "joined"));
@@ -143,7 +143,7 @@ TEST_F(Programs, ASessionsTimeBeginsWhenAClientHasTheBone) {
 TEST_F(Programs, ASessionThatWaitsForItsClientCanBeEnded) {
     ChildProcess server({HAPTIC_SERVER, "--device", "client", "--scene", "cube", "--listen", "127.0.0.1:0",
                          "--wait-for-client", "--json", file("server.json")});
-    ASSERT_TRUE(server.line_after("listening on ")) << server.err();
+    ASSERT_TRUE(server.address()) << server.err();
     EXPECT_TRUE(has_logged(server, "the session begins when a client has drawn the bone", 1)) << server.err();
     server.send_signal(SIGINT);
     ASSERT_EQ(server.wait(), 0) << server.err();
@@ -153,7 +153,7 @@ TEST_F(Programs, ASessionThatWaitsForItsClientCanBeEnded) {
 
 TEST_F(Programs, AClientThatIsKilledDisturbsNobody) {
     ChildProcess server(drilling_server());
-    const auto address = server.line_after("listening on ");
+    const auto address = server.address();
     ASSERT_TRUE(address) << server.err();
     ChildProcess steady(client(*address, "steady.json"));
     {
@@ -169,7 +169,7 @@ TEST_F(Programs, AClientThatIsKilledDisturbsNobody) {
 
 TEST_F(Programs, StopOnSigintCleanlyAndStillReport) {
     ChildProcess server({HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--json", file("server.json")});
-    const auto address = server.line_after("listening on ");
+    const auto address = server.address();
     ASSERT_TRUE(address) << server.err();
     ChildProcess viewer(client(*address, "client.json"));
     ASSERT_TRUE(has_logged(server, "joined")) << viewer.err();

@@ -66,7 +66,7 @@ TEST(SlicerProgram, LeavesTheSavedBoneWithReceiversThatImportNowAndThen) {
     const TemporaryFolder folder;
     ChildProcess server({HAPTIC_SERVER, "--scene", "cube", "--listen", "127.0.0.1:0", "--save-bone",
                          folder / "saved.nrrd", "--trajectory", strokes(folder / "strokes.csv")});
-    const auto address = server.line_after("listening on ");
+    const auto address = server.address();
     ASSERT_TRUE(address) << server.err();
     std::vector<std::unique_ptr<Viewer>> viewers;
     for (const int interval_ms : {5, 300, 3000})
@@ -118,7 +118,7 @@ TEST(SlicerProgram, LeavesTheSavedBoneWithReceiversThatImportNowAndThen) {
 TEST(SlicerProgram, TakesMarksWhereTheServerTakesThem) {
     ChildProcess server({HAPTIC_SERVER, "--scene", "cube", "--device", "client", "--listen", "127.0.0.1:0",
                          "--duration-s", "600"});
-    const auto address = server.line_after("listening on ");
+    const auto address = server.address();
     ASSERT_TRUE(address) << server.err();
     Viewer viewer(*address, std::chrono::milliseconds(5));
     ASSERT_TRUE(eventually([&] {

@@ -37,7 +37,7 @@ class WaylandTest : public ::testing::TestWithParam<int> {
     void start_server() {
         server_.emplace(
             std::vector<std::string>{HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--device", "client"});
-        const auto address = server_->line_after("listening on ");
+        const auto address = server_->address();
         ASSERT_TRUE(address) << server_->err();
         address_ = *address;
     }

@@ -48,7 +48,7 @@ class WindowTest : public ::testing::Test {
         std::vector<std::string> command{HAPTIC_SERVER, "--listen", "127.0.0.1:0", "--device", "client"};
         command.insert(command.end(), more.begin(), more.end());
         server_.emplace(command);
-        const auto address = server_->line_after("listening on ");
+        const auto address = server_->address();
         ASSERT_TRUE(address) << server_->err();
         address_ = *address;
     }

@@ -24,8 +24,8 @@ class MetricsTest(unittest.TestCase):
     def test_are_of_the_session_that_runs(self):
         with Running("haptic_server", "--case", "cube", "--listen", "127.0.0.1:0", "--metrics", "127.0.0.1:0") as server:
             metrics = server.line_after("metrics on 127.0.0.1:")
-            port = server.line_after("listening on 127.0.0.1:")
-            self.assertTrue(metrics and port, server.err)
+            address = server.address()
+            self.assertTrue(metrics and address, server.err)
             self.assertTrue(eventually(lambda: scraped(metrics)["osteomill_ticks_total"] > 100.0))
             values = scraped(metrics)
             self.assertEqual(values["osteomill_clients"], 0.0)
@@ -37,7 +37,7 @@ class MetricsTest(unittest.TestCase):
             def has_client():
                 values = scraped(metrics)
                 return values["osteomill_clients"] == 1.0 and values["osteomill_sent_bytes_total"] > 0.0
-            with socket.create_connection(("127.0.0.1", port)):
+            with socket.create_connection(address.split(":")):
                 self.assertTrue(eventually(has_client), "the hello was sent to it")
             self.assertTrue(eventually(lambda: scraped(metrics)["osteomill_clients"] == 0.0))
             self.assertEqual(server.end(), 0, server.err)

@@ -31,7 +31,7 @@ class OutputFilesTest(FolderTest):
         """A session that has begun."""
         session = Running(*self.server("--listen", "127.0.0.1:0", *words))
         self.addCleanup(session.__exit__)
-        self.assertIsNotNone(session.line_after("listening on"), session.err)
+        self.assertIsNotNone(session.address(), session.err)
         return session
 
     def expect_old(self, *names):
@@ -224,7 +224,7 @@ class OutputFilesTest(FolderTest):
         carved, saved = self.file("carved.nrrd"), self.file("a.nrrd")
         self.run_to(0, *self.server(*VIRTUAL, "0.1", "--save-bone", carved))
         with Running("haptic_server", "--bone", carved, "--listen", "127.0.0.1:0", "--save-bone", saved) as session:
-            self.assertIsNotNone(session.line_after("listening on"), session.err)
+            self.assertIsNotNone(session.address(), session.err)
             os.truncate(carved, 1000)
             self.assertTrue(session.has_logged("carved.nrrd: was written to since it was loaded"), session.err)
             self.assertEqual(session.end(), 1)

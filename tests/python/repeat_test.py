@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
-from support import FolderTest, program
+from support import NO_STUDY, FolderTest, program
 
 from osteomill.studies.repeated_tables import compare_tables
 
@@ -60,9 +60,9 @@ class RepeatTest(unittest.TestCase):
             file = pathlib.Path(folder, "manifest.json")
             right = {"version": "0", "commit": "0"}
             for kept, why in (([1], "is no manifest"), (right, "is no manifest"), (right | {"command": []}, "is no manifest"),
-                              (right | {"command": ["sessions", "/"]}, "names no study that can be repeated"),
-                              (right | {"command": ["repeat", "/"]}, "names no study that can be repeated"),
-                              (right | {"command": ["\x1b[2J"]}, "names no study that can be repeated")):
+                              (right | {"command": ["sessions", "/"]}, NO_STUDY),
+                              (right | {"command": ["repeat", "/"]}, NO_STUDY),
+                              (right | {"command": ["\x1b[2J"]}, NO_STUDY)):
                 file.write_text(json.dumps(kept))
                 done = subprocess.run([program("osteomill_study"), "repeat", folder], capture_output=True, text=True)
                 self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)

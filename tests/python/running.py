@@ -48,6 +48,10 @@ class Running:
         eventually(has_come)
         return lines[0] if lines else None
 
+    def address(self):
+        """HOST:PORT at which a server listens, as it says it; None if it ends without."""
+        return self.line_after("listening on ")
+
     def has_logged(self, words, times=1):
         """True as soon as its messages hold the words so often; false after a time that only a defect can take."""
         return eventually(lambda: self.err.count(words) >= times)

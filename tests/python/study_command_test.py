@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-from support import FolderTest, eventually, run_study
+from support import NO_STUDY, FolderTest, eventually, run_study
 
 from osteomill.studies import kept_command, manifest, options
 from osteomill.studies.program import STUDIES
@@ -136,7 +136,7 @@ class StudyCommandTest(unittest.TestCase):
                      ["made", "a", "--no\x1b[2J"]):
             with self.assertRaises(RuntimeError, msg=kept) as refused:
                 kept_command.require_study_words(kept, "made", a_study(), pathlib.Path("file"))
-            self.assertIn("names no study that can be repeated", str(refused.exception))
+            self.assertIn(NO_STUDY, str(refused.exception))
             self.assertNotIn("\x1b", str(refused.exception))
         good = ["made", "a", "--rate-hz", "5"]
         self.assertEqual(kept_command.require_study_words(good, "made", a_study(), pathlib.Path("file")), good)

@@ -5,7 +5,7 @@ import pathlib
 import shutil
 import unittest
 
-from support import FolderTest, run_study
+from support import NO_STUDY, FolderTest, run_study
 
 DATA = pathlib.Path(__file__).parents[1] / "data"
 CASES = DATA / "milling_forces.json"
@@ -125,7 +125,7 @@ class StudyProgramTest(ProgramTest):
                         ["stability", "--rails", "2", "--quick", "bridge"],
                         ["stability", "--database", "postgresql://elsewhere/\x1b[2J"]):
             (self.out / "manifest.json").write_text(json.dumps(manifest | {"command": command}))
-            self.expect_refused(["repeat", self.out], 1, "names no study that can be repeated")
+            self.expect_refused(["repeat", self.out], 1, NO_STUDY)
         self.expect_refused(["stability", "--rails", "2", "bridge"], 2, "bridge")
 
     def test_refuses_deep_json_of_a_folder_that_it_repeats(self):

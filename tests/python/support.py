@@ -15,6 +15,7 @@ import numpy as np
 
 REPOSITORY = pathlib.Path(__file__).parents[2]
 LONGEST_S = 120.0  # a time that only a defect can take
+NO_STUDY = "names no study that can be repeated"  # what several tests expect of a manifest
 IS_SANITIZED = os.environ.get("OSTEOMILL_SANITIZER", "none") != "none"
 IS_OPTIMISED = os.environ.get("OSTEOMILL_BUILD_TYPE", "Release") == "Release"
 
@@ -102,8 +103,6 @@ def eventually(holds, longest_s=LONGEST_S, every_s=0.01):
 def run_server(folder, *arguments):
     """Runs haptic_server on the virtual clock; returns its measurements, its log, column by column and line by line, and its messages."""
     json_file, log = folder / "session.json", folder / "log.csv"
-    finished = subprocess.run(
-        [program("haptic_server"), "--clock", "virtual", "--json", json_file, "--log-csv", log, *arguments],
-        check=True, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    finished = run("haptic_server", "--clock", "virtual", "--json", json_file, "--log-csv", log, *arguments, check=True)
     table = np.genfromtxt(log, delimiter=",", names=True)
     return json.loads(json_file.read_text()), table, log.read_text().splitlines(), finished.stderr

@@ -28,7 +28,7 @@ class TlsTest(FolderTest):
             bench, viewer = tls(lab, "bench"), tls(lab, "viewer")
             with Running("haptic_server", "--listen", "0.0.0.0:0", "--json", self.folder / "server.json", "--record", self.folder / "a.pcap",
                          "--log-csv", self.folder / "force.csv", *bench) as server:
-                address = server.line_after("listening on ")
+                address = server.address()
                 self.assertTrue(address, server.err)
                 with self.client(address, "member.json", *viewer) as member:
                     self.assertTrue(server.has_logged("(viewer) joined"), server.err)
@@ -40,7 +40,7 @@ class TlsTest(FolderTest):
             self.assertEqual(self.json("member.json")["checksum_mismatches"], 0)
 
             with Running("packet_replay", self.folder / "a.pcap", "--listen", "0.0.0.0:0", "--speed", "4", *bench) as replay:
-                address = replay.line_after("listening on ")
+                address = replay.address()
                 self.assertTrue(address, replay.err)
                 with self.client(address, "again.json", *viewer) as again:
                     self.assertEqual(replay.wait(), 0, replay.err)

@@ -145,7 +145,7 @@ class Soak {
             "127.0.0.1:0", "--record", file("session.pcap"), "--metrics", "127.0.0.1:0", "--json",
             file("server.json")});
         const auto metrics = server_->line_after("metrics on 127.0.0.1:");
-        const auto address = server_->line_after("listening on ");
+        const auto address = server_->address();
         if (!metrics || !address) throw std::runtime_error("the server did not begin: " + server_->err());
         const auto port = static_cast<std::uint16_t>(std::stoi(address->substr(address->rfind(':') + 1)));
         for (std::size_t i = 0; i < clients; ++i) stations_.push_back(std::make_unique<Station>(port));

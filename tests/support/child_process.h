@@ -33,6 +33,9 @@ class ChildProcess {
     std::optional<std::string> line_after(const std::string& prefix,
                                           std::chrono::seconds deadline = far_too_long);
 
+    /// HOST:PORT at which a server listens, as it says it; nullopt at the deadline or its end.
+    std::optional<std::string> address() { return line_after("listening on "); }
+
     /// Reads its output since the last call; waits up to 0.1 s for more.
     void read_output() { pump(std::chrono::milliseconds(100)); }
 

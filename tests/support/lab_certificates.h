@@ -18,6 +18,7 @@ namespace osteomill::testing {
 inline bool has_openssl() {
     return std::system("command -v openssl > /dev/null") == 0;
 }
+inline constexpr const char* no_openssl = "there is no openssl to make certificates with";
 
 /// The command with the options of these files.
 inline std::vector<std::string> with(std::vector<std::string> command, const TlsFiles& files) {

@@ -12,8 +12,6 @@
 
 namespace osteomill::testing {
 
-inline constexpr const char* device_lost = "the haptic device does not answer: force off";
-
 inline int count(const std::string& text, const std::string& words) {
     int found = 0;
     for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++found;

@@ -11,16 +11,11 @@
 
 namespace osteomill::testing {
 
-inline boost::asio::ip::tcp::socket connected(boost::asio::io_context& io, const std::string& port) {
-    boost::asio::ip::tcp::socket socket(io);
-    socket.connect({boost::asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(std::stoi(port))});
-    return socket;
-}
-
 /// The values of the page on `port` of loopback, by name with labels. Throws if nobody listens.
 inline std::map<std::string, double> scraped(const std::string& port) {
     boost::asio::io_context io;
-    auto socket = connected(io, port);
+    boost::asio::ip::tcp::socket socket(io);
+    socket.connect({boost::asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(std::stoi(port))});
     boost::asio::write(socket,
                        boost::asio::buffer(std::string("GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n")));
     std::string answer;

@@ -20,7 +20,7 @@ std::string failure_of(const TlsFiles& files, Role role) {
 }
 
 TEST(OwnCertificate, IsRefusedWhereItIsForTheOtherRoleHasExpiredOrSaysNoRole) {
-    if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
+    if (!testing::has_openssl()) GTEST_SKIP() << testing::no_openssl;
     const LabCertificates lab;
     const TlsFiles bench = lab.server("bench");
     const TlsFiles viewer = lab.client("viewer");

@@ -22,7 +22,7 @@ using Role = TlsContext::Role;
 class RevocationListsTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
+        if (!testing::has_openssl()) GTEST_SKIP() << testing::no_openssl;
         lab_.emplace();
         bench_ = lab_->server("bench");
         bench_.crl = lab_->revoke();

@@ -18,7 +18,7 @@ std::string failure_of(const TlsFiles& files) {
 }
 
 TEST(TlsContext, SaysInOneLineWhichFileIsNoGood) {
-    if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
+    if (!testing::has_openssl()) GTEST_SKIP() << testing::no_openssl;
     const LabCertificates lab;
     const TlsFiles good = lab.server("bench");
     EXPECT_EQ(failure_of(good), "");
@@ -42,7 +42,7 @@ TEST(TlsContext, SaysInOneLineWhichFileIsNoGood) {
 }
 
 TEST(LabCertificates, KeepTheirKeysToTheirOwnerAndAreNeverOverwritten) {
-    if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
+    if (!testing::has_openssl()) GTEST_SKIP() << testing::no_openssl;
     const LabCertificates lab;
     lab.client("viewer");
     for (const char* key : {"ca.key", "viewer.key"})

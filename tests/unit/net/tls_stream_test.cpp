@@ -12,6 +12,7 @@
 #include "common/net/tls_context.h"
 #include "common/net/tls_failure.h"
 #include "tests/support/lab_certificates.h"
+#include "tests/support/messages.h"
 
 namespace osteomill {
 namespace {
@@ -26,7 +27,7 @@ using Role = TlsContext::Role;
 class TlsStreamTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
+        if (!testing::has_openssl()) GTEST_SKIP() << testing::no_openssl;
         lab_.emplace();
     }
 
@@ -144,7 +145,7 @@ TEST_F(TlsStreamTest, CarriesBytesBothWaysBetweenTwoOfALab) {
 TEST_F(TlsStreamTest, RefusesAClientOfAnotherLabAndTellsIt) {
     const LabCertificates other;
     meet(lab_->server("bench"), lab_->impostor(other.client("stranger")));
-    EXPECT_THAT(*server_failure_, HasSubstr("its certificate is not accepted"));
+    EXPECT_THAT(*server_failure_, HasSubstr(testing::certificate_refused));
     ASSERT_TRUE(client_error_);
     EXPECT_TRUE(is_refusal(*client_error_));
     EXPECT_THAT(describe_stream_error(*client_error_), HasSubstr("it refuses this program"));
@@ -152,7 +153,7 @@ TEST_F(TlsStreamTest, RefusesAClientOfAnotherLabAndTellsIt) {
 
 TEST_F(TlsStreamTest, RefusesAClientWhoseCertificateHasExpired) {
     meet_by_hand_with(lab_->expired_client());
-    EXPECT_EQ(*server_failure_, "its certificate is not accepted: certificate has expired");
+    EXPECT_EQ(*server_failure_, testing::certificate_refused + ": certificate has expired");
 }
 
 TEST_F(TlsStreamTest, RefusesAServersCertificateFromAClient) {
@@ -170,7 +171,7 @@ TEST_F(TlsStreamTest, RefusesARevokedClientAndTellsItThatItIsFinal) {
     TlsFiles bench = lab_->server("bench");
     bench.crl = lab_->revoke("lost");
     meet(bench, lost);
-    EXPECT_EQ(*server_failure_, "its certificate is not accepted: certificate revoked");
+    EXPECT_EQ(*server_failure_, testing::certificate_refused + ": certificate revoked");
     EXPECT_THAT(describe_stream_error(*client_error_), HasSubstr("certificate revoked"));
     EXPECT_TRUE(is_about_certificates(*client_error_));
 }
@@ -211,19 +212,19 @@ TEST_F(TlsStreamTest, RefusesTls12) {
 TEST_F(TlsStreamTest, IsNotMadeByAClientWithAServerOfAnotherLab) {
     const LabCertificates other;
     meet(other.impostor(other.server("bench")), lab_->client("viewer"));
-    EXPECT_THAT(*client_failure_, HasSubstr("its certificate is not accepted"));
+    EXPECT_THAT(*client_failure_, HasSubstr(testing::certificate_refused));
     EXPECT_THAT(*server_failure_, HasSubstr("it refuses this program"));
     EXPECT_TRUE(client_refused_);
 }
 
 TEST_F(TlsStreamTest, IsNotMadeByAClientWithAnotherHostThanItAskedFor) {
     meet(lab_->server("bench", "192.0.2.7 bench.example"), lab_->client("viewer"));
-    EXPECT_EQ(*client_failure_, "its certificate is not accepted: IP address mismatch");
+    EXPECT_EQ(*client_failure_, testing::certificate_refused + ": IP address mismatch");
 }
 
 TEST_F(TlsStreamTest, IsNotMadeByAClientWithAnotherNameThanItAskedFor) {
     meet(lab_->server("bench", "127.0.0.1 bench.example"), lab_->client("viewer"), "localhost");
-    EXPECT_EQ(*client_failure_, "its certificate is not accepted: hostname mismatch");
+    EXPECT_EQ(*client_failure_, testing::certificate_refused + ": hostname mismatch");
 }
 
 TEST_F(TlsStreamTest, KnowsTheHostByItsNameToo) {

@@ -9,6 +9,7 @@
 
 #include "simulation/force_models/force_models.h"
 #include "tests/support/message_of.h"
+#include "tests/support/messages.h"
 
 namespace osteomill {
 namespace {
@@ -103,7 +104,7 @@ TEST(ServerOptions, MeasureNothingThatIsNoHeldArm) {
          "--json is of no use with --measure-arm, which runs no session"},
         {{"--measure-arm", "--report", "out"}, "--report is of no use with --measure-arm"},
         {{"--measure-arm", "--wait-for-client"}, "--wait-for-client is of no use with --measure-arm"},
-        {{"--measure-arm", "--device", "hid", "--clock", "virtual"}, "a person needs --clock real"}};
+        {{"--measure-arm", "--device", "hid", "--clock", "virtual"}, testing::needs_real_clock}};
     for (const auto& [words, why] : wrong)
         EXPECT_THAT(error_of(words), AllOf(HasSubstr(why), Not(HasSubstr("\n"))));
 }

@@ -24,7 +24,7 @@ class HandshakesTest : public ::testing::Test {
     static constexpr std::size_t places = 16;
 
     void begin_under_tls(milliseconds deadline) {
-        if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
+        if (!testing::has_openssl()) GTEST_SKIP() << testing::no_openssl;
         tls_.emplace(lab_.emplace().server("bench"), TlsContext::Role::server);
         handshakes_.emplace(io_, &*tls_, deadline, callbacks(), places);
     }

@@ -8,6 +8,7 @@
 
 #include "render_client/link/bone_link.h"
 #include "tests/support/lab_certificates.h"
+#include "tests/support/messages.h"
 #include "tests/support/served_bone.h"
 
 namespace osteomill {
@@ -22,7 +23,7 @@ using testing::ServedBone;
 class TlsServer : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (!testing::has_openssl()) GTEST_SKIP() << "there is no openssl to make certificates with";
+        if (!testing::has_openssl()) GTEST_SKIP() << testing::no_openssl;
         lab_.emplace();
         served_ = std::make_unique<ServedBone>(
             0, true, 8, std::nullopt,
@@ -73,7 +74,7 @@ TEST_F(TlsServer, ServesTheLabAndTurnsAwayTheRestWhileTheLabNoticesNothing) {
 TEST_F(TlsServer, IsNotTrustedByALinkOfAnotherLab) {
     const LabCertificates other;
     const auto stranger = link(other.client("viewer"));
-    EXPECT_TRUE(says(*stranger, "its certificate is not accepted"));
+    EXPECT_TRUE(says(*stranger, testing::certificate_refused));
     EXPECT_EQ(stranger->poll().status, LinkStatus::refused);
 }
 

@@ -10,6 +10,7 @@
 #include "imaging/imaging_error.h"
 #include "imaging/segmentation/segmentation.h"
 #include "tests/support/message_of.h"
+#include "tests/support/messages.h"
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
 #include "tests/support/synthetic_dicom.h"
@@ -231,7 +232,7 @@ TEST_F(DicomImage, StacksFramesWithoutGroups) {
     bytes = with(with(bytes, dicom_element(0x0020, 0x0032, "DS", "0\\0\\0"), ""),
                  dicom_element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0"), "");
     write_bytes(folder_ / "x.dcm", bytes);
-    EXPECT_THAT(open_image(folder_ / "x.dcm").image.notes, Contains(HasSubstr("left and right are a guess")));
+    EXPECT_THAT(open_image(folder_ / "x.dcm").image.notes, Contains(HasSubstr(sides_are_a_guess)));
 }
 
 TEST_F(DicomImage, LeavesOutBitsThatHoldNoPixel) {

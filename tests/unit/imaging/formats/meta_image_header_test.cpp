@@ -4,6 +4,7 @@
 
 #include "imaging/imaging_error.h"
 #include "tests/support/message_of.h"
+#include "tests/support/messages.h"
 #include "tests/support/raw_images.h"
 
 namespace osteomill::meta_image_header_test {
@@ -55,7 +56,7 @@ TEST(MetaImageHeader, ConvertsItsUnitsAndSaysWhereLeftAndRightAreAGuess) {
     EXPECT_EQ(header.image.spacing_mm, glm::dvec3(1e-3, 1e-3, 2e-3));
     EXPECT_EQ(header.image.origin_mm.z, 3e-3);
     EXPECT_THAT(header.image.notes,
-                ElementsAre(HasSubstr("converted to mm"), HasSubstr("left and right are a guess")));
+                ElementsAre(HasSubstr("converted to mm"), HasSubstr(testing::sides_are_a_guess)));
     EXPECT_TRUE(parse(meta_header("LOCAL", "TransformMatrix = 1 0 0 0 1 0 0 0 1\n")).image.notes.empty());
 }
 

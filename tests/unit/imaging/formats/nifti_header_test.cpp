@@ -8,6 +8,7 @@
 
 #include "imaging/imaging_error.h"
 #include "tests/support/message_of.h"
+#include "tests/support/messages.h"
 #include "tests/support/raw_images.h"
 #include "tests/support/temporary_folder.h"
 
@@ -86,8 +87,9 @@ TEST(NiftiHeader, SaysWhereSformAndTheRestDisagree) {
 }
 
 TEST(NiftiHeader, SaysWhereItHasNoOrientation) {
-    EXPECT_THAT(parse(spoiled(nifti(), 254, std::int16_t{0})).image.notes.at(0),
-                HasSubstr("left and right are a guess (taken as right-anterior-superior (RAS))"));
+    EXPECT_THAT(
+        parse(spoiled(nifti(), 254, std::int16_t{0})).image.notes.at(0),
+        HasSubstr(std::string(testing::sides_are_a_guess) + " (taken as right-anterior-superior (RAS))"));
 }
 
 TEST(NiftiHeader, ConvertsItsUnits) {

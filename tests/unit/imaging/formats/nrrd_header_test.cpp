@@ -6,6 +6,7 @@
 
 #include "imaging/imaging_error.h"
 #include "tests/support/message_of.h"
+#include "tests/support/messages.h"
 #include "tests/support/raw_images.h"
 
 namespace osteomill::nrrd_header_test {
@@ -87,7 +88,7 @@ TEST(NrrdHeader, SaysWhereLeftAndRightAreAGuess) {
     for (const char* space : {"scanner-xyz", "3D-right-handed"}) {
         const ImageHeader image = layout_of(with_line("left-posterior-superior", space));
         EXPECT_FALSE(image.is_placed);
-        EXPECT_THAT(image.image.notes.at(0), HasSubstr("left and right are a guess"));
+        EXPECT_THAT(image.image.notes.at(0), HasSubstr(testing::sides_are_a_guess));
     }
 }
 

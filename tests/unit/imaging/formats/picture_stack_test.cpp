@@ -15,6 +15,7 @@
 #include "imaging/imaging_error.h"
 #include "imaging/segmentation/segmentation.h"
 #include "tests/support/message_of.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/whole_image.h"
 
@@ -88,7 +89,7 @@ TEST_F(PictureStackFolder, IsInTheOrderOfTheNumbersInItsNames) {
     EXPECT_EQ(stack.image.size_voxels, glm::ivec3(2, 2, 4));
     EXPECT_EQ(stack.image.spacing_mm, spacing_mm);
     EXPECT_THAT(stack.image.notes,
-                ElementsAre(HasSubstr("left and right are a guess"), HasSubstr("'plane1.png'")));
+                ElementsAre(HasSubstr(testing::sides_are_a_guess), HasSubstr("'plane1.png'")));
     const std::vector<float> all = values();
     EXPECT_THAT((std::vector<float>{all[0], all[4], all[8], all[12]}),
                 ElementsAre(1.0F, 9.0F, 10.0F, 100.0F));
