@@ -164,7 +164,8 @@ TEST(DeviceCheck, FindsAnArmThatIsNotPermitted) {
 }
 
 TEST(CheckRows, SayWhatIsWrongItsCostAndItsMend) {
-    EXPECT_EQ(text_of({{"a", "fine"}, {"b", "bad", "much", "do it"}, {"c", "so so", "little", "wait", true}}),
+    EXPECT_EQ(osteomill::text_of(
+                  {{"a", "fine"}, {"b", "bad", "much", "do it"}, {"c", "so so", "little", "wait", true}}),
               "right            a                      fine\n"
               "wrong            b                      bad\n"
               "                 costs: much\n"

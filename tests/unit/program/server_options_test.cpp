@@ -163,7 +163,7 @@ TEST(ServerOptions, ShakeTheHandpieceOnlyWhereAskedToAndWhereTheModelCuts) {
 
 TEST(ServerOptions, CoupleAForceModelThatHasNoCuttingLawByInterpolatingAtTheHapticRate) {
     for (const char* model : {"point-spring", "petersik", "morris", "agus"}) {
-        const MillingSessionOptions session = parse({"--force-model", model}).options->session;
+        const MillingSessionOptions session = parse({"--force-model", model}).options->milling;
         EXPECT_EQ(session.force_model, model);
         EXPECT_EQ(name_of(session.coupling), "interpolate") << model;
         EXPECT_EQ(session.milling_rate_hz, 1000.0) << "a wall needs what there is";

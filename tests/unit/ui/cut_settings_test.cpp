@@ -7,7 +7,7 @@
 namespace osteomill::cut_settings_test {
 namespace {
 
-class Cuts : public testing::Test {
+class Cuts : public ::testing::Test {
   protected:
     Cuts() { cuts.set_bounds({0.0, 0.0, 0.0}, {10.0, 20.0, 30.0}); }
 
