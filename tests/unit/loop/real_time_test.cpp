@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sys/mman.h>
 
 #include <array>
 #include <functional>
@@ -28,15 +30,34 @@ void use_stack() {
     for (std::size_t i = 0; i < deep.size(); i += 1024) deep[i] = 1;
 }
 
+/// On a stack that nobody had before: not of a thread that ended, nor locked since a session of another test.
 std::uint64_t faults_of(const std::function<void()>& before, const std::function<void()>& work) {
-    std::uint64_t faults = 0;
-    std::thread([&] {
-        before();
+    struct Counted {
+        const std::function<void()>& before;
+        const std::function<void()>& work;
+        std::uint64_t faults = 0;
+    } counted{before, work};
+    constexpr std::size_t bytes = 4 * touched_stack_bytes;
+    munlockall();
+    void* const stack =
+        mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstack(&attributes, stack, bytes);
+    pthread_t thread{};
+    const auto run = [](void* data) -> void* {
+        auto& to = *static_cast<Counted*>(data);
+        to.before();
         const std::uint64_t so_far = page_faults_of_this_thread();
-        work();
-        faults = page_faults_of_this_thread() - so_far;
-    }).join();
-    return faults;
+        to.work();
+        to.faults = page_faults_of_this_thread() - so_far;
+        return nullptr;
+    };
+    EXPECT_EQ(pthread_create(&thread, &attributes, run, &counted), 0);
+    pthread_join(thread, nullptr);
+    pthread_attr_destroy(&attributes);
+    munmap(stack, bytes);
+    return counted.faults;
 }
 
 TEST(TouchStack, LeavesNoPageOfItToBeWaitedFor) {
