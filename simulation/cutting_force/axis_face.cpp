@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
+#include <span>
 
 #include "simulation/cutting_force/axis_singularity_kernel.h"
 
@@ -56,6 +57,19 @@ double between(const Table& table, double at) {
 double share_of_reach(double distance_voxels) {
     return 0.5 + 0.5 * distance_voxels / look_voxels;
 }
+
+/// A voxel before the tip.
+struct SeenVoxel {
+    glm::ivec3 at;
+    glm::dvec2 aside;  // of the axis
+    double r_squared;
+    double beyond;  // the ball's surface
+    int left;       // by the ball
+    int now;
+    bool is_ahead;
+};
+/// More than a ball of the look's reach holds.
+constexpr std::size_t most_seen = 192;
 
 /// What a larger ball would remove, weighed by the look's disc.
 struct Larger {
@@ -125,32 +139,49 @@ FaceEnd AxisFace::look(const Bone& bone, const Sweep& ball, const glm::dmat3& fr
     const glm::dvec3 tip = ball.from - ball.radius * frame[2];
     const double sag = ball.radius - std::sqrt(ball.radius * ball.radius - look_voxels * look_voxels);
     const double reach = std::hypot(look_voxels, std::max(sag + rim, outermost));
-    std::array<Larger, larger_voxels.size()> larger;
-    double stiffness = 0.0;
+    const double inner = ball.radius - rim;
+    const double outer = ball.radius + outermost;
+    std::array<SeenVoxel, most_seen> seen;
+    std::size_t count = 0;
+    bool is_any_missing = false;
+    bool is_any_there = false;
     for (int z = static_cast<int>(std::ceil(tip.z - reach)); z <= tip.z + reach; ++z)
         for (int y = static_cast<int>(std::ceil(tip.y - reach)); y <= tip.y + reach; ++y) {
             const Interval row = line_through_ball(tip, reach, y, z);
-            for (int x = static_cast<int>(std::ceil(row.first)); x <= row.last; ++x) {
+            for (int x = static_cast<int>(std::ceil(row.first)); x <= row.last && count < most_seen; ++x) {
                 const glm::ivec3 voxel(x, y, z);
                 const glm::dvec3 from_centre = glm::dvec3(voxel) - ball.from;
+                const double squared = glm::dot(from_centre, from_centre);
+                if (squared <= inner * inner || squared >= outer * outer) continue;
                 const glm::dvec2 aside(glm::dot(frame[0], from_centre), glm::dot(frame[1], from_centre));
                 const double r_squared = glm::dot(aside, aside);
                 if (r_squared >= look_voxels * look_voxels) continue;
-                const double beyond = glm::length(from_centre) - ball.radius;
-                if (beyond <= -rim || beyond >= outermost) continue;
+                const double beyond = std::sqrt(squared) - ball.radius;
                 const int left = level_left_at(coverage, beyond);
                 const int now = std::min(left, static_cast<int>(bone.fraction_at(voxel)));
-                const double weight = look_weight(r_squared);
                 const bool is_ahead = glm::dot(from_centre, path) > 0.0;
-                double found = 0.0;
-                for (std::size_t i = 0; i < larger.size(); ++i) {
-                    const int then = level_left_at(coverage, beyond - larger_voxels[i]);
-                    found = weight * std::max(0, now - then);
-                    larger[i].add(weight * (left - then), found, is_ahead, aside);
-                }
-                if (found > 0.0) stiffness += found * bone.stiffness_at(voxel);
+                is_any_missing |= is_ahead && now < left;
+                is_any_there |= is_ahead && now > 0;
+                seen[count++] = {voxel, aside, r_squared, beyond, left, now, is_ahead};
             }
         }
+    if (!is_any_missing || !is_any_there) return {};  // as before the tip of a burr deep in bone
+    std::array<Larger, larger_voxels.size()> larger;
+    double stiffness = 0.0;
+    double most = 0.0;
+    glm::ivec3 at_most(0);
+    for (const SeenVoxel& voxel : std::span(seen).first(count)) {
+        const double weight = look_weight(voxel.r_squared);
+        double found = 0.0;
+        for (std::size_t i = 0; i < larger.size(); ++i) {
+            const int then = level_left_at(coverage, voxel.beyond - larger_voxels[i]);
+            found = weight * std::max(0, voxel.now - then);
+            larger[i].add(weight * (voxel.left - then), found, voxel.is_ahead, voxel.aside);
+        }
+        if (found > 0.0) stiffness += found * bone.stiffness_at(voxel.at);
+        if (found > most) at_most = voxel.at;
+        most = std::max(most, found);
+    }
     if (larger[2].there <= 0.0 || larger[2].missing <= 0.0) return {};
     const glm::dvec2 aside = larger[2].aside();
     const double length = glm::length(aside);
@@ -165,7 +196,8 @@ FaceEnd AxisFace::look(const Bone& bone, const Sweep& ball, const glm::dmat3& fr
     return {
         .distance_voxels = glm::mix(followed, distance(0), std::min(1.0, std::abs(followed) / far_voxels)),
         .across = certainty / length * aside,
-        .stiffness = stiffness / larger.back().there};
+        .stiffness = stiffness / larger.back().there,
+        .tissue = bone.tissue_at(at_most)};
 }
 
 glm::dvec3 AxisFace::lacking_n(const CuttingStep& step, const FaceEnd& end,
@@ -173,9 +205,13 @@ glm::dvec3 AxisFace::lacking_n(const CuttingStep& step, const FaceEnd& end,
     const double certainty = glm::length(end.across);
     if (certainty <= 0.0) return glm::dvec3(0.0);
     const glm::dvec3 path = glm::transpose(step.frame) * (ball.to - ball.from);
-    const double c0 = -path.z;
-    const double c1 = glm::dot(glm::dvec2(path), end.across) / (certainty * ball.radius);
+    double c0 = -path.z;
+    double c1 = glm::dot(glm::dvec2(path), end.across) / (certainty * ball.radius);
     if (c0 + c1 * end.distance_voxels <= 0.0) return glm::dvec3(0.0);
+    if (step.is_of_edges) {
+        c0 = 2.0 * static_cast<double>(step.half_path_voxels);  // wherever there is a face
+        c1 = 0.0;
+    }
     const double at = share_of_reach(end.distance_voxels);
     const glm::dvec2 swirl =
         end.stiffness * (c0 * between(constant_, at) + c1 * between(slope_, at)) * end.across;

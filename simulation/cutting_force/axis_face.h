@@ -1,5 +1,5 @@
-// The face of bone before a ball's tip, and what the chips' force lacks where that face ends near the
-// spindle's axis.
+// The face of bone before a ball's tip, and what the force of chips and of edges lacks where that face ends
+// near the spindle's axis.
 //
 // Near the axis a chip acts sideways as its thickness c times e_r / r, which is summed as a mean over a disc
 // (axis_singularity_kernel.h). Where the face ends in a line, at the bone's surface or at a groove, the disc
@@ -9,14 +9,15 @@
 //     integral of c e_r / r over the face, less its means = n (c_0 I_0(d) + c_1 I_1(d))
 //     c = c_0 + c_1 x     I_k(d) = int_-a^d x^k b(x) dx     b(x) = pi (sign x - int sign(x - t) p(t) dt)
 //
-// So a face that ends at the axis itself lacks 0.82 voxels of its width, and one that ends within a voxel has
-// up to 0.16 too much. The voxels before the tip tell where the line lies: of
-// what a ball larger by a part of a voxel would remove from bone all about, some is missing. Its share,
-// weighed by a disc, gives the distance of the line half-way to that ball's surface, and a straight line
-// through the distances of two such balls leads back to the burr; its centre gives n.
+// Edges act likewise as the face itself, c = 1. So a face that ends at the axis itself lacks 0.82 voxels of
+// its width, and one that ends within a voxel has up to 0.16 too much. The voxels before the tip tell where
+// the line lies: of what a ball larger by a part of a voxel would remove from bone all about, some is
+// missing. Its share, weighed by a disc, gives the distance of the line half-way to that ball's surface, and
+// a straight line through the distances of two such balls leads back to the burr; its centre gives n.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -32,7 +33,8 @@ struct FaceEnd {
     double distance_voxels = 0.0;  ///< d, negative if there is no bone at the axis
     /// n, burr axes, and as long as it is sure that what is missing lies on that side: 0, no line, to 1.
     glm::dvec2 across{0.0};
-    double stiffness = 0.0;  ///< relative, of the bone there
+    double stiffness = 0.0;   ///< relative, of the bone there
+    std::uint8_t tissue = 0;  ///< label of the most of it
 };
 
 class AxisFace {
@@ -45,7 +47,7 @@ class AxisFace {
     FaceEnd look(const Bone& bone, const Sweep& ball, const glm::dmat3& frame,
                  VoxelCoverage coverage) const noexcept;
 
-    /// The force that the chips of `step` lack on the path of `ball`, N, burr axes. Real-time safe.
+    /// The force that the chips or edges of `step` lack on the path of `ball`, N, burr axes. Real-time safe.
     glm::dvec3 lacking_n(const CuttingStep& step, const FaceEnd& end, const Sweep& ball) const noexcept;
 
     /// The disc would reach about half of a smaller one.

@@ -172,6 +172,9 @@ void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting,
                                 .instructions = settings_.instructions,
                                 .uncut = uncut_.has_any ? &uncut_ : nullptr};
     const glm::dvec3 path = sweep.to - sweep.from;
+    FaceEnd end;
+    if (carved_at_position_ && cutting.head == nullptr && settings_.summation != ForceSummation::bins)
+        end = axis_face_.look(bone_, sweep, cutting.frame, settings_.coverage);
     // A burr that has not carved yet may stand in bone, so its edges are not sampled.
     if (burrs_[burr_].has_edge_force() && carved_at_position_ && path != glm::dvec3(0.0)) {
         const double length = glm::length(path);
@@ -182,11 +185,13 @@ void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting,
             const EdgeLook half = look_ahead(sweep, cutting, path * (0.5 * look / length), carving, nearby);
             force.correct(edge_look_correction(whole, half, length / look));
         }
+        if (whole.voxels > 0.0) {
+            const CuttingStep edges = cutting.of_edges(burrs_[burr_], sweep.from, path * (look / length));
+            force.correct(static_cast<double>(edge_shares_.of_label[end.tissue]) *
+                          axis_face_.lacking_n(edges, end, sweep));
+        }
     }
-    if (carved_at_position_ && cutting.head == nullptr && settings_.summation != ForceSummation::bins) {
-        const FaceEnd end = axis_face_.look(bone_, sweep, cutting.frame, settings_.coverage);
-        force.correct(axis_face_.lacking_n(cutting, end, sweep));
-    }
+    force.correct(axis_face_.lacking_n(cutting, end, sweep));
     if (!scans_.empty())
         scans_[burr_].carve(bone_, sweep, cutting.frame, carving, changes, removed);
     else if (cutting.head != nullptr)

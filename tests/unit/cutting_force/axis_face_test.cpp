@@ -77,12 +77,13 @@ TEST(AxisFace, BoneThatIsThinAllAboutHasNoLine) {
 
 /// Of the mean force, on surfaces along the lattice and aslant.
 double largest_error(double diameter_mm, double depth_mm, double tilt_deg,
-                     std::optional<double> groove_mm_higher) {
+                     std::optional<double> groove_mm_higher,
+                     const glm::dvec3& edge_n_per_mm = glm::dvec3(0.0)) {
     double largest = 0.0;
     for (const glm::dvec3 up : {glm::dvec3(0.0, 0.0, 1.0), glm::normalize(glm::dvec3(0.3, -0.5, 0.8))}) {
         const glm::dmat3 surface = CuttingStep(Burr{}, up, glm::dvec3(0.0), voxel_mm, 0.01).frame;
         study::SteadyCase c;
-        c.burr = {.diameter_mm = diameter_mm};
+        c.burr = {.diameter_mm = diameter_mm, .edge_coefficients_n_per_mm = edge_n_per_mm};
         c.up = up;
         c.depth_mm = depth_mm;
         c.velocity_mm_per_s = 5.0 * (std::cos(0.4) * surface[0] + std::sin(0.4) * surface[1]);
@@ -109,6 +110,17 @@ TEST(AxisFace, MakesUpForAnAxisThatLeavesTheBurrAtTheSurface) {
     // and in second passes about a voxel deep by 10 and 7 %.
     EXPECT_LT(largest_error(2.2, 0.11, 14.0, 0.06), 0.045);
     EXPECT_LT(largest_error(2.2, 0.19, 21.0, 0.08), 0.045);
+}
+
+TEST(AxisFace, MakesUpForWhatEdgesLackThere) {
+    const auto error = [](double diameter_mm, double tilt_deg) {
+        const double tip_mm = 0.5 * diameter_mm * (1.0 - std::cos(tilt_deg * degree));
+        return largest_error(diameter_mm, tip_mm, tilt_deg, std::nullopt, {0.9, 0.3, 0.1});
+    };
+    // Without it 0, 1, 2.
+    EXPECT_LT(error(2.0, 25.0), 0.08);
+    EXPECT_LT(error(2.0, 40.0), 0.03);
+    EXPECT_LT(error(2.0, 60.0), 0.02);
 }
 
 }  // namespace
