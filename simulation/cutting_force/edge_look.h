@@ -6,15 +6,18 @@
 //
 //     F = F_1 + a b (F_h - F_1)             F_1, F_h: force over the whole path and over its first half
 //     a = 2 (1 - step / path)               how far the line is followed
-//     b = g^2 / (g^2 + q^2)                 g: growth of the volume that would go, V_1 - 2 V_h
-//     q^2 = (0.04 V_h)^2 + (1 voxel)^2      growth that is the lattice's
+//     b = g^2 / (g^2 + q^2)                 g: growth of the volume that would go, <V_1 - 2 V_h>
+//     q^2 = ((0.04 V_h)^2 + (1 voxel)^2) / (1 + (2 pi s)^2)      growth that is the lattice's
 //
 // Rows of the lattice enter half a path unevenly: along a surface its volume is off by a fiftieth, or by a
-// voxel in a thin cut, and then b leaves the force over the whole path as it is. If the line ends before
-// there is a face, the burr has not reached the bone, and nothing rubs.
+// voxel in a thin cut, and then b leaves the force over the whole path as it is. A face that grows slowly
+// tells itself from that by its growth's mean <> over the way s that the burr has gone in bone, up to half a
+// voxel. If the line ends before there is a face, the burr has not reached the bone, and nothing rubs.
 #pragma once
 
+#include <algorithm>
 #include <glm/vec3.hpp>
+#include <numbers>
 
 namespace osteomill {
 
@@ -24,19 +27,34 @@ struct EdgeLook {
     double voxels = 0.0;
 };
 
-/// Correction to add to the force over the whole path. `step_share`: the step, as a share of that path; from
-/// 1 on the correction is zero.
-inline glm::dvec3 edge_look_correction(const EdgeLook& whole, const EdgeLook& half,
-                                       double step_share) noexcept {
-    constexpr double uneven_share = 0.04;
-    constexpr double uneven_voxels = 1.0;
-    const double follow = 2.0 * (1.0 - step_share);
-    if (follow <= 0.0 || whole.voxels <= 0.0) return glm::dvec3(0.0);
-    const double grown = whole.voxels - 2.0 * half.voxels;
-    const double uneven = uneven_share * half.voxels;
-    const double by =
-        follow * grown * grown / (grown * grown + uneven * uneven + uneven_voxels * uneven_voxels);
-    return whole.voxels - by * grown > 0.0 ? by * (half.force - whole.force) : -whole.force;
-}
+/// Follows a burr's edges from step to step.
+class EdgeGrowth {
+  public:
+    /// Correction to add to the force over the whole path, `look_voxels` long. `step_voxels`: length of the
+    /// step, above 0; as long as the look, and the correction is zero. Real-time safe.
+    glm::dvec3 correction(const EdgeLook& whole, const EdgeLook& half, double step_voxels,
+                          double look_voxels) noexcept {
+        constexpr double uneven_share = 0.04;
+        constexpr double uneven_voxels = 1.0;
+        const double follow = 2.0 * (1.0 - step_voxels / look_voxels);
+        if (follow <= 0.0 || whole.voxels <= 0.0) return glm::dvec3(0.0);
+        const double now = whole.voxels - 2.0 * half.voxels;
+        grown_ += step_voxels / (gone_voxels_ + step_voxels) * (now - grown_);
+        const double turn = 2.0 * std::numbers::pi * gone_voxels_;
+        gone_voxels_ = std::min(gone_voxels_ + step_voxels, memory_voxels);
+        const double uneven = uneven_share * half.voxels;
+        const double uneven_squared = (uneven * uneven + uneven_voxels * uneven_voxels) / (1.0 + turn * turn);
+        const double by = follow * grown_ * grown_ / (grown_ * grown_ + uneven_squared);
+        return whole.voxels - by * now > 0.0 ? by * (half.force - whole.force) : -whole.force;
+    }
+    /// The burr left the bone, or jumped.
+    void forget() noexcept { *this = EdgeGrowth{}; }
+
+    static constexpr double memory_voxels = 0.5;
+
+  private:
+    double grown_ = 0.0;        // mean of V_1 - 2 V_h
+    double gone_voxels_ = 0.0;  // over so long a way
+};
 
 }  // namespace osteomill

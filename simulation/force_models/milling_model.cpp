@@ -175,6 +175,7 @@ void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting,
     FaceEnd end;
     if (carved_at_position_ && cutting.head == nullptr && settings_.summation != ForceSummation::bins)
         end = axis_face_.look(bone_, sweep, cutting.frame, settings_.coverage);
+    if (!carved_at_position_) edge_growth_.forget();
     // A burr that has not carved yet may stand in bone, so its edges are not sampled.
     if (burrs_[burr_].has_edge_force() && carved_at_position_ && path != glm::dvec3(0.0)) {
         const double length = glm::length(path);
@@ -183,9 +184,11 @@ void MillingModel::carve_and_sum(const Sweep& sweep, const CuttingStep& cutting,
         if (whole.voxels > 0.0 && length < look) {
             MeanForce nearby(cutting, settings_.instructions);
             const EdgeLook half = look_ahead(sweep, cutting, path * (0.5 * look / length), carving, nearby);
-            force.correct(edge_look_correction(whole, half, length / look));
+            force.correct(edge_growth_.correction(whole, half, length, look));
         }
-        if (whole.voxels > 0.0) {
+        if (whole.voxels <= 0.0) {
+            edge_growth_.forget();
+        } else {
             const CuttingStep edges = cutting.of_edges(burrs_[burr_], sweep.from, path * (look / length));
             force.correct(static_cast<double>(edge_shares_.of_label[end.tissue]) *
                           axis_face_.lacking_n(edges, end, sweep));

@@ -104,6 +104,7 @@ class MillingModel final : public ForceModel {
     std::vector<FullScan> scans_;                    // likewise; none but for VoxelSearch::full_scan
     MillingSettings settings_;
     AxisFace axis_face_;
+    EdgeGrowth edge_growth_;
     EdgeShares edge_shares_;
     bool has_edge_shares_;
     UncutTissues uncut_;
