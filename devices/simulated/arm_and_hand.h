@@ -22,7 +22,7 @@ struct HandTarget {
 
 class ArmAndHand {
   public:
-    /// 20 us: 1/50 of a haptic tick, 1/250 of the shortest time constant in it (arm against a 1.5 N/mm
+    /// 20 us: 1/50 of a haptic tick, 1/250 of the shortest time constant in it (arm against a 1.7 N/mm
     /// spring).
     static constexpr double substep_s = 20e-6;
 

@@ -13,12 +13,14 @@ namespace osteomill {
 
 struct ArmModel {
     double mass_kg = 0.045;
-    double coulomb_friction_n = 0.26;     ///< static and sliding alike
-    double damping_n_s_per_mm = 0.0001;   ///< viscous
-    double resolution_mm = 0.055;         ///< of the position read, each axis; 0 reads exactly
-    double max_force_n = 3.3;             ///< the motors give no more
-    double max_stiffness_n_per_mm = 1.5;  ///< between the softest and the stiffest axis
-    int delay_ms = 0;                     ///< after which a written force acts, beside the tick that it takes
+    double coulomb_friction_n = 0.26;    ///< static and sliding alike
+    double damping_n_s_per_mm = 0.0001;  ///< viscous
+    double resolution_mm = 0.055;        ///< of the position read, each axis; 0 reads exactly
+    double max_force_n = 3.3;            ///< the motors give no more
+    /// Between the softest and the stiffest axis. Its mass and steps allow 1.99 beside 6.5 N s/m, as
+    /// haptic_server --measure-arm finds, but beyond this its steps are felt (docs/results/stability.md).
+    double max_stiffness_n_per_mm = 1.7;
+    int delay_ms = 0;  ///< after which a written force acts, beside the tick that it takes
 };
 
 /// The arm at a hand whose poses are prescribed. It has no encoder steps, so it bears what its stiffest axis

@@ -81,7 +81,7 @@ class Arm:
         self,
         *,
         mass_kg: float = 0.045,
-        stiffness_n_per_mm: float = 1.5,
+        stiffness_n_per_mm: float = 1.7,
         max_force_n: float = 3.3,
         friction_n: float = 0.26,
         damping_n_s_per_mm: float = 0.0001,

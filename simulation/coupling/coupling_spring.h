@@ -4,7 +4,7 @@
 //     v, w: dx/dt and dp/dt through first-order filters of tau_x and tau_p
 //
 // K_c and B_c are the arm's (arm_spring.h). On a wall the burr stands still and B_c alone keeps the arm
-// stable. 4 N s/m through 1 ms hold a wall of 1.5 N/mm on a bare arm with one tick of delay to spare;
+// stable. 5 N s/m through 1 ms hold a wall of 1.7 N/mm on a bare arm with one tick of delay to spare;
 // docs/coupling.md has the table of stable walls, and the effects of encoder steps and friction.
 #pragma once
 

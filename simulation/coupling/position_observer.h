@@ -12,8 +12,8 @@
 // when the hand leaves by the other edge. A hand that moved on would have reached the next cell, so v^ falls
 // the longer the reading stays; otherwise the burr would stay v^ tau ahead of a hand that stands still.
 //
-// A steadily moving hand reads as a staircase; rendered by a spring of 1.5 N/mm each step of 0.055 mm would
-// be felt as 0.08 N. The estimate glides instead. While bone is cut, an unexpected step is made up for within
+// A steadily moving hand reads as a staircase; rendered by a spring of 1.7 N/mm each step of 0.055 mm would
+// be felt as 0.09 N. The estimate glides instead. While bone is cut, an unexpected step is made up for within
 // some ten ticks (c = 0.1, a = 0.01); at once, it would be felt as a tap. It strays from the cell by no more
 // than a step, so a fast hand is followed without a low-pass filter's lag. On a wall the arm would swing on
 // that lag, and there c = 1, a = b: the estimate never leaves the cell. With q = 0 it is the reading.

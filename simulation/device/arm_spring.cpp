@@ -10,7 +10,7 @@ namespace osteomill {
 namespace {
 
 constexpr double own_damping_n_s_per_m = 0.5;
-constexpr std::array dampings_n_s_per_mm{0.004, 0.008, 0.012, 0.002, 0.001};
+constexpr std::array dampings_n_s_per_mm{0.004, 0.005, 0.008, 0.012, 0.002, 0.001};
 /// A gain in stiffness below 5 % does not justify a stronger damper.
 constexpr double worth = 1.05;
 

@@ -13,7 +13,8 @@
 //         bone is cut (position_observer.h), with a = T / (tau_x + T)
 //     (0.15 N - B v T / (tau_p + T)) / (v T)    a wall that is met at v = 40 mm/s is not felt as a jump
 //
-// B is 4 N s/m, or 8 or 12 if that allows a stiffer spring; less if a light, late arm is unstable with 4.
+// B is 4 N s/m, or 5, 8 or 12 if that allows a stiffer spring; less if a light, late arm is unstable
+// with 4.
 #pragma once
 
 #include <optional>

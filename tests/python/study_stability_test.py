@@ -139,7 +139,7 @@ class MapTest(unittest.TestCase):
         whole = whole_map("--methods", "hold", "--grips", "light", "--milling-rates-hz", "1000", "--delays", "0")
         # Boxes meet at sqrt(0.32 * 0.47), the lowest begins at 0.1 / sqrt(1.5).
         self.assertEqual(csv_of(stability_regions.region_table_of(whole, "wall")),
-                         "number,method,grip,x_low,x_high,y,stable\n3,hold,2,0.0816497,0.387814,1,1\n3,hold,2,0.387814,1.83712,1,0\n")
+                         "number,method,grip,x_low,x_high,y,stable\n3,hold,2,0.0816497,0.387814,1,1\n3,hold,2,0.387814,2.21653,1,0\n")
 
     def test_tables_have_a_line_a_point(self):
         whole = whole_map("--quick", "--methods", "hold", "--grips", "light")
@@ -202,13 +202,13 @@ class OnsetTest(unittest.TestCase):
         self.assertAlmostEqual(table["felt_late_ms"][0], 5.0)
         self.assertEqual(stability_onset.bar_line_of(table), f"MISSED {len(plunges) - 1} of {len(plunges)} plunges within 3 points of the "
                          "ideal spring's share")
-        self.assertIn("plunge, prescribed, 1.5 N/mm, implicit      0.47 (0.50)  -5.0 to +0.0     +3 to +3", stability_onset.lines_of(table))
+        self.assertIn("plunge, 3 mm, prescribed, 1.5 N/mm, implicit      0.47 (0.50)  -5.0 to +0.0     +3 to +3", stability_onset.lines_of(table))
 
     def test_prints_and_keeps_its_table(self):
         with run_of("stability", stability, "--onset", "--quick") as (out, said):
             table = pd.read_csv(out / "onset.csv")
-        self.assertIn("met    16 of 16 plunges within 3 points", said)
-        self.assertEqual(len(table), 24)
+        self.assertIn("met    24 of 24 plunges within 3 points", said)
+        self.assertEqual(len(table), 36)
         plunges = table[table["kind"] != stability_onset.ENTRY]
         self.assertTrue((plunges["ideal_share"] < 1.0).all() and (plunges["points"].abs() > 0.0).all())
         self.assertFalse((out / "onset.svg").exists())
@@ -220,7 +220,7 @@ class OnsetTest(unittest.TestCase):
         with run_of("stability", stability, *words) as (out, said):
             table = pd.read_csv(out / "onset.csv")
             self.assertIn("N/mm with feed-forward", (out / "onset.svg").read_text())
-        self.assertIn("met    16 of 16 plunges within 3 points", said, "without it")
+        self.assertIn("met    24 of 24 plunges within 3 points", said, "without it")
         # A firm hand's plunge at 20 mm/s, on the springs of arms that there are.
         guided = table[(table["hand"] == "guided") & (table["kind"] != stability_onset.ENTRY) & (table["stiffness_n_per_mm"] < 5.0)]
         shares = guided.groupby("method")["felt_share"].mean()

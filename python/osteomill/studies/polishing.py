@@ -39,7 +39,7 @@ TICKS_A_LINE = 8  # of the charts' tables: six points in a cycle of 20 Hz
 SLOW_PART_S = 0.1
 WINDOW_S = 0.1  # window in which to look for chatter: a few of its cycles, a small part of a stroke
 # A limit cycle of this rms or more is chatter. Two encoder steps of the arm, 0.055 mm, rendered by the stiffest spring
-# that it can, 1.5 N/mm, are 0.17 N: a smaller one may be the sensor's grain, and hides behind the arm's friction of 0.26 N.
+# that it can, 1.7 N/mm, are 0.19 N: a smaller one may be the sensor's grain, and hides behind the arm's friction of 0.26 N.
 CHATTER_N = 0.2
 
 Array = NDArray[np.float64]

@@ -19,7 +19,7 @@ REGIONS = {  # title, name of x, its ends, its ticks
     "cutting": ("Where cutting is stable: bar where it is, thin line where it is not", "resistance of the bone, N s/m",
                 (3.0, 6000.0), RESISTANCES),
     "wall": ("Where pressing on bone with the spindle off is stable: bar where it is, thin line where it is not",
-             "stiffness that the arm claims, N/mm", (0.06, 2.4), (0.1, 0.2, 0.4, 0.8, 1.5)),
+             "stiffness that the arm claims, N/mm", (0.06, 2.7), (0.1, 0.2, 0.4, 0.8, 1.7)),
 }
 # Families share a colour: couplings on a hold are red, on interpolation blue, on an estimate green.
 POINTS: dict[str, dict[str, Any]] = {method: {"color": colour, "marker": marker, "markerfacecolor": "white" if is_open else colour}

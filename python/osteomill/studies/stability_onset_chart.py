@@ -11,8 +11,9 @@ COLOURS = (charts.BLACK, charts.RED)
 
 
 def chart_of(table: pd.DataFrame) -> Figure:
-    """A column for each way in and hand, above the share, below the delay; a line for each spring, dashed the softest, and method."""
-    drawn = table[table["stiffness_n_per_mm"] < STIFFEST_DRAWN_N_PER_MM]
+    """A column for each way in and hand, above the share, below the delay; a line for each spring, dashed the softest, and method; of the
+    first burr."""
+    drawn = table[(table["stiffness_n_per_mm"] < STIFFEST_DRAWN_N_PER_MM) & (table["burr_mm"] == table["burr_mm"].iloc[0])]
     drawn = drawn.assign(way=drawn["kind"].str.split().str[0] + ", " + drawn["hand"])
     ways = list(dict.fromkeys(drawn["way"]))
     figure = charts.figure(2.6 * len(ways) + 0.6, 5.4)
@@ -22,7 +23,7 @@ def chart_of(table: pd.DataFrame) -> Figure:
     for column, way in enumerate(ways):
         of_way = drawn[drawn["way"] == way]
         for method, colour in zip(methods, COLOURS):
-            for stiffness, style in zip(stiffnesses, ("--", "-")):
+            for stiffness, style in zip(stiffnesses, ("--", "-.", ":", "-")):
                 means = of_way[(of_way["method"] == method) & (of_way["stiffness_n_per_mm"] == stiffness)].groupby("speed_mm_per_s")[
                     ["felt_share", "felt_late_ms"]].mean()
                 for axes, number in zip(rows[:, column], ("felt_share", "felt_late_ms")):

@@ -40,8 +40,8 @@ CONDITIONS = (
     (5e3, 0.5, 0.4), (10e3, 0.75, 0.7), (20e3, 1.5, 1.0), (10e3, 2.5, 0.4), (40e3, 5.0, 1.0), (10e3, 2.5, 0.7),
     (20e3, 5.0, 1.0), (5e3, 1.5, 1.0), (5e3, 5.0, 0.4), (10e3, 5.0, 1.0), (5e3, 3.5, 1.0), (5e3, 5.0, 1.0))
 QUICK_CONDITIONS = ((80e3, 0.1, 1.0), (20e3, 0.1, 1.0), (80e3, 3.5, 0.4), (20e3, 1.5, 1.0), (20e3, 5.0, 1.0), (5e3, 5.0, 1.0))
-WALLS_N_PER_MM = (0.1, 0.15, 0.22, 0.32, 0.47, 0.69, 1.0, 1.5)  # stiffest spring that the device claims to render
-QUICK_WALLS_N_PER_MM = (0.1, 1.5)
+WALLS_N_PER_MM = (0.1, 0.15, 0.22, 0.32, 0.47, 0.69, 1.0, 1.7)  # stiffest spring that the device claims to render
+QUICK_WALLS_N_PER_MM = (0.1, 1.7)
 
 EDGE_N_PER_MM = 0.3  # as the tooth scene's burrs rub
 GETS_ON_WITH_N = 1.0  # two thirds of the force that the scene's hand gives
@@ -58,7 +58,7 @@ def map_points(quick: bool, edge_forces: bool) -> list[Point]:
     speeds, depths_mm = ((5e3, 80e3), (0.25, 5.0)) if quick else ((5e3, 10e3, 20e3, 40e3, 80e3), (0.25, 1.0, 2.5, 5.0))
     slots = [cutting((rpm, depth_mm, 1.0)) for rpm in speeds for depth_mm in depths_mm]
     points += _every("bars", METHODS[0], slots, rates, (0, 1))
-    sample = [*map(cutting, conditions[::2]), wall(1.5)]
+    sample = [*map(cutting, conditions[::2]), wall(WALLS_N_PER_MM[-1])]
     points += [point for method in METHODS for point in _every("real-device", method, sample, (100.0, 1000.0), (0,))]
     if edge_forces:
         points = [point | {"edge_n_per_mm": EDGE_N_PER_MM} for point in points if point["scene"] == "cutting"]

@@ -19,7 +19,6 @@ BenchDevice::BenchDevice(const MapCase& c, const ScenePlan& plan)
 
 DeviceLimits BenchDevice::limits() const {
     DeviceLimits limits = limits_of(ArmModel{});
-    limits.max_stiffness_n_per_mm = ArmModel{}.max_stiffness_n_per_mm;  // the map prescribes its rendering
     limits.position_resolution_mm = resolution_mm_;
     if (plan_.scene == MapScene::wall) limits.max_stiffness_n_per_mm = plan_.wall_n_per_mm;
     return limits;

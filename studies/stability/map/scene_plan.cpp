@@ -58,9 +58,9 @@ void plan_wall(const MapCase& c, ScenePlan& plan) {
 Mount mount_of(const MapCase& c) {
     const bool has_spring = c.method == "implicit" || c.method == "virtual-coupling";
     if (!has_spring) return {};
-    return {
-        .stiffness_n_per_mm = c.scene == MapScene::wall ? c.wall_n_per_mm : ArmModel{}.max_stiffness_n_per_mm,
-        .damping_n_s_per_mm = DeviceLimits{}.damping_n_s_per_mm};
+    const DeviceLimits arm = limits_of(ArmModel{});
+    return {.stiffness_n_per_mm = c.scene == MapScene::wall ? c.wall_n_per_mm : arm.max_stiffness_n_per_mm,
+            .damping_n_s_per_mm = arm.damping_n_s_per_mm};
 }
 
 ScenePlan plan_of(const MapCase& c) {
