@@ -16,7 +16,6 @@ constexpr double lift_follows_s = 2.0;
 
 const char* words_for(SessionAction done) {
     const std::array words{std::pair{SessionAction::mark, tr("marked")},
-                           std::pair{SessionAction::pause, tr("paused")},
                            std::pair{SessionAction::resume, tr("the session goes on")},
                            std::pair{SessionAction::undo, tr("undone, given back:")},
                            std::pair{SessionAction::redo, tr("redone, taken again:")},
@@ -53,6 +52,7 @@ bool gives_bone_back(SessionAction action) {
 std::string ControlNotices::notice_of(const ControlEvent& event, double now_s) {
     const std::string text = words_of(event);
     if (event.is_refused) return trf("no {}: {}", tr(name_of(event.action)), text);
+    if (event.action == SessionAction::pause) return {};
     std::string notice = fmt::format("{} {}", words_for(event.action), text);
     const std::string before = std::exchange(came_back_, {});
     if (gives_bone_back(event.action)) {

@@ -9,7 +9,8 @@ namespace osteomill {
 
 class ControlNotices {
   public:
-    /// The line for an event that the window hears of at `now_s`. A burr that stood in the bone that undo
+    /// The line for an event that the window hears of at `now_s`; empty for a pause, which is said for as
+    /// long as it lasts. A burr that stood in the bone that undo
     /// gave back is lifted out of it, which is an event, too: its line begins with how much came back.
     std::string notice_of(const ControlEvent& event, double now_s);
 

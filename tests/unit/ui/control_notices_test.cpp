@@ -32,5 +32,14 @@ TEST(ControlNotices, AreOfOneEventOtherwise) {
               "the tool is at 1.0, 2.0, 3.0 mm LPS");
 }
 
+TEST(ControlNotices, SayNothingOfAPauseWhichTheWindowSaysWhileItLasts) {
+    ControlNotices notices;
+    EXPECT_EQ(notices.notice_of({.action = SessionAction::pause}, 10.0), "");
+    EXPECT_EQ(notices.notice_of({.action = SessionAction::resume}, 11.0), "the session goes on ");
+    EXPECT_EQ(
+        notices.notice_of({.action = SessionAction::pause, .text = "it has ended", .is_refused = true}, 12.0),
+        "no pause: it has ended");
+}
+
 }  // namespace
 }  // namespace osteomill
