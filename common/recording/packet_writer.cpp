@@ -1,5 +1,6 @@
 #include "common/recording/packet_writer.h"
 
+#include <fmt/format.h>
 #include <pcap/pcap.h>
 #include <unistd.h>
 
@@ -108,8 +109,9 @@ void PacketWriter::fail(int reason) {
     // off, it stays until another is written over it.
     [[maybe_unused]] const auto ignored =
         ::ftruncate(descriptor, whole) + ::lseek(descriptor, whole, SEEK_SET);
-    throw RecordingError(file_.string() + ": no more than " + std::to_string(packets_) +
-                         " frames could be written: " + std::strerror(reason));
+    throw RecordingError(
+        file_.string() + ": " +
+        fmt::format("no more than {} frames could be written: {}", packets_, std::strerror(reason)));
 }
 
 }  // namespace osteomill

@@ -65,6 +65,8 @@ struct SessionStatus {
     std::uint32_t redo_steps = 0;
     bool is_paused = false;
     bool may_control = false;  ///< this client's controls are taken now
+    /// Why nothing is recorded at present, one line; empty while all is well, and if nothing is to be.
+    std::string recording_problem{};
 
     bool operator==(const SessionStatus&) const = default;
 };

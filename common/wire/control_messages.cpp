@@ -51,6 +51,7 @@ v2::SessionStatus to_message(const SessionStatus& status) {
     message.set_redo_steps(status.redo_steps);
     message.set_is_paused(status.is_paused);
     message.set_may_control(status.may_control);
+    message.set_recording_problem(status.recording_problem);
     return message;
 }
 
@@ -98,7 +99,8 @@ SessionStatus session_status_from(const v2::SessionStatus& message) {
     return {.undo_steps = message.undo_steps(),
             .redo_steps = message.redo_steps(),
             .is_paused = message.is_paused(),
-            .may_control = message.may_control()};
+            .may_control = message.may_control(),
+            .recording_problem = one_line(message.recording_problem())};
 }
 
 }  // namespace osteomill

@@ -16,13 +16,24 @@ SessionControls::Requests SaveAndFinish::requests() {
                     wants_end_.store(true);
                     return std::string();
                 },
-            .save_news = [this] { return take_news(); }};
+            .save_news = [this] { return take_news(); },
+            .recording_problem = [this] { return recording_problem(); }};
 }
 
 void SaveAndFinish::tell(const std::string& line) {
     spdlog::error("{}", line);
     const std::lock_guard lock(mutex_);
     news_.push_back(line);
+}
+
+void SaveAndFinish::hear(RecordingNews news, const std::string& line) {
+    const std::lock_guard lock(mutex_);
+    recording_problem_ = news == RecordingNews::stands_still ? line : std::string();
+}
+
+std::string SaveAndFinish::recording_problem() {
+    const std::lock_guard lock(mutex_);
+    return recording_problem_;
 }
 
 std::vector<std::string> SaveAndFinish::take_news() {

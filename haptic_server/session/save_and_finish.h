@@ -1,4 +1,5 @@
-// Controls of a session under way that act on it as a whole: they save its bone or end it.
+// Controls of a session under way that act on it as a whole: they save its bone or end it. And what its
+// clients are to know of its files: that one cannot be written.
 #pragma once
 
 #include <atomic>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "common/recording/recording_writer.h"
 #include "haptic_server/streaming/session_controls.h"
 
 namespace osteomill {
@@ -29,9 +31,12 @@ class SaveAndFinish {
     /// holds a copy of the bone's fractions until it is written; one at a time.
     SessionControls::Requests requests();
 
-    /// Any thread: in the log, and to clients, as the answer to a save. A failure to save or record is
-    /// reported when it happens.
+    /// Any thread: in the log, and to clients, as the answer to a save. A failure to save is reported when it
+    /// happens.
     void tell(const std::string& line);
+    /// Any thread: news of the recording, which has logged them. Clients see that it stands still for as long
+    /// as it does.
+    void hear(RecordingNews news, const std::string& line);
     /// Any thread.
     bool finish_requested() const { return wants_end_.load(); }
     /// For a save under way, which may take a minute. Once no more can be requested.
@@ -43,10 +48,12 @@ class SaveAndFinish {
     std::string save(const Bone& bone, const std::string& mesh_ending);
 
     std::vector<std::string> take_news();
+    std::string recording_problem();
 
     Save save_;
     std::mutex mutex_;
     std::vector<std::string> news_;  // that the controls have yet to take
+    std::string recording_problem_;
     std::thread thread_;
     std::atomic<bool> is_saving_{false};
     std::atomic<bool> wants_end_{false};

@@ -61,9 +61,12 @@ SessionInfo info_of(const ShownOptions& options, const SessionScene& scene, cons
     return info;
 }
 
-/// Clients receive errors of the recording like those of saving.
-StreamingOptions with_teller(StreamingOptions streaming, SaveAndFinish& keeper) {
-    if (streaming.record) streaming.record->tell = [&keeper](const std::string& line) { keeper.tell(line); };
+/// Clients see that the recording stands still.
+StreamingOptions heard_by(SaveAndFinish& keeper, StreamingOptions streaming) {
+    if (streaming.record)
+        streaming.record->on_news = [&keeper](RecordingNews news, const std::string& line) {
+            keeper.hear(news, line);
+        };
     return streaming;
 }
 
@@ -76,7 +79,7 @@ ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirro
       controls_(session.exchange().gate, *session.exchange().restored, session.exchange().placements,
                 requests(options, scene.scene, device, session.held_fixtures())),
       live_(session.exchange().tool, session.exchange().changes, &controls_, std::move(options.script)),
-      server_(with_teller(options.streaming, keeper_), info_of(options, scene, session.bone().grid(), device),
+      server_(heard_by(keeper_, options.streaming), info_of(options, scene, session.bone().grid(), device),
               std::move(mirror), live_, device.operator_channel.get(),
               structures_outside_bone_labels(scene.structures, scene.scene, session.bone())) {
     live_.listen_to(session.exchange().cuts);

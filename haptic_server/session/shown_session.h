@@ -43,7 +43,7 @@ class ShownSession {
     /// With waits_for_client: returns when a client has begun, one ends the session, or `stop` is set. Before
     /// the session runs.
     void wait_for_client(const std::atomic<bool>& stop) const;
-    /// Reports a failure to save or record to the log and to clients.
+    /// Reports a failure to save to the log and to clients.
     void tell(const std::string& line) { keeper_.tell(line); }
 
     /// Begins to say goodbye, and waits for a bone that is being saved. Call once the session has ended.

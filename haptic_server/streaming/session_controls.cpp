@@ -230,7 +230,8 @@ SessionStatus SessionControls::status() const {
     const std::size_t undo_steps = journal_.undo_steps() + (journal_.has_open_stroke() ? 1 : 0);
     return {.undo_steps = static_cast<std::uint32_t>(undo_steps),
             .redo_steps = static_cast<std::uint32_t>(journal_.redo_steps()),
-            .is_paused = is_paused_};
+            .is_paused = is_paused_,
+            .recording_problem = requests_.recording_problem ? requests_.recording_problem() : std::string()};
 }
 
 }  // namespace osteomill

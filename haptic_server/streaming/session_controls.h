@@ -48,6 +48,8 @@ class SessionControls {
         std::function<std::string()> finish{};
         /// The failures to save since the last call, a line each. The function may be empty.
         std::function<std::vector<std::string>()> save_news{};
+        /// Why nothing is recorded at present, one line; empty while all is well. The function may be empty.
+        std::function<std::string()> recording_problem{};
         /// The answer to Finish, such as where the report will be.
         std::string finish_words{};
         /// The pose of a burr that is to be placed there, or the reason of a refusal. Empty if tools cannot

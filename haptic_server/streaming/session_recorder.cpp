@@ -42,12 +42,14 @@ SessionRecorder::SessionRecorder(const RecordTo& to, v2::Hello hello, const Bone
       outgoing_(of_recording(std::move(hello), to), mirror, packers_, structures),
       writer_(
           to.file,
-          [this, tell = to.tell](RecordingNews news, const std::string& line) {
+          [this, on_news = to.on_news](RecordingNews news, const std::string& line) {
               if (!is_under_way_) return;
-              if (news == RecordingNews::goes_on) return spdlog::warn("{}", line);
-              const std::string all =
-                  line + "; the session goes on, and the recording, too, once it can be written";
-              tell ? tell(all) : spdlog::error("{}", all);
+              if (news == RecordingNews::goes_on)
+                  spdlog::warn("{}", line);
+              else
+                  spdlog::error("{}; the session goes on, and the recording, too, once it can be written",
+                                line);
+              if (on_news) on_news(news, line);
           },
           WhenDiskIsFull::try_again) {
     hand_over(Wait::for_the_disk);
@@ -76,6 +78,8 @@ bool SessionRecorder::says_more(const SessionState& state) const {
 void SessionRecorder::record(SessionState state, bool may_wait) {
     const Wait wait = may_wait ? Wait::for_the_disk : Wait::never;
     begin(state, wait);
+    // Who sees it again reads what was recorded.
+    state.status.recording_problem.clear();
     if (!says_more(state)) return;
     last_ = state;
     // A checksum costs its eight bytes. With one, each state is news, and whichever is the last proves the
@@ -86,6 +90,7 @@ void SessionRecorder::record(SessionState state, bool may_wait) {
 
 void SessionRecorder::finish(SessionState state, const std::string& reason) {
     begin(state, Wait::a_moment);
+    state.status.recording_problem.clear();
     for (; has_untaken_ticks() && writer_.has_room(); take_ticks(Wait::a_moment)) {
         outgoing_.request_state(state, true);
         state.events.clear();

@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "common/net/tls_context.h"
 #include "common/recording/packet.h"
+#include "common/recording/recording_writer.h"
 #include "common/session/tick_sample.h"
 #include "haptic_server/streaming/connection_quota.h"
 #include "haptic_server/streaming/operator_list.h"
@@ -28,8 +28,9 @@ struct RecordTo {
     bool with_ticks = true;
     /// The queue in which the haptic loop leaves them, for the recording alone; null: none.
     SampleQueue<TickSample>* ticks = nullptr;
-    /// For people, when the recording can no longer be written; any thread. Empty: into the log.
-    std::function<void(const std::string& line)> tell{};
+    /// When the recording can no longer be written, and when it can again: a line for people. Any thread.
+    /// The log has them in any case.
+    RecordingWriter::OnNews on_news{};
 };
 
 struct StreamingOptions {

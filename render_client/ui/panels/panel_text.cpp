@@ -108,6 +108,12 @@ PanelText warning_text(const SeenSession& session, const std::string& bone_probl
     if (!bone_problem.empty()) text.push_back(line(Tone::warning, bone_problem));
     if (!session.link.recording_error.empty())
         text.push_back(line(Tone::warning, session.link.recording_error));
+    if (const std::string& problem = session.link.controls.recording_problem; !problem.empty()) {
+        text.push_back(line(Tone::warning, trf("NOT RECORDED: {}", tr_about_file(problem))));
+        text.push_back(
+            line(Tone::plain, tr("Make room on the server's disk: the recording then goes on by itself, "
+                                 "with nothing missing from the bone. The session goes on meanwhile.")));
+    }
     if (session.link.controls.is_paused && elements_of(session.sight).controls)
         text.push_back(line(Tone::plain, tr("paused: force and spindle off")));
     else if (session.tool && !session.tool->fault.empty())

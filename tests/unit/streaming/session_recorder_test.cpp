@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <mutex>
+#include <vector>
 
 #include "common/recording/playhead.h"
 #include "common/wire/scene_messages.h"
@@ -66,6 +68,39 @@ TEST_F(SessionRecorderTest, GoesOnWithTheWholeBoneAfterTheDiskWasFull) {
     }
     EXPECT_TRUE(has_goodbye);
     EXPECT_EQ(playhead.bone_checksum(), checksum(bone_));
+}
+
+TEST_F(SessionRecorderTest, TellsThatItStandsStillAndThatItGoesOnButRecordsNothingOfIt) {
+    recorder_.reset();
+    std::mutex mutex;
+    std::vector<RecordingNews> news;
+    const auto heard = [&] {
+        const std::lock_guard lock(mutex);
+        return news;
+    };
+    recorder_.emplace(RecordTo{.file = file_,
+                               .began = Stamp{std::chrono::hours(24)},
+                               .on_news =
+                                   [&](RecordingNews one, const std::string& line) {
+                                       EXPECT_THAT(line, ::testing::HasSubstr(part_.string()));
+                                       const std::lock_guard lock(mutex);
+                                       news.push_back(one);
+                                   }},
+                      to_message(testing::recorded_session_info()), mirror_);
+    {
+        const testing::FileSizeLimit disk(size() + 3'000);
+        carve_and_record(200);
+        ASSERT_TRUE(eventually([&] { return heard() == std::vector{RecordingNews::stands_still}; }));
+        tool_.time_s += 0.05;
+        recorder_->record({.tool = tool_, .status = {.undo_steps = 7, .recording_problem = "full"}}, false);
+    }
+    ASSERT_TRUE(eventually([&] { return heard().size() == 2; }));
+    EXPECT_EQ(heard().back(), RecordingNews::goes_on);
+    recorder_->finish({.tool = tool_, .status = {.undo_steps = 7, .recording_problem = "full"}}, "the end");
+    Playhead playhead(file_);
+    while (playhead.step(std::numeric_limits<double>::infinity()) != Playhead::Step::end)
+        EXPECT_EQ(playhead.state().status.recording_problem, "");
+    EXPECT_EQ(playhead.state().status.undo_steps, 7U) << "the last state is there";
 }
 
 TEST_F(SessionRecorderTest, HasNoTwoStatesOfOneTimeAndACheckSumInEach) {

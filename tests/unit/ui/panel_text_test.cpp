@@ -93,6 +93,17 @@ TEST_F(PanelTexts, TellWhatTheServerWaitsFor) {
     EXPECT_FALSE(has_tone(warning_lines(), Tone::warning)) << "nothing is wrong";
 }
 
+TEST_F(PanelTexts, SayForAsLongAsItIsSoThatNothingIsRecordedAndWhatToDo) {
+    seen_.link.controls.recording_problem =
+        "a.part.pcap: no more than 7 frames could be written: No space left";
+    EXPECT_THAT(plain(warning_lines()), AllOf(HasSubstr("NOT RECORDED: a.part.pcap: no more"),
+                                              HasSubstr("Make room on the server's disk")));
+    EXPECT_TRUE(has_tone(warning_lines(), Tone::warning));
+    EXPECT_FALSE(is_alarm(seen_)) << "it harms no structure";
+    seen_.link.controls.recording_problem.clear();
+    EXPECT_TRUE(warning_lines().empty());
+}
+
 TEST_F(PanelTexts, TellHowFarABoneHasComeAndIsPrepared) {
     EXPECT_THAT(plain(session_lines()), ::testing::Not(HasSubstr("preparing")));
     seen_.link.status = LinkStatus::receiving_snapshot;

@@ -209,6 +209,7 @@ std::set<std::string> server_words() {
                 const std::string text = literal_at(source, at);
                 words.insert({text, in_recording + text});
             }
+    words.insert("no more than {} frames could be written: " + std::generic_category().message(ENOSPC));
     for (const int error : {ENOENT, EACCES, ECONNREFUSED, ECONNRESET, EHOSTUNREACH, ENETUNREACH, ETIMEDOUT})
         words.insert(std::generic_category().message(error));
     for (const auto error :
@@ -339,6 +340,8 @@ TEST(Translation, KeepTheNamesOfWhatTheServerSays) {
               "der Knochen wurde nicht gespeichert: /a/{}b 3.nrrd: No space left on device");
     EXPECT_EQ(tr_filled("its report: /home/x/on the server/report.html on the server"),
               "ihr Bericht: /home/x/on the server/report.html auf dem Server");
+    EXPECT_EQ(tr_about_file("/a/b.pcap: no more than 1234 frames could be written: No space left on device"),
+              "/a/b.pcap: nach 1234 Bildern ließ sich nichts mehr schreiben: die Platte ist voll");
     EXPECT_EQ(tr_filled("nothing like that: here"), "nothing like that: here");
     EXPECT_EQ(tissue_words("tissue 3"), "Gewebe 3");
     EXPECT_EQ(tissue_words("Sinus_+_Dura"), "Sinus und Dura");

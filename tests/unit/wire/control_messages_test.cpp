@@ -38,7 +38,11 @@ TEST(ControlMessages, CarryEventsAndStatus) {
     google::protobuf::RepeatedPtrField<v2::SessionEvent> messages;
     *messages.Add() = to_message(event);
     EXPECT_EQ(std::get<0>(control_events_from(messages)), std::vector{event});
-    const SessionStatus status{.undo_steps = 3, .redo_steps = 2, .is_paused = true, .may_control = true};
+    const SessionStatus status{.undo_steps = 3,
+                               .redo_steps = 2,
+                               .is_paused = true,
+                               .may_control = true,
+                               .recording_problem = "a.pcap: No space left on device"};
     EXPECT_EQ(session_status_from(to_message(status)), status);
 }
 
