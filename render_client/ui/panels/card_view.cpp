@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/words/translation.h"
@@ -94,6 +95,7 @@ void draw_case_card(StartPage& page, CardPictures& pictures, std::size_t index, 
             page.start();
     }
     if (is_chosen) ImGui::SetItemDefaultFocus();
+    if (is_chosen && std::exchange(page.scrolls_to_chosen, false)) ImGui::SetScrollHereY();
     ImGui::PopID();
     ImDrawList& canvas = *ImGui::GetWindowDrawList();
     canvas.AddRect(first, {first.x + size.x, first.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border), 3.0f);

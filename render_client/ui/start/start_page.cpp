@@ -286,6 +286,7 @@ void StartPage::end_of_work() {
         show(View::cases);
         for (std::size_t i = 0; i < cases_.size(); ++i)
             if (cases_[i].name == form.name) chosen = i;
+        scrolls_to_chosen = true;
         message_ = trf("{} is there", form.name);
         if (const std::string specks = specks_said(said); !specks.empty()) message_ += "; " + specks;
     } else if (work_ == Work::report) {

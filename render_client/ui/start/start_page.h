@@ -65,7 +65,9 @@ class StartPage {
     void replay(const std::filesystem::path& recording);
     glm::ivec2 window_size{0};  ///< of this window, for others that it opens; 0: any
     std::size_t chosen = 0;     ///< index in cases()
-    std::string trainee{};      ///< who works in the session
+    /// The next frame's list scrolls to the chosen case: it was chosen by an import, and may be out of sight.
+    bool scrolls_to_chosen = false;
+    std::string trainee{};  ///< who works in the session
     void start();
     /// A person's click on a card: the first chooses it, the second starts it, however long after. (A double
     /// click is over in 0.3 s, in which a slow picture draws one frame.)

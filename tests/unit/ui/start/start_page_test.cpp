@@ -168,6 +168,25 @@ TEST_F(StartPageTest, LooksAtAScanOnceAndGoesThroughItsSlices) {
     EXPECT_FALSE(std::getline(file, again)) << again;
 }
 
+TEST_F(StartPageTest, ChoosesTheCaseThatItImportedAndBringsItIntoSight) {
+    const auto made = folder_ / "home" / "cases" / "scan";
+    make_program("bone_import", "case \"$*\" in *--case*) mkdir -p " + made.string() + "; touch " +
+                                    (made / "case.toml").string() +
+                                    "; exit;; esac\nfor last; do :; done\nprintf 12345678 > \"$last\"\n"
+                                    "echo covers 0,0,0,0.5,0.5,0.5\necho HU from -1000 to 2000");
+    std::ofstream(folder_ / "scan.nrrd") << "x";
+    StartPage window = page();
+    window.show(StartPage::View::scan_browser);
+    window.go_to((folder_ / "scan.nrrd").string());
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
+    EXPECT_FALSE(window.scrolls_to_chosen);
+    window.import();
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
+    EXPECT_EQ(window.view(), StartPage::View::cases) << window.message();
+    EXPECT_EQ(window.cases()[window.chosen].name, "scan");
+    EXPECT_TRUE(window.scrolls_to_chosen);
+}
+
 TEST_F(StartPageTest, OffersTheFilesThatMayBeMeant) {
     for (const char* name : {"session.pcap", "IM0001", "names.ctbl"}) std::ofstream(folder_ / name) << "x";
     StartPage window = page();
