@@ -160,6 +160,9 @@ void BoneLink::ask_for_ct() {
 void BoneLink::connect_to(const ListenAddress& server) {
     impl_->connection.connect_to(server.address, server.port);
 }
+void BoneLink::leave_alone(bool leaves_alone) {
+    impl_->connection.leave_alone(leaves_alone);
+}
 void BoneLink::send_control(const SessionControl& control) {
     impl_->connection.send(control);
 }

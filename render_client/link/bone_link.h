@@ -49,6 +49,7 @@ class BoneLink final : public SessionSource {
     void send_view(const Viewpoint& view) override;
     /// The server before is left, and its bone stays until the next has come.
     void connect_to(const ListenAddress& server) override;
+    void leave_alone(bool leaves_alone) override;
     void ask_for_ct() override;
     /// The newest received state, even if poll() has not applied it yet; nothing while not connected.
     std::optional<ToolState> newest_tool() const override;

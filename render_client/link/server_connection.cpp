@@ -146,6 +146,14 @@ void ServerConnection::connect_to(std::string host, std::uint16_t port) {
     });
 }
 
+void ServerConnection::leave_alone(bool leaves_alone) {
+    asio::post(io_, [this, leaves_alone] {
+        if (std::exchange(leaves_alone_, leaves_alone) == leaves_alone || is_in_session()) return;
+        if (!leaves_alone) backoff_ = milliseconds(0);
+        connect();
+    });
+}
+
 void ServerConnection::run() {
     while (!io_.stopped()) {
         try {
@@ -158,6 +166,7 @@ void ServerConnection::run() {
 
 void ServerConnection::connect() {
     disconnect();
+    if (leaves_alone_) return;
     watch_silence();
     const auto generation = generation_;
     resolver_.async_resolve(

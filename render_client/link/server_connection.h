@@ -79,6 +79,8 @@ class ServerConnection {
     void reconnect();
     /// To another server from now on.
     void connect_to(std::string host, std::uint16_t port);
+    /// Joins no session until told otherwise; one that was joined goes on, and its end is told.
+    void leave_alone(bool leaves_alone);
 
   private:
     using tcp = boost::asio::ip::tcp;
@@ -112,6 +114,10 @@ class ServerConnection {
     void refuse(std::string line);
     std::string describe_loss(boost::system::error_code error) const;
     void retry_later();
+    bool is_in_session() const {
+        return stream_ != nullptr &&
+               (announced_ == LinkStatus::receiving_snapshot || announced_ == LinkStatus::live);
+    }
     void announce(LinkStatus status, std::string line);
 
     std::string host_;
@@ -131,6 +137,7 @@ class ServerConnection {
     boost::asio::steady_timer silence_{io_};
     boost::asio::steady_timer recorder_room_{io_};
     std::chrono::milliseconds backoff_{0};
+    bool leaves_alone_ = false;
 
     // The current connection's; `generation_` tells its handlers from those of earlier ones.
     std::uint64_t generation_ = 0;

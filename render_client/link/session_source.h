@@ -93,6 +93,8 @@ class SessionSource {
     virtual void ask_for_ct() {}
     /// To a server elsewhere from now on; nothing if there is none.
     virtual void connect_to(const ListenAddress&) {}
+    /// Whether sessions that begin are left alone, until told otherwise; one that was joined goes on.
+    virtual void leave_alone(bool) {}
     /// Any thread: a request to the session; ignored if there is none to take it.
     virtual void send_control(const SessionControl&) {}
     /// Any thread: sends the operator's viewpoint; ignored if the session does not keep it.

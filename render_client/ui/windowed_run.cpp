@@ -164,6 +164,9 @@ class Drawing {
         input_.append(happened);
         if (start_)
             if (const auto server = start_->page.take_server()) source_.connect_to(*server);
+        const bool stands_alone = start_ && start_->stands_alone(session_.link().status);
+        if (std::exchange(page_stands_alone_, stands_alone) != stands_alone)
+            source_.leave_alone(stands_alone);
 
         work_look(std::chrono::duration<double>(now - began_).count());
         work_sound(std::chrono::duration<double>(now - began_).count());
@@ -372,6 +375,7 @@ class Drawing {
     Clock::time_point drawn_ = began_;
     Clock::time_point view_told_{};
     bool drills_ = false;
+    bool page_stands_alone_ = false;
     bool session_over_ = false;
 };
 

@@ -29,6 +29,9 @@ struct StartScreen {
 
     /// Whether there is nothing else to do: no session, or one that has ended.
     bool is_due(LinkStatus status) const { return has_no_session(status) && !page.is_hidden; }
+    /// Whether a person imports or looks for a file: nothing of a session shows beside that, and none that
+    /// begins elsewhere takes the window.
+    bool stands_alone(LinkStatus status) const { return is_due(status) && !page.shows_cases(); }
     /// Whether it would be shown if the user had not hidden it.
     bool is_hidden(LinkStatus status) const { return has_no_session(status) && page.is_hidden; }
 

@@ -51,6 +51,7 @@ class StartPage {
     bool poll();
 
     View view() const { return view_; }
+    bool shows_cases() const { return view_ == View::cases; }
     void show(View view);
     /// One line about an error or current work; empty: nothing.
     const std::string& message() const { return message_; }

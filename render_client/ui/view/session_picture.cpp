@@ -222,9 +222,11 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     picture_.set_appearance(look);
     std::optional<DrawnTool> tool;
     const SightElements elements = this->elements();
-    const std::optional<ToolState> shown = elements.tool ? tool_.shown() : std::nullopt;
+    const bool shows_session = start_ == nullptr || !start_->stands_alone(link_.status);
+    const BoneTextures* bone = shows_session ? bone_.textures() : nullptr;
+    const std::optional<ToolState> shown = elements.tool && shows_session ? tool_.shown() : std::nullopt;
     if (shown) tool = tool_.drawn(*shown, session(), operator_command_);
-    picture_.draw(bone_.textures(), tool ? &*tool : nullptr, camera_);
+    picture_.draw(bone, tool ? &*tool : nullptr, camera_);
     const gl::Framebuffer* inset = draw_inset(tool, look);
     view_.scale = scale_that_fits(view_.scale, size_px_);
     panels_.begin(size_px_, picture_.eye_size_px(), elapsed_s, view_.theme, view_.scale);
@@ -241,11 +243,11 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
                   .history = history_,
                   .camera = camera_,
                   .view = view_,
-                  .slices = view_.slices_shown ? &slices_ : nullptr,
+                  .slices = view_.slices_shown && shows_session ? &slices_ : nullptr,
                   .inset = inset,
                   .bone = source_.bone(),
                   .bone_version = bone_version_,
-                  .is_bone_drawn = has_bone(),
+                  .is_bone_drawn = bone != nullptr,
                   .requests = takes_requests_ ? &requests_ : nullptr,
                   .start = start_,
                   .player = source_.player()},

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -165,6 +166,29 @@ TEST(BoneLink, MovesToAnotherServer) {
     ASSERT_TRUE(eventually([&] { return link.poll().connections == 2; }));
     ASSERT_TRUE(reaches(link, LinkStatus::live));
     EXPECT_TRUE(link.session()->accepts_operator);
+}
+
+TEST(BoneLink, LeavesSessionsAloneThatBeginUntilToldOtherwise) {
+    std::optional<ServedBone> served(std::in_place);
+    const std::uint16_t port = served->port();
+    BoneLink link("127.0.0.1", port);
+    ASSERT_TRUE(reaches(link, LinkStatus::live));
+    link.leave_alone(true);
+    served->start_carving();
+    ASSERT_TRUE(verifies(link, 2)) << "one that was joined goes on";
+    expect_equal_at_the_end(*served, {&link});
+    served.reset();
+    served.emplace(port);
+    // It would have tried five times by now.
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+    while (std::chrono::steady_clock::now() < end) {
+        EXPECT_EQ(link.poll().status, LinkStatus::finished);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_EQ(link.poll().connections, 1U);
+    link.leave_alone(false);
+    ASSERT_TRUE(reaches(link, LinkStatus::live));
+    EXPECT_EQ(link.poll().connections, 2U);
 }
 
 TEST(BoneLink, CarriesTheOperatorsWishes) {

@@ -1,5 +1,10 @@
 #include "render_client/ui/view/session_picture.h"
 
+#include <array>
+#include <set>
+
+#include "render_client/ui/panels/start_panel.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/unit/ui/scripted_session.h"
 #include "tests/unit/volume/offscreen_test.h"
 
@@ -120,6 +125,33 @@ TEST_F(SessionPictureTest, DrawsNothingOfTheSessionBeforeInTheNext) {
     prepare();
     EXPECT_TRUE(picture_->has_bone());
     EXPECT_EQ(picture_->sight(), SessionSight::now);
+}
+
+TEST_F(SessionPictureTest, ShowsNothingOfASessionBesideAnImport) {
+    const testing::TemporaryFolder folder;
+    StartScreen start({folder.path(), folder / "home", {"127.0.0.1", 7010}});
+    picture_->offer_start(start);
+    picture_->resize({1000, 700});
+    picture_->take_in();
+    prepare();
+    zoom(picture_->camera(), 0.1);  // bone is all round the page
+    session_.status = LinkStatus::finished;
+    picture_->take_in();
+    // The colours of a row left of the page.
+    const auto margin = [&] {
+        const Picture drawn = draw();
+        std::set<std::array<std::uint8_t, 3>> colours;
+        for (int x = 0; x < 10; ++x) {
+            const std::uint8_t* rgb = drawn.at(x, 350);
+            colours.insert({rgb[0], rgb[1], rgb[2]});
+        }
+        return colours;
+    };
+    EXPECT_GT(margin().size(), 1U) << "what the last session left";
+    start.page.show(StartPage::View::scan_browser);
+    EXPECT_EQ(margin().size(), 1U) << "one grey";
+    start.page.show(StartPage::View::cases);
+    EXPECT_GT(margin().size(), 1U);
 }
 
 TEST_F(SessionPictureTest, ShowsNoToolWhereNobodyKnowsHowItIs) {
