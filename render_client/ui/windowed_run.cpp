@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -266,7 +267,9 @@ class Drawing {
         session_.resize(input_.framebuffer_size_px);
         session_.view().scale = static_cast<float>(options_.ui_scale.value_or(input_.content_scale));
         if (start_) start_->page.window_size = glm::ivec2(glm::round(input_.size));
-        if (panels_.feed(input_)) redraw_.note_change(start);
+        std::optional<WindowInput> of_note;
+        if (const auto presses = presses_until_note()) of_note = input_.take_after(*presses);
+        if (panels_.feed(input_, opens_note_field())) redraw_.note_change(start);
         commands_.work_clutch();
         camera_.aim(session_);
         const gl::Framebuffer& framebuffer = session_.draw(elapsed_s);
@@ -287,6 +290,7 @@ class Drawing {
         shared_.is_fullscreen = session_.view().is_fullscreen;
         commands_.work_clutch();
         input_.forget_events();
+        if (of_note) input_.append(*of_note);
         const std::string notice = session_.view().notice;
         commands_.write_pictures(framebuffer, std::chrono::duration<double>(start - began_).count());
         const bool has_new_notice = session_.view().notice != notice;
@@ -349,6 +353,25 @@ class Drawing {
         return plays || session_.elements().controls ? situation_of(drills_, plays) : Situation::waiting;
     }
 
+    /// How many keys went down until one opens the field of a mark's note, if one does.
+    std::optional<std::size_t> presses_until_note() const {
+        if (has_keyboard() || !session_.link().controls.may_control) return std::nullopt;
+        const auto opens = std::ranges::find_if(input_.presses, [&](const KeyPress& press) {
+            return std::ranges::count(actions_of(std::array{press.key}, situation()), Action::mark) > 0;
+        });
+        if (opens == input_.presses.end()) return std::nullopt;
+        return static_cast<std::size_t>(opens - input_.presses.begin()) + 1;
+    }
+
+    /// The field of a note has been asked for, and Dear ImGui has not given it the keyboard yet.
+    bool opens_note_field() {
+        if (session_.view().question != SessionQuestion::mark)
+            is_note_field_open_ = false;
+        else if (ImGui::GetIO().WantTextInput)
+            is_note_field_open_ = true;
+        return session_.view().question == SessionQuestion::mark && !is_note_field_open_;
+    }
+
     /// A text is being written, or its field is about to open: letters are no commands.
     bool has_keyboard() const {
         return ImGui::GetIO().WantTextInput || session_.view().question == SessionQuestion::mark;
@@ -376,6 +399,7 @@ class Drawing {
     Clock::time_point view_told_{};
     bool drills_ = false;
     bool page_stands_alone_ = false;
+    bool is_note_field_open_ = false;
     bool session_over_ = false;
 };
 

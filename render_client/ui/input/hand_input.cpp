@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "render_client/ui/input/key_bindings.h"
+
 namespace osteomill {
 
 namespace {
@@ -65,14 +67,23 @@ bool HandInput::panels_have(const WindowInput& input) const {
            });
 }
 
+void HandInput::wait_for_note(const WindowInput& input) {
+    // A picture under way, the next, which takes the key in, and the one that shows the field.
+    constexpr int shows = 3;
+    const auto actions = actions_of(input.pressed_keys(), Situation::drilling);
+    if (std::ranges::count(actions, Action::mark) > 0) shows_until_note_ = shows;
+}
+
 void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
+    wait_for_note(input);
     if (picture_.holds_still) pedal_switched_down_ = false;
     if (input.went_down[WindowInput::left]) {
         drags_hand_ = !panels_have(input);
         deeper_mm_ = 0.0;
     }
+    const bool has_keyboard = !picture_.panels_have_keyboard && shows_until_note_ == 0;
     const auto is_down = [&](int key) {
-        return !picture_.panels_have_keyboard && input.keys_down[static_cast<std::size_t>(key)];
+        return has_keyboard && input.keys_down[static_cast<std::size_t>(key)];
     };
     double advanced_mm =
         advance_mm_per_s * elapsed_s * (static_cast<double>(is_down(GLFW_KEY_W)) - is_down(GLFW_KEY_S));
@@ -97,7 +108,7 @@ void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
         input.shift ? hand_.move_in_picture(by_keys_px, picture_.camera, picture_.size_px)
                     : hand_.tilt_in_picture(by_keys_px, picture_.camera);
     for (const int key : input.pressed_keys())
-        if (!picture_.panels_have_keyboard && key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
+        if (has_keyboard && key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
             hand_.choose_burr(static_cast<std::size_t>(key - GLFW_KEY_1));
     hand_.set_pedal(is_down(GLFW_KEY_SPACE) || pedal_switched_down_);
 }
@@ -105,6 +116,7 @@ void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
 void HandInput::show(const HandInputPicture& picture) {
     const std::scoped_lock lock(mutex_);
     picture_ = picture;
+    shows_until_note_ = picture.panels_have_keyboard ? 0 : std::max(shows_until_note_ - 1, 0);
 }
 
 void HandInput::switch_pedal() {

@@ -66,12 +66,16 @@ class HandInput {
   private:
     void let_go();
     bool panels_have(const WindowInput& input) const;
+    /// Heeds no key from the press on that opens the field of a mark's note, until the picture says whether
+    /// it is open: what is typed at once is the note's.
+    void wait_for_note(const WindowInput& input);
     void move_hand(const WindowInput& input, double elapsed_s);
 
     SessionSource& source_;
     mutable std::mutex mutex_;  // guards the members below; held for microseconds
     HandInputPicture picture_;
     OperatorHand hand_;
+    int shows_until_note_ = 0;  ///< calls of show() until the field of a note must be open
     bool pedal_switched_down_ = false;
     bool drags_hand_ = false;
     double deeper_mm_ = 0.0;  ///< than over the bone, since the drag began

@@ -30,6 +30,23 @@ void WindowInput::append(const WindowInput& later) {
     has_news = has_news || before.has_news;
 }
 
+WindowInput WindowInput::take_after(std::size_t count) {
+    WindowInput later = *this;
+    later.forget_events();
+    const auto first_press = presses.begin() + static_cast<std::ptrdiff_t>(std::min(count, presses.size()));
+    later.presses.assign(first_press, presses.end());
+    presses.erase(first_press, presses.end());
+    auto first_character = std::ranges::find_if(
+        typed, [&](const TypedCharacter& character) { return character.after_presses >= count; });
+    // A key's own character comes behind its press.
+    if (count > 0 && first_character != typed.end() && first_character->after_presses == count)
+        ++first_character;
+    later.typed.assign(first_character, typed.end());
+    typed.erase(first_character, typed.end());
+    for (TypedCharacter& character : later.typed) character.after_presses -= count;
+    return later;
+}
+
 void WindowInput::forget_events() {
     went_down = {};
     pressed_at = {};

@@ -60,6 +60,8 @@ struct WindowInput {
     std::vector<int> pressed_keys() const;
     /// Appends later input: takes its state, and keeps the events of both.
     void append(const WindowInput& later);
+    /// Takes out the keys behind the first `count`, and what they typed; the state is in both.
+    WindowInput take_after(std::size_t count);
     /// The state stays, the events go.
     void forget_events();
 };

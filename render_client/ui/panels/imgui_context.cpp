@@ -133,8 +133,8 @@ void ImguiContext::use(Clipboard& clipboard) {
     give_clipboard(clipboard, ImGui::GetIO());
 }
 
-bool ImguiContext::feed(const WindowInput& input) {
-    return input_.feed(input, ImGui::GetIO());
+bool ImguiContext::feed(const WindowInput& input, bool holds_text) {
+    return input_.feed(input, ImGui::GetIO(), holds_text);
 }
 
 void ImguiContext::begin(const glm::ivec2& size_px, const glm::ivec2& drawn_px, double elapsed_s,

@@ -28,9 +28,9 @@ class ImguiContext {
     /// Joins the panels' texts to the desktop's; it must outlive them.
     void use(Clipboard& clipboard);
 
-    /// Mouse and keys for the next frame; whether some wait for one after it. Without it, as in offscreen
-    /// pictures, panels take no input.
-    bool feed(const WindowInput& input);
+    /// Mouse and keys for the next frame; whether some wait for one after it (see PanelInput). Without it, as
+    /// in offscreen pictures, panels take no input.
+    bool feed(const WindowInput& input, bool holds_text = false);
 
     /// Opens an ImGui frame, in the colours of `theme` and with letters and controls `scale` times as large
     /// as on an ordinary display. `elapsed_s` is the time since the last one. Panels are laid out in a

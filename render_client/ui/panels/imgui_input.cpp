@@ -89,7 +89,7 @@ bool ImguiInput::Button::next(bool is_pressed, bool is_held) {
     return is_down;
 }
 
-std::optional<KeyPress> ImguiInput::next_press(const WindowInput& input) {
+std::optional<KeyPress> ImguiInput::next_press(const WindowInput& input, bool holds_text) {
     for (TypedCharacter character : input.typed) {
         const auto end = input.presses.begin() + static_cast<std::ptrdiff_t>(character.after_presses);
         const auto before = std::count_if(input.presses.begin(), end, is_seen);
@@ -101,7 +101,7 @@ std::optional<KeyPress> ImguiInput::next_press(const WindowInput& input) {
     std::optional<KeyPress> press;
     std::bitset<WindowInput::most_keys> down = keys_down_ & input.keys_down;
     // A command acts on the text that is there: not in the frame that brings some of it.
-    if (!waiting_.empty() && !(has_text && waiting_.front().ctrl)) {
+    if (!waiting_.empty() && !(has_text && (holds_text || waiting_.front().ctrl))) {
         const auto key = static_cast<std::size_t>(waiting_.front().key);
         if (keys_down_[key]) {
             down.reset(key);  // the release before the next press
@@ -138,7 +138,7 @@ void ImguiInput::feed_text(bool is_command, bool clicks, ImGuiIO& io) {
     }
 }
 
-bool ImguiInput::feed(const WindowInput& input, ImGuiIO& io) {
+bool ImguiInput::feed(const WindowInput& input, ImGuiIO& io, bool holds_text) {
     constexpr float nowhere = -std::numeric_limits<float>::max();
     const glm::vec2 at(input.cursor * input.px_per_unit());
     io.MousePos = input.has_cursor ? ImVec2(at.x, at.y) : ImVec2(nowhere, nowhere);
@@ -151,10 +151,10 @@ bool ImguiInput::feed(const WindowInput& input, ImGuiIO& io) {
     }
     io.MouseWheel += static_cast<float>(input.wheel.y);
     io.MouseWheelH += static_cast<float>(input.wheel.x);
-    const std::optional<KeyPress> press = next_press(input);
+    const std::optional<KeyPress> press = next_press(input, holds_text);
     const KeyPress held =
         press.value_or(KeyPress{.shift = input.shift, .ctrl = input.ctrl, .alt = input.alt});
-    feed_text(held.ctrl && !held.alt, clicks, io);
+    if (!holds_text) feed_text(held.ctrl && !held.alt, clicks, io);
     if (press)
         for (TypedCharacter& character : typed_)
             if (character.after_presses > 0) --character.after_presses;

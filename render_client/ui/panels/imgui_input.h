@@ -28,8 +28,9 @@ void give_clipboard(Clipboard& clipboard, ImGuiIO& io);
 /// and the keys that came before it. So nothing is lost or mistaken, however long a frame takes.
 class ImguiInput {
   public:
-    /// Whether presses wait for the frames after the next one.
-    bool feed(const WindowInput& input, ImGuiIO& io);
+    /// Whether presses or characters wait for the frames after the next one. `holds_text`: the field that
+    /// characters are for is about to open, so they wait, and the keys behind them, too.
+    bool feed(const WindowInput& input, ImGuiIO& io, bool holds_text = false);
 
   private:
     struct Button {
@@ -41,7 +42,7 @@ class ImguiInput {
     /// Passes a button on; the pointer is then where it went down or up, if it did.
     void feed_button(WindowInput::Button button, const WindowInput& input, ImGuiIO& io);
     /// The press that the next frame sees, if one is due; keys are up and down by it and by `input`.
-    std::optional<KeyPress> next_press(const WindowInput& input);
+    std::optional<KeyPress> next_press(const WindowInput& input, bool holds_text);
 
     /// The characters that are due in a frame of this key, and whose button goes down in it or not.
     void feed_text(bool is_command, bool clicks, ImGuiIO& io);

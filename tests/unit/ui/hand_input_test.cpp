@@ -250,5 +250,39 @@ TEST(HandInput, TakesNoLettersForCommandsWhileATextIsWritten) {
     EXPECT_TRUE(desk.source.sent.empty());
 }
 
+TEST(HandInput, LeavesToANoteWhatIsTypedBeforeThePictureShowsItsField) {
+    Desk desk;
+    desk.input.presses = {{GLFW_KEY_M}, {GLFW_KEY_2}, {GLFW_KEY_SPACE}};
+    desk.input.keys_down[GLFW_KEY_SPACE] = true;
+    for (int i = 0; i < 5; ++i) desk.step();
+    desk.desk.show(desk.picture);  // a picture that knows nothing of it
+    for (int i = 0; i < 5; ++i) desk.step();
+    EXPECT_TRUE(desk.source.sent.empty()) << "neither pedal nor burr";
+    // The field is there, and closed by the time that a key is held.
+    desk.picture.panels_have_keyboard = true;
+    desk.desk.show(desk.picture);
+    desk.step();
+    EXPECT_TRUE(desk.source.sent.empty());
+    desk.input.keys_down[GLFW_KEY_SPACE] = false;
+    desk.step();
+    desk.picture.panels_have_keyboard = false;
+    desk.desk.show(desk.picture);
+    desk.input.keys_down[GLFW_KEY_SPACE] = true;
+    for (int i = 0; i < 3; ++i) desk.step();
+    ASSERT_FALSE(desk.source.sent.empty());
+    EXPECT_TRUE(desk.source.sent.back().pedal);
+}
+
+TEST(HandInput, HasItsKeysAgainWhereNoNoteMayBeWritten) {
+    Desk desk;
+    desk.input.presses = {{GLFW_KEY_M}};
+    desk.step();
+    for (int i = 0; i < 3; ++i) desk.desk.show(desk.picture);
+    desk.input.keys_down[GLFW_KEY_SPACE] = true;
+    for (int i = 0; i < 3; ++i) desk.step();
+    ASSERT_FALSE(desk.source.sent.empty());
+    EXPECT_TRUE(desk.source.sent.back().pedal);
+}
+
 }  // namespace
 }  // namespace osteomill::hand_input_test

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace osteomill::imgui_input_test {
 namespace {
@@ -28,7 +29,7 @@ class PanelInputTest : public ::testing::Test {
     ~PanelInputTest() override { ImGui::DestroyContext(); }
 
     void draw() {
-        is_waiting_ = imgui_input_.feed(input_, ImGui::GetIO());
+        is_waiting_ = imgui_input_.feed(input_, ImGui::GetIO(), holds_text_);
         input_.forget_events();
         ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
         ImGui::NewFrame();
@@ -60,6 +61,7 @@ class PanelInputTest : public ::testing::Test {
     WindowInput input_;
     ImguiInput imgui_input_;
     bool is_waiting_ = false;
+    bool holds_text_ = false;
     std::array<char, 32> text_{};
     ImVec2 text_at_{}, button_at_{};
     int presses_ = 0;
@@ -149,6 +151,30 @@ TEST_F(PanelInputTest, TextOfOneSlowFrameComesAfterTheClickAndTheKeysBeforeIt) {
     for (int i = 0; i < 6; ++i) draw();
     EXPECT_EQ(text(), "d");
     EXPECT_FALSE(is_waiting_);
+}
+
+TEST_F(PanelInputTest, TextBehindTheKeyThatOpensItsFieldWaitsForTheField) {
+    // M opens it, "hi" is typed and edited to "ho", RETURN ends it, in one slow frame.
+    input_.presses = {{GLFW_KEY_M},         {GLFW_KEY_H}, {GLFW_KEY_I},
+                      {GLFW_KEY_BACKSPACE}, {GLFW_KEY_O}, {GLFW_KEY_ENTER}};
+    input_.typed = {{U'm', 1}, {U'h', 2}, {U'i', 3}, {U'o', 5}};
+    WindowInput of_field = input_.take_after(1);
+    EXPECT_EQ(input_.pressed_keys(), std::vector{GLFW_KEY_M});
+    ASSERT_EQ(input_.typed.size(), 1U) << "its own character";
+    EXPECT_EQ(of_field.presses.size(), 5U);
+    draw();
+    input_.append(of_field);
+    holds_text_ = true;
+    for (int i = 0; i < 3; ++i) draw();
+    EXPECT_TRUE(is_waiting_);
+    EXPECT_EQ(presses_, 0);
+    click(text_at_);
+    EXPECT_EQ(text(), "");
+    holds_text_ = false;
+    for (int i = 0; i < 8; ++i) draw();
+    EXPECT_EQ(text(), "ho");
+    EXPECT_FALSE(is_waiting_);
+    EXPECT_FALSE(ImGui::GetIO().WantTextInput) << "RETURN came last";
 }
 
 TEST_F(PanelInputTest, LaterInputComesAfterTheInputThatNoFrameHasTaken) {
