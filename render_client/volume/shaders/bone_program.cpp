@@ -124,7 +124,13 @@ const gl::Program& BoneProgram::use(const BoneTextures& bone, const SceneAppeara
 }
 
 void BoneProgram::bind_seen(const gl::Program& program, const BoneTextures& bone, const SeenThrough& seen) {
-    program.set("seen_step", static_cast<float>(seen.lattice().step));
+    const glm::dvec3 places(seen.lattice().places);
+    const double step = seen.lattice().step;
+    program.set("seen_step", static_cast<float>(step));
+    program.set("seen_per_voxel", static_cast<float>(1.0 / step));
+    // Places are centres of texels, and of voxels; the first is one step before the box.
+    program.set("seen_scale", glm::vec3(1.0 / (step * places)));
+    program.set("seen_shift", glm::vec3((1.5 - 0.5 / step) / places));
     program.set("seen_farthest", static_cast<float>(seen.farthest_voxels()));
     program.set("seen_span", static_cast<float>(seen.span_voxels()));
     seen.texture().bind(seen_unit);

@@ -27,12 +27,11 @@ vec3 surface_pixel(vec3 point, vec3 direction) {
     vec3 normal = normal_at(point, -direction);
     float openness = bone_is_occluded ? ambient_occlusion(point, normal) : 1.0;
     vec3 place = place_under(point, normal);
-    float left = bone_shows_through ? seen_distance(point) : 0.0;
-    if (bone_shows_through) place = clear_of_seen(place, left);
+    vec4 behind = bone_shows_through ? look_through(point, direction, place) : vec4(0.0);
     vec3 colour = smooth_look_at(place).rgb;
     float grain = bone_has_grain ? grain_at(point - normal) : 0.0;
     if (bone_has_grain) colour = grained(colour, grain);
-    if (bone_shows_through) colour = colour_through(colour, point, direction, left);
+    if (bone_shows_through) colour = mix(colour, behind.rgb, behind.a);
     float wet = specular;
     if (bone_has_sawn_faces) {
         float sawn = sawn_share(point);

@@ -120,9 +120,11 @@ Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
 void BoneTextures::store_seen_looks() {
     std::vector<glm::vec4> looks(2 * table_.seen->size());
     for (std::size_t label = 0; label < table_.seen->size(); ++label) {
+        const std::uint8_t number = seen_->number_of(static_cast<std::uint8_t>(label));
+        if (number == 0) continue;
         const SeenTissue& tissue = (*table_.seen)[label];
-        looks[label] = glm::vec4(tissue.colour, tissue.strength);
-        looks[table_.seen->size() + label] =
+        looks[number] = glm::vec4(tissue.colour, tissue.strength);
+        looks[table_.seen->size() + number] =
             glm::vec4(static_cast<float>(seen_->depth_voxels(tissue)), 0.0f, 0.0f, 0.0f);
     }
     seen_looks_.store({256, 2}, GL_RGBA32F, GL_RGBA, GL_FLOAT, looks.data(), GL_NEAREST, GL_NEAREST);

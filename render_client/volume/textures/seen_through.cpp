@@ -89,6 +89,11 @@ SeenLattice::SeenLattice(const VoxelBox& of) {
 SeenThrough::SeenThrough(const SeenLattice& lattice, double spacing_mm, const SeenTissues& tissues,
                          gl::Texture3D texture)
     : lattice_(lattice), spacing_mm_(spacing_mm), tissues_(tissues), texture_(std::move(texture)) {
+    const auto is_seen = [](const SeenTissue& tissue) { return tissue.depth_mm > 0.0f; };
+    const auto apart = 255 / std::max<std::ptrdiff_t>(std::ranges::count_if(tissues_, is_seen), 1);
+    std::ptrdiff_t number = 0;
+    for (std::size_t label = 0; label < tissues_.size(); ++label)
+        if (is_seen(tissues_[label])) numbers_[label] = static_cast<std::uint8_t>(number += apart);
     for (const SeenTissue& tissue : tissues_) depth_voxels_ = std::max(depth_voxels_, depth_voxels(tissue));
 }
 
@@ -320,7 +325,8 @@ void SeenThrough::compute(const Bone& bone, const VoxelBox& places) {
                 const glm::ivec3 first = glm::ivec3(0, y, z) + smoothing_places;
                 std::size_t from =
                     (static_cast<std::size_t>(first.z) * wide.size.y + first.y) * wide.size.x + first.x;
-                for (int x = 0; x < places.size.x; ++x, ++from, to += 2) texels_[to] = labels_[from];
+                for (int x = 0; x < places.size.x; ++x, ++from, to += 2)
+                    texels_[to] = numbers_[labels_[from]];
             }
     }
     texture_.upload(places.first, places.size, texels_);

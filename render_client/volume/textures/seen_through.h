@@ -61,8 +61,11 @@ class SeenThrough {
     /// Enters a piece of the added structures, and returns its voxels; an empty box: all is done.
     VoxelBox work(const Bone& bone);
 
-    /// Two bytes a place: nearness, the label.
+    /// Two bytes a place: nearness, the tissue's number.
     const gl::Texture3D& texture() const { return texture_; }
+    /// Of the tissue with that label: above 0, and as far from all others as a byte allows, so that a number
+    /// between two places shows whether they have the same tissue; 0 if it is not seen.
+    std::uint8_t number_of(std::uint8_t label) const { return numbers_[label]; }
     const SeenLattice& lattice() const { return lattice_; }
     /// Distance, voxels, at a nearness n from 0 to 1: farthest_voxels() - n span_voxels().
     double farthest_voxels() const { return depth_voxels_; }
@@ -96,7 +99,8 @@ class SeenThrough {
     SeenLattice lattice_;
     double spacing_mm_;
     SeenTissues tissues_;
-    double depth_voxels_ = 0.0;  ///< the greatest
+    std::array<std::uint8_t, 256> numbers_{};  ///< by label
+    double depth_voxels_ = 0.0;                ///< the greatest
     gl::Texture3D texture_;
     std::vector<bool> slot_shows_;  ///< has voxels of a tissue that is seen
     std::vector<Soft> soft_;

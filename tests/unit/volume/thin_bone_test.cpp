@@ -176,6 +176,32 @@ TEST_F(ThinBoneTest, HasItsOwnColourHoweverThinItIs) {
         }
 }
 
+/// Two tissues that meet under a layer, and a third whose number is between theirs.
+TEST_F(ThinBoneTest, BlendsTwoTissuesThatMeetAndShowsNoOther) {
+    const std::array<TissueColour, 4> four{{{1, {150, 150, 150}},
+                                            {2, {0, 0, 255}, 1.0, depth_mm, strength},
+                                            {3, {255, 0, 0}, 1.0, depth_mm, strength},
+                                            {4, {0, 255, 0}, 1.0, depth_mm, strength}}};
+    const Bone bone = made_bone(
+        grid, [](const glm::dvec3& p) { return std::min(0.3 - p.z, p.z + 2.5); },
+        [](const glm::dvec3& p) {
+            return static_cast<std::uint8_t>(p.z > 0.0 ? 1 : p.x + 0.3 * p.y < 0.03 ? 2 : 4);
+        });
+    const Picture picture = drawn(BoneTextures(bone, four), from_above());
+    for (int y = 20; y < size_px.y - 20; ++y) {
+        double most = 0.0, before = linear_at(picture, {20, y}).g;
+        for (int x = 20; x < size_px.x - 20; ++x) {
+            const glm::dvec3 colour = linear_at(picture, {x, y});
+            EXPECT_LT(colour.r, 0.2) << "red is nowhere: " << x << ", " << y;
+            most = std::max(most, std::abs(colour.g - before));
+            before = colour.g;
+        }
+        const double change = std::abs(before - linear_at(picture, {20, y}).g);
+        EXPECT_GT(change, 0.2);
+        EXPECT_LT(most, 0.35 * change) << "an edge in row " << y;
+    }
+}
+
 TEST_F(ThinBoneTest, FollowsTheBurrThroughBoneIntoTheTissueAndBack) {
     const Bone whole = layered(2.0);
     Bone bone = whole;
