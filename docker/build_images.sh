@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-. scripts/suite.sh
+. scripts/debian_suite.sh
 packages=out/packages/${supported_suites[-1]}
 base=
 while [ $# -gt 0 ]; do

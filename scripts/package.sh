@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the Debian packages of what is committed, for the system that it runs on (suite.sh), looks at them with lintian, which is to be
+# Builds the Debian packages of what is committed, for the system that it runs on (debian_suite.sh), looks at them with lintian, which is to be
 # silent, and puts the wheel and the bill of materials beside them.
 #   scripts/package.sh [FOLDER]      into FOLDER, out/packages/SUITE unless said otherwise
 # Needs scripts/packages.txt and scripts/package_packages.txt. The environment may choose build tools:
@@ -7,7 +7,7 @@
 set -euo pipefail
 umask 022  # modes go into the packages
 cd "$(dirname "$0")/.."
-. scripts/suite.sh
+. scripts/debian_suite.sh
 out=$(realpath -m "${1:-out/packages/$suite}")
 
 version=$(sed -n 's/^project(osteomill VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)

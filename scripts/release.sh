@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes a release of what is committed: packages, source, wheel and bill of materials for each system of suite.sh, checksums and their
+# Makes a release of what is committed: packages, source, wheel and bill of materials for each system of debian_suite.sh, checksums and their
 # signature in out/release/VERSION, and then the signed tag. Publishing is copying that folder and pushing the tag; the last lines say how.
 #   scripts/release.sh [--dry-run] [--minisign SECRET_KEY]
 #     --dry-run    all of it but the tag
@@ -7,7 +7,7 @@
 # Takes what scripts/package.sh has left in out/packages/SUITE, if it is of this commit; has it build those for this system otherwise.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-. scripts/suite.sh
+. scripts/debian_suite.sh
 fail() { echo "release: $*" >&2; exit 1; }
 
 dry_run= key=

@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 cache=CCACHE_DISABLE=1
 if [ "${1:-}" = --cached ]; then cache=CCACHE_READONLY=1; shift; fi
-. scripts/suite.sh
+. scripts/debian_suite.sh
 first=$(realpath -m "${1:-out/packages/$suite}")
 [ "$(cat "$first/commit" 2>/dev/null)" = "$(git rev-parse HEAD)" ] || scripts/package.sh "$first" >/dev/null
 

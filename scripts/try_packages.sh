@@ -5,7 +5,7 @@
 # Needs root.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-. scripts/suite.sh
+. scripts/debian_suite.sh
 . scripts/bare_root.sh
 packages=$(realpath -m "${1:-out/packages/$suite}")
 suite=$(suite_of "$packages")

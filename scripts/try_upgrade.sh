@@ -5,7 +5,7 @@
 # Needs root.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-. scripts/suite.sh
+. scripts/debian_suite.sh
 . scripts/bare_root.sh
 packages=$(realpath -m "${1:-out/packages/${supported_suites[0]}}")
 next_packages=$(realpath -m "${2:-out/packages/${supported_suites[1]}}")

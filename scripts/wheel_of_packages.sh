@@ -6,7 +6,7 @@ set -euo pipefail
 [ $# -eq 1 ] || { sed -n '2,/^set/{/^#/p}' "$0" >&2; exit 2; }
 folder=$(realpath "$1")
 cd "$(dirname "$0")/.."
-. scripts/suite.sh
+. scripts/debian_suite.sh
 
 version=$(sed -n 's/^project(osteomill VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 installed=$(mktemp -d)

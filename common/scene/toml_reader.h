@@ -26,8 +26,8 @@ class TomlReader {
     /// reader.
     TomlReader(const toml::table& table, std::string file, std::string table_name);
 
-    /// Each takes a key: absent keys give nullopt; a wrong type or value throws SceneError, a text with
-    /// control characters, too.
+    /// Each takes a key: absent keys give nullopt; a wrong type, a value out of range, or a text
+    /// with control characters throws SceneError.
     std::optional<double> number(std::string_view key, const AllowedRange& range = {});
     std::optional<std::int64_t> whole_number(std::string_view key, std::int64_t low, std::int64_t high);
     std::optional<std::string> text(std::string_view key);

@@ -1,5 +1,6 @@
-// The conversation with a haptic arm that is plugged in, report by report: wakes it up, has it calibrated,
-// keeps only its newest reading, and lets a force through only when that is safe.
+// The protocol with a haptic arm that is plugged in, report by report, which ArmConversation (hid_arm.cpp)
+// carries: wakes it up, has it calibrated, keeps only its newest reading, and lets a force through only when
+// that is safe.
 //
 //             first report           calibrated          a small force is wanted
 //   waking ----------------> uncalibrated ----> waiting <------------------------> driving

@@ -1,5 +1,5 @@
 // Profile of one haptic arm: its geometry, motors, encoders, limits. Read from TOML by
-// profile_file.h; shipped ones are in devices/.
+// profile_file.h; shipped ones are in devices/profiles.
 #pragma once
 
 #include <array>

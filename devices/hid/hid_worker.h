@@ -14,7 +14,8 @@
 
 namespace osteomill {
 
-/// The exchange on one connection, from plugging in to unplugging. Its destructor ends it.
+/// The exchange on one connection, from plugging in to unplugging. Its destructor ends it. Implemented by
+/// ArmConversation in hid_arm.cpp.
 class HidConversation {
   public:
     virtual ~HidConversation() = default;

@@ -1,4 +1,5 @@
-// The session of the haptic and milling loops, for a streaming server to show.
+// The session of the haptic and milling loops, for a streaming server to show: takes their changes and the
+// tool once a frame.
 #pragma once
 
 #include <functional>

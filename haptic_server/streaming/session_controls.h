@@ -13,8 +13,7 @@
 //             client, or a script (control_script.h): each a SessionControl (session_control.h).
 //             control_lease.h and tool_lease.h decide which client may
 //     acts    SessionControls, here; the loops through SessionGate (simulation/exchange/session_gate.h) and
-//     the
-//             queue of restored changes
+//             the queue of restored changes
 //     writes  SaveAndFinish (haptic_server/session/save_and_finish.h) the saved bone, and it ends the session
 //     told    ControlEvents, to every client and the recording; the window words them by ControlNotices
 //             (render_client/ui/input/control_notices.h)

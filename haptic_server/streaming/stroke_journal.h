@@ -1,5 +1,5 @@
 // Journal of the bone removed by each slice of a stroke, which is what one undo gives back, for any number of
-// undos and redos. "Stroke" below is such a slice.
+// undos and redos. Its functions call a slice a stroke.
 //
 // The owner, SessionControls, ends one where UndoSlice does (common/session/stroke_span.h). For each changed
 // brick the journal keeps the mask of its voxels and, compressed, their fractions before: no second copy of

@@ -1,5 +1,5 @@
-// The boundary to haptic hardware: a life cycle of a few calls, in device space. Simulated, client-driven,
-// faulty and real devices implement it alike, in devices; the haptic loop (simulation/loop/haptic_loop.h)
+// The boundary to haptic hardware: a life cycle of a few calls, in device space. Simulated, client-driven
+// and real devices implement it alike, in devices; the haptic loop (simulation/loop/haptic_loop.h)
 // reads and writes it.
 //
 //   constructed --start()--> running --stop()--> stopped

@@ -1,4 +1,5 @@
-// Ordered queue of changes from the milling loop to the thread that keeps a copy of the bone.
+// Ordered queue of changes from the milling loop to the thread that keeps a copy of the bone
+// (haptic_server/streaming/live_session.h takes them).
 //
 // It is a ring of bytes, and a change takes no more of it than it says: 16 bytes for the brick and for which
 // words of the mask hold a voxel, 8 for each of these words, one for the fraction of each voxel.

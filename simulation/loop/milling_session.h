@@ -88,7 +88,7 @@ class MillingSession {
     /// Ticks after which a loop has touched all its memory.
     static constexpr std::uint64_t settling_ticks = 100;
     /// `device` and the logs (may be null) outlive the session. Throws std::invalid_argument for a milling
-    /// rate out of range, a processor that this process may not use, an unknown coupling or force model, a
+    /// rate out of range, a processor that this process may not use, an unknown force model, a
     /// coupling that the force model has no law for or that takes no fixtures where the scene has some, or a
     /// scene that the parts refuse.
     MillingSession(const Scene& scene, Bone bone, HapticDevice& device, const MillingSessionOptions& options,

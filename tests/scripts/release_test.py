@@ -30,7 +30,7 @@ class Release(unittest.TestCase):
         self.key = pathlib.Path(self.keep.name) / "release.key"
         self.tree = pathlib.Path(self.keep.name) / "tree"
         (self.tree / "scripts").mkdir(parents=True)
-        for script in ("release.sh", "suite.sh", "wheel_of_packages.sh", "bill_of_materials.py"):
+        for script in ("release.sh", "debian_suite.sh", "wheel_of_packages.sh", "bill_of_materials.py"):
             shutil.copy(SOURCE / "scripts" / script, self.tree / "scripts")
         (self.tree / "python").mkdir()
         for file in ("setup.py", "pyproject.toml"):
@@ -130,7 +130,7 @@ class Release(unittest.TestCase):
         self.assertEqual(list((self.tree / "out/packages/bookworm").glob("*.whl")), [])
 
     def test_refuses_packages_that_are_of_another_commit_or_of_one_system_alone(self):
-        here = run("bash", "-c", ". scripts/suite.sh && echo $suite", cwd=self.tree).stdout.strip()
+        here = run("bash", "-c", ". scripts/debian_suite.sh && echo $suite", cwd=self.tree).stdout.strip()
         [other] = SUITES.keys() - {here} if here in SUITES else ["trixie"]
         (self.tree / "out/packages" / other / "commit").write_text("an older one\n")
         self.assertIn(f"out/packages/{other} holds no packages of this commit", self.refusal())

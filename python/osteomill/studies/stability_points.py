@@ -4,8 +4,9 @@ or an arm may bring.
 Two scenes: `cutting`, a 5 mm burr at the end of the slot that it has cut, fed on along it; `wall`, the spindle is off
 and the burr is pressed on the bone. Three grips: the bare arm under a steady push, a light and a firm hand. Three parts:
 
-    map an ideal device, without the encoder steps and Coulomb friction that hide limit cycles: the source of regions and
-    shares; bars `implicit` over the range that it must hold, denser in depth and speed: bone of K_t = 230 N/mm^2, up
+    map          an ideal device, without the encoder steps and Coulomb friction that hide limit cycles: the source of
+                 regions and shares;
+    bars         `implicit` over the range that it must hold, denser in depth and speed: bone of K_t = 230 N/mm^2, up
                  to the burr fully immersed, up to one tick of delay;
     real-device  a sample of the map on a device with encoder steps and friction.
 
@@ -32,7 +33,7 @@ MILLING_RATES_HZ = (100.0, 300.0, 1000.0)
 DELAYS_TICKS = (0, 1, 2, 3)  # haptic ticks from a reading of the device to its force, beyond the loop's own
 
 #: A burr in a slot: spindle in rpm, depth in mm, stiffness of the bone (1: K_t = 230 N/mm^2). In ascending order of
-#: resistance, about as far apart on a logarithmic scale: 4 to 3500 N s/m. Neighbours reach their resistance in different :
+#: resistance, about as far apart on a logarithmic scale: 4 to 3500 N s/m. Neighbours reach their resistance in different
 #: ways: the resistance alone must decide.
 CONDITIONS = (
     (80e3, 0.1, 1.0), (40e3, 0.1, 0.7), (80e3, 0.25, 0.7), (80e3, 0.25, 1.0), (10e3, 0.1, 0.4), (20e3, 0.1, 1.0),

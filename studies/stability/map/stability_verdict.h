@@ -1,5 +1,5 @@
 // Verdict on the stability of a run. A run is stable where it did not go astray, the fast part of its force
-// (stability_verdict.h) beyond the truth's does not grow, and either is small or dies. In numbers:
+// (fast_part, below) beyond the truth's does not grow, and either is small or dies. In numbers:
 //
 //   - grows: rms in the window's second half more than 1.5 times that in its first, and above a third of
 //     what is small,
