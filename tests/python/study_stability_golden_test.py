@@ -19,8 +19,8 @@ class GoldenTest(unittest.TestCase):
             expect_kept(self, out, KEPT / "map")
             self.assertIn("hold                               33.3   5.2      5.8   16.7    68.8   1.7      1.7\n", said)
             self.assertIn("met    cutting that is unstable, %: 0, at most 0\n", said)
-            self.assertIn("met    largest jump between ticks, cutting on a real device, N: 0.0849, at most 0.3 (implicit, cutting 3.5 mm "
-                          "deep at 80000 rpm in bone of stiffness 0.4, light, 100 Hz, 0 ticks late, real device)\n", said)
+            self.assertIn("met    largest jump between ticks, cutting on a real device, N: 0.108, at most 0.3 (implicit, cutting 3.5 mm "
+                          "deep at 80000 rpm in bone of stiffness 0.4, light, 1000 Hz, 0 ticks late, real device)\n", said)
             for chart in ("cutting", "wall", "pareto", "errors"):
                 self.assertIn("</svg>", (out / f"map_{chart}.svg").read_text())
 
