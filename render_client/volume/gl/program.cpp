@@ -57,8 +57,11 @@ void Program::use() const {
     glUseProgram(id_);
 }
 void Program::fill_picture() const {
+    draw_triangles(1);
+}
+void Program::draw_triangles(int count) const {
     glBindVertexArray(no_attributes_);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDrawArrays(GL_TRIANGLES, 0, 3 * count);
     glBindVertexArray(0);
 }
 void Program::set(const char* name, int value) const {

@@ -22,6 +22,8 @@ class Program {
     /// Draws one triangle over the whole viewport: without attributes, the vertex shader makes its corners of
     /// gl_VertexID. Needs use().
     void fill_picture() const;
+    /// Draws triangles without attributes likewise. Needs use().
+    void draw_triangles(int count) const;
     /// glUniform*. A name that the linker removed as unused is ignored, as OpenGL does.
     void set(const char* name, int value) const;
     void set(const char* name, float value) const;

@@ -10,12 +10,6 @@ namespace osteomill {
 
 namespace {
 
-/// Window depth as a function of the distance along the camera's axis, from the projection matrix.
-glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2& size_px) {
-    const glm::dmat4 projection = camera.projection(size_px);
-    return {0.5 - 0.5 * projection[2][2], 0.5 * projection[3][2] / spacing_mm};
-}
-
 PixelBox scissor_box() {
     std::array<GLint, 4> box{};
     glGetIntegerv(GL_SCISSOR_BOX, box.data());
@@ -38,6 +32,11 @@ PixelBox pixels_beside(const BoneTextures& bone, const Camera& camera, const glm
 }
 
 }  // namespace
+
+glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2& size_px) {
+    const glm::dmat4 projection = camera.projection(size_px);
+    return {0.5 - 0.5 * projection[2][2], 0.5 * projection[3][2] / spacing_mm};
+}
 
 void set_ray_uniforms(const gl::Program& program, const BoneTextures& bone, const Camera& camera,
                       const glm::ivec2& size_px, const RaycastSettings& settings) {

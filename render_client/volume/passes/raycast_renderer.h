@@ -22,6 +22,9 @@ struct RaycastSettings {
     float step_voxels = 0.5f;
 };
 
+/// Window depth = x + y / distance along the camera's axis, in voxels of `spacing_mm`.
+glm::vec2 depth_terms(const Camera& camera, double spacing_mm, const glm::ivec2& size_px);
+
 /// Sets the uniforms of camera_rays.vert.glsl and bone_rays.glsl in a program that BoneProgram::use has made
 /// ready.
 void set_ray_uniforms(const gl::Program& program, const BoneTextures& bone, const Camera& camera,

@@ -6,6 +6,23 @@
 
 namespace osteomill {
 
+namespace {
+
+constexpr int block_edge_px = 8;  // as the shaders have it
+
+/// The blocks that a box of the picture touches.
+PixelBox blocks_of(const PixelBox& box) {
+    const glm::ivec2 first = box.first / block_edge_px;
+    const glm::ivec2 last = (box.first + box.size - 1) / block_edge_px;
+    return {first, last - first + 1};
+}
+
+float pixel_width(const Camera& camera, const glm::ivec2& size_px) {
+    return static_cast<float>(2.0 * camera.half_extent(size_px).y / size_px.y);
+}
+
+}  // namespace
+
 const gl::Framebuffer& Silhouettes::begin(const glm::ivec2& size_px) {
     // As large as any picture so far: coarse and fine ones take turns.
     const glm::ivec2 needed = drawn_ ? glm::max(size_px, drawn_->size_px()) : size_px;
@@ -19,10 +36,38 @@ void Silhouettes::draw(const BoneTextures& bone, const Camera& camera, const Sce
                        const RaycastSettings& settings, const glm::ivec2& size_px, GLuint target,
                        const PixelBox& box, const PixelBox& near_bone) {
     drawn_->copy_to(target, box);
+    const bool is_seen = near_bone.size.x > 0 && near_bone.size.y > 0;
+    // Depth stays, and no pixel hides another.
+    const GLboolean tests_depth = glIsEnabled(GL_DEPTH_TEST);
+    glDisable(GL_DEPTH_TEST);
+    const PixelBox blocks = is_seen ? blocks_of(near_bone) : PixelBox{};
+    if (is_seen) find_leaps(bone, camera, size_px, blocks);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glViewport(0, 0, size_px.x, size_px.y);
-    if (near_bone.size.x <= 0 || near_bone.size.y <= 0) return;
-    glScissor(near_bone.first.x, near_bone.first.y, near_bone.size.x, near_bone.size.y);
+    if (is_seen) {
+        glScissor(near_bone.first.x, near_bone.first.y, near_bone.size.x, near_bone.size.y);
+        search(bone, camera, look, settings, size_px, blocks);
+    }
+    if (tests_depth == GL_TRUE) glEnable(GL_DEPTH_TEST);
+}
+
+void Silhouettes::find_leaps(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
+                             const PixelBox& blocks) {
+    const glm::ivec2 needed = blocks_of({{0, 0}, drawn_->size_px()}).size;
+    if (!blocks_ || blocks_->size_px() != needed) blocks_.emplace(needed);
+    blocks_->bind();
+    glScissor(blocks.first.x, blocks.first.y, blocks.size.x, blocks.size.y);
+    leaping_.use();
+    drawn_->bind_textures(0);
+    leaping_.set("drawn_depth", 1);
+    leaping_.set("picture_size", glm::vec2(size_px));
+    leaping_.set("depth_terms", depth_terms(camera, bone.grid().spacing_mm, size_px));
+    leaping_.set("pixel_width", pixel_width(camera, size_px));
+    leaping_.fill_picture();
+}
+
+void Silhouettes::search(const BoneTextures& bone, const Camera& camera, const SceneAppearance& look,
+                         const RaycastSettings& settings, const glm::ivec2& size_px, const PixelBox& blocks) {
     const gl::Program& program = program_.use(bone, look);
     set_ray_uniforms(program, bone, camera, size_px, settings);
     constexpr int colour_unit = BoneProgram::first_free_unit;
@@ -30,12 +75,12 @@ void Silhouettes::draw(const BoneTextures& bone, const Camera& camera, const Sce
     program.set("drawn_colour", colour_unit);
     program.set("drawn_depth", colour_unit + 1);
     program.set("picture_size", glm::vec2(size_px));
-    program.set("pixel_width", static_cast<float>(2.0 * camera.half_extent(size_px).y / size_px.y));
-    // Depth stays, and no pixel hides another.
-    const GLboolean tests_depth = glIsEnabled(GL_DEPTH_TEST);
-    glDisable(GL_DEPTH_TEST);
-    program.fill_picture();
-    if (tests_depth == GL_TRUE) glEnable(GL_DEPTH_TEST);
+    program.set("pixel_width", pixel_width(camera, size_px));
+    blocks_->bind_textures(colour_unit + 2);
+    program.set("leaping_blocks", colour_unit + 2);
+    program.set("first_block", glm::vec2(blocks.first));
+    program.set("block_counts", glm::vec2(blocks.size));
+    program.draw_triangles(2 * blocks.size.x * blocks.size.y);
 }
 
 }  // namespace osteomill

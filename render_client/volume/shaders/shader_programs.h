@@ -20,6 +20,7 @@ inline constexpr ProgramFiles gathered_light_files{
 inline constexpr ProgramFiles contact_shadow_files{"camera_rays.vert.glsl",
                                                    {"lighting.glsl", "contact_shadow.frag.glsl"}};
 inline constexpr ProgramFiles upscale_files{"upscale.vert.glsl", {"upscale.frag.glsl"}};
+inline constexpr ProgramFiles leaping_block_files{"whole_picture.vert.glsl", {"leaping_blocks.frag.glsl"}};
 inline constexpr ProgramFiles light_field_files{"upscale.vert.glsl",
                                                 {"lighting.glsl", "light_field.frag.glsl"}};
 inline constexpr ProgramFiles interleave_rows_files{"upscale.vert.glsl", {"interleave_rows.frag.glsl"}};
@@ -36,7 +37,7 @@ inline constexpr ProgramFiles bone_surface_files{
     "camera_rays.vert.glsl",
     {"lighting.glsl", "bone_shading.glsl", "bone_rays.glsl", "bone_surface.frag.glsl"}};
 inline constexpr ProgramFiles silhouette_files{
-    "camera_rays.vert.glsl",
+    "silhouettes.vert.glsl",
     {"lighting.glsl", "bone_shading.glsl", "bone_rays.glsl", "silhouettes.frag.glsl"}};
 inline constexpr ProgramFiles slice_files{
     "slice.vert.glsl", {"lighting.glsl", "bone_shading.glsl", "cut_shading.glsl", "slice.frag.glsl"}};
