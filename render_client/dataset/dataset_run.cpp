@@ -26,7 +26,7 @@ DatasetContents contents_of(const RenderOptions& options) {
             .randomise = dataset.randomise,
             .look = {.ambient_occlusion = options.ambient_occlusion,
                      .thin_bone = options.thin_bone,
-                     .smooth_silhouettes = options.smooth_silhouettes,
+                     .smooth_silhouettes = options.smooth_silhouettes.value_or(false),
                      .specular = options.specular ? static_cast<float>(*options.specular)
                                                   : usual_look(dataset.randomise.has_value()).specular,
                      .grain = options.grain,

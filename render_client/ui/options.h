@@ -40,7 +40,7 @@ struct RenderOptions {
     double magnification = 1.0;
     bool ambient_occlusion = true;
     bool thin_bone = true;
-    bool smooth_silhouettes = false;
+    std::optional<bool> smooth_silhouettes{};  ///< absent: in the window and films, not in image sets
     std::optional<double> specular{};  ///< highlights on bone; absent: as usual, none by another's lamps
     bool grain = true;                 ///< of bone
     bool neutral_sawn_faces = true;

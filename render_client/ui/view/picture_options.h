@@ -13,7 +13,7 @@ inline void take_over(SessionPicture& session, const RenderOptions& options) {
     view.theme = options.theme.value_or(ThemeName::dark);
     view.ambient_occlusion = options.ambient_occlusion;
     view.thin_bone = options.thin_bone;
-    view.smooth_silhouettes = options.smooth_silhouettes;
+    view.smooth_silhouettes = options.smooth_silhouettes.value_or(true);
     view.specular = static_cast<float>(options.specular.value_or(usual_wetness));
     view.grain = options.grain;
     view.neutral_sawn_faces = options.neutral_sawn_faces;

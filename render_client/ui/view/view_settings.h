@@ -39,7 +39,7 @@ struct ViewSettings {
     bool transfer_save_wanted = false;  ///< and somebody pressed the button
     bool slices_shown = false;
     bool ambient_occlusion = true;
-    bool smooth_silhouettes = false;
+    bool smooth_silhouettes = true;
     bool thin_bone = true;           ///< which shows things behind it
     float specular = usual_wetness;  ///< highlights on bone, see SceneAppearance
     bool grain = true;
