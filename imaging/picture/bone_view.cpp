@@ -165,16 +165,29 @@ class View {
         for (const Structure& structure : marks_.structures) {
             const auto bounds = structure.mask.bounds();
             if (!bounds || !meet(grown(box, SmoothBorder::reach_voxels), *bounds)) continue;
-            structure_borders_.emplace_back(structure.tissue, SmoothBorder(box, [&](const glm::ivec3& voxel) {
-                                                return structure.mask.contains(voxel);
-                                            }));
+            structure_borders_.emplace_back(&structure, SmoothBorder(box, [&](const glm::ivec3& voxel) {
+                return structure.mask.contains(voxel);
+            }));
         }
     }
 
-    std::optional<glm::dvec3> structure_colour(const glm::dvec3& place) const {
+    /// A structure's place without bone: beside bone, or milled. Not so at the surface of one that is bone,
+    /// which ends where bone does, between voxels.
+    bool lacks_bone(const Structure& structure, const glm::dvec3& place) {
+        bool has_empty = false;
+        for_voxels_about(place, [&](const glm::ivec3& voxel, double) {
+            const bool is_empty = !contains(bone_.grid(), voxel) || probe_.at(voxel) == 0.0;
+            has_empty = has_empty || (is_empty && structure.mask.contains(voxel));
+        });
+        return has_empty;
+    }
+
+    std::optional<glm::dvec3> structure_colour(const glm::dvec3& place) {
         if (tissue_borders_) {
-            for (const auto& [tissue, border] : structure_borders_)
-                if (border.holds(place)) return colours_[tissues_[tissue].label];
+            for (const auto& [structure, border] : structure_borders_)
+                if (border.holds(place) &&
+                    (probe_.between(place) > surface_fraction || lacks_bone(*structure, place)))
+                    return colours_[tissues_[structure->tissue].label];
             return std::nullopt;
         }
         for (const Structure& structure : marks_.structures)
@@ -207,7 +220,7 @@ class View {
     const SectionMarks& marks_;
     BoneSampler probe_;
     std::optional<TissueBorders> tissue_borders_;  // of a section; nothing: drawn voxel by voxel
-    std::vector<std::pair<std::size_t, SmoothBorder>> structure_borders_;
+    std::vector<std::pair<const Structure*, SmoothBorder>> structure_borders_;
     std::array<glm::dvec3, 256> colours_;
     glm::dvec3 light_{0.0};
 };

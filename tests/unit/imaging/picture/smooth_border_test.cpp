@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "imaging/picture/bone_view.h"
+#include "studies/render/made_bone.h"
 #include "tests/support/ball_structure.h"
 #include "tests/support/labelled_cube.h"
 
@@ -151,6 +152,36 @@ TEST_F(SectionBorders, DrawAStructuresBallAsACircle) {
         }
     EXPECT_LT(most_off_mm, 0.4 * spacing_mm);
     EXPECT_NEAR(std::sqrt(area_mm2 / std::numbers::pi), radius_mm, 0.15 * spacing_mm);
+}
+
+/// A tissue that borders on air, whose voxels are also a structure's, ends where bone ends: on a line, though
+/// voxels are filled in part.
+TEST_F(SectionBorders, DrawTheOuterBorderOfAStructureThatIsBoneWhereBoneEnds) {
+    const Grid grid{.size_voxels = {48, 48, 48}, .spacing_mm = spacing_mm, .origin_mm = glm::dvec3(-4.7)};
+    constexpr double slope = 0.13;
+    const auto depth_mm = [](const glm::dvec3& at) {
+        return (0.06 + slope * at.x - at.z) / std::hypot(1.0, slope);
+    };
+    const Bone bone = made_bone(grid, depth_mm, [](const glm::dvec3&) { return std::uint8_t{2}; });
+    std::vector<StructureBrick> bricks;
+    for (BrickIndex number = 0; number < 27; ++number) {
+        StructureBrick brick{.brick = number};
+        const glm::ivec3 first = brick_edge_voxels * brick_position(size_in_bricks(grid), number);
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
+            if (bone.fraction_at(first + voxel_in_brick(offset)) > 0) brick.voxels.set(offset);
+        if (brick.voxels.any()) bricks.push_back(brick);
+    }
+    const RgbPicture picture =
+        section(bone, {{.label = 2, .name = "sinus", .colour_rgb = {0, 0, 255}, .is_protected = true}},
+                {.structures = std::vector<Structure>{{0, StructureMask(grid, std::move(bricks))}}});
+    std::vector<double> off_voxels;
+    for (int column = 60; column < size_px - 60; ++column) {
+        int row = 0;
+        while (row < size_px && picture.rgb[place(row, column)] > 127) ++row;
+        off_voxels.push_back((-mm_of(row) - (0.06 + slope * mm_of(column))) / spacing_mm);
+    }
+    EXPECT_LT(errors(off_voxels).mean, 0.08);
+    EXPECT_LT(errors(off_voxels).most, 0.2);
 }
 
 TEST_F(SectionBorders, DrawTheBorderOfTwoTissuesAsALine) {
