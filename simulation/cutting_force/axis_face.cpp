@@ -35,7 +35,7 @@ double kernel_along(double x) {
     return 0.6 / (std::numbers::pi * disc) * (32.0 * 32.0 / 35.0 * s5 * s_squared - 19.0 * 16.0 / 15.0 * s5);
 }
 
-/// Of the look's, (1 - t)^2.
+/// The weight of the look's disc along one axis: (1 - t)^2, integrated across.
 double look_along(double x) {
     const double s_squared = std::max(0.0, 1.0 - x * x / (look_voxels * look_voxels));
     return 3.0 * 16.0 / 15.0 / (std::numbers::pi * look_voxels) * std::pow(s_squared, 2.5);
@@ -71,7 +71,7 @@ struct SeenVoxel {
 /// More than a ball of the look's reach holds.
 constexpr std::size_t most_seen = 192;
 
-/// What a larger ball would remove, weighed by the look's disc.
+/// The bone that a larger ball would remove, weighed by the look's disc.
 struct Larger {
     double all = 0.0;  ///< if bone were all about
     double there = 0.0;

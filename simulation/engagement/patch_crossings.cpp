@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<float, 4> offsets_voxels{-static_cast<float>(Engagement::reach_voxels), -0.5f, 0.5f,
                                               static_cast<float>(Engagement::reach_voxels)};
 
-/// Of whole bone at least this much is seen half a voxel behind the face that a burr has just cut; so bone of
+/// Half a voxel behind the face that a burr has just cut, at least this much is seen of whole bone; so bone of
 /// more is whole.
 constexpr float whole_near_face = 0.85f * 255.0f;
 /// Less may be the ramp of a wall beside the burr.

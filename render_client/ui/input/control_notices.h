@@ -1,4 +1,4 @@
-// What a window says of the outcome of requests to the session, in its language.
+// The lines of a window on the outcome of requests to the session, in its language.
 #pragma once
 
 #include <string>

@@ -23,7 +23,7 @@ using PanelText = std::vector<TextLine>;
 struct PictureProgress {
     double frames_per_s = 0.0;
     PictureQuality quality{};
-    /// Of a new bone or appearance; nothing when all is shown.
+    /// Progress of a new bone or appearance; nothing when all is shown.
     std::optional<int> preparation_percent{};
     /// The reason for a missing bone in the picture, if there is one.
     std::string bone_problem{};

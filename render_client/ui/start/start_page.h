@@ -109,7 +109,7 @@ class StartPage {
     void give_up_work();
 
     const FolderListing& listing() const { return listing_; }
-    /// What the browser's path field shows: a path that was written and is not there stays, to be mended.
+    /// The text of the browser's path field: a path that was written and is not there stays, to be mended.
     std::string path() const { return wrong_path_.empty() ? listing_.folder.string() : wrong_path_; }
     /// With the files that suit the browser's purpose.
     void browse(const std::filesystem::path& folder);

@@ -23,7 +23,7 @@ glm::dvec3 leaning_back(double tilt_deg) {
     return {-std::sin(tilt_deg * degree), 0.0, std::cos(tilt_deg * degree)};
 }
 
-/// What a burr of 2 mm meets that went along x in bone of `depth_mm` and goes on.
+/// The end of the face for a burr of 2 mm that went along x in bone of `depth_mm` and goes on.
 FaceEnd face_end(const std::function<double(const glm::dvec3&)>& depth_mm, const glm::dvec3& at_mm,
                  const glm::dvec3& axis) {
     MillingModel model(testing::make_block({-2.0, -1.6, -1.6}, {2.0, 1.6, 1.6}, voxel_mm, depth_mm),
@@ -75,7 +75,7 @@ TEST(AxisFace, BoneThatIsThinAllAboutHasNoLine) {
         EXPECT_LT(glm::length(face_end(thin, at_mm, leaning_back(50.0)).across), 0.2);
 }
 
-/// Of the mean force, on surfaces along the lattice and aslant.
+/// The largest error of the mean force, on surfaces along the lattice and aslant.
 double largest_error(double diameter_mm, double depth_mm, double tilt_deg,
                      std::optional<double> groove_mm_higher,
                      const glm::dvec3& edge_n_per_mm = glm::dvec3(0.0)) {
