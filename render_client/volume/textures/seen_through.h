@@ -63,8 +63,8 @@ class SeenThrough {
 
     /// Two bytes a place: nearness, the tissue's number.
     const gl::Texture3D& texture() const { return texture_; }
-    /// The number of the tissue with that label: above 0, and as far from all others as a byte allows, so that
-    /// a number between two places shows whether they have the same tissue; 0 if it is not seen.
+    /// The number of the tissue with that label: above 0, and as far from all others as a byte allows, so
+    /// that a number between two places shows whether they have the same tissue; 0 if it is not seen.
     std::uint8_t number_of(std::uint8_t label) const { return numbers_[label]; }
     const SeenLattice& lattice() const { return lattice_; }
     /// Distance, voxels, at a nearness n from 0 to 1: farthest_voxels() - n span_voxels().
