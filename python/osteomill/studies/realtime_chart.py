@@ -39,6 +39,7 @@ def chart_of(table: pd.DataFrame) -> Figure:
         shares.set_title("no load besides its own" if load == "no load" else f"under {load}")
         longer.set(xlabel="microseconds", yscale="log", ylim=(1e-6, 1.0))
         longer.xaxis.set_major_formatter("{x:g}")
+        longer.yaxis.set_major_formatter("{x:g}")
         if column == 0:
             shares.set_ylabel("share of a bin (a sixth of an octave), %")
             longer.set_ylabel("share that takes longer")
