@@ -99,6 +99,12 @@ class ResultPicturesTest(unittest.TestCase):
             if picture.suffix == ".svg":
                 self.assertTrue((picture.parent / "manifest.json").exists(), picture)
 
+    def test_no_chart_shows_the_source_of_a_formula(self):
+        """The usual numbers of a logarithmic axis are TeX, which charts do not set: text stays text in them."""
+        for picture in PICTURES:
+            if picture.suffix == ".svg":
+                self.assertNotIn("mathdefault", picture.read_text(), picture)
+
     def test_finds_what_is_amiss(self):
         section = "# A\n```bash\nbuild/release/bin/osteomill_study tradeoff --glue 3 --out x  # --paste\n```\n![a](a.svg)\n"
         self.assertEqual(why_not_today(commands(section)[0]), "osteomill_study knows no --glue")
