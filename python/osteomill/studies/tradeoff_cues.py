@@ -2,7 +2,7 @@
 
 A cue is on by default if it takes less than a tenth of a frame. Frames with it and without are drawn in turns in one run, so
 that the machine's other work affects both alike; its cost is the median of such pairs. Silhouettes, smoothed and not, are held
-against a picture of 4 x 4 rays a pixel, on the pixels in which depth leaps by a millimetre.
+against a picture of 4 x 4 rays a pixel, on the pixels at which depth jumps by a millimetre.
 """
 
 from typing import Any

@@ -41,7 +41,7 @@ void Silhouettes::draw(const BoneTextures& bone, const Camera& camera, const Sce
     const GLboolean tests_depth = glIsEnabled(GL_DEPTH_TEST);
     glDisable(GL_DEPTH_TEST);
     const PixelBox blocks = is_seen ? blocks_of(near_bone) : PixelBox{};
-    if (is_seen) find_leaps(bone, camera, size_px, blocks);
+    if (is_seen) find_discontinuities(bone, camera, size_px, blocks);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glViewport(0, 0, size_px.x, size_px.y);
     if (is_seen) {
@@ -51,19 +51,19 @@ void Silhouettes::draw(const BoneTextures& bone, const Camera& camera, const Sce
     if (tests_depth == GL_TRUE) glEnable(GL_DEPTH_TEST);
 }
 
-void Silhouettes::find_leaps(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
-                             const PixelBox& blocks) {
+void Silhouettes::find_discontinuities(const BoneTextures& bone, const Camera& camera,
+                                       const glm::ivec2& size_px, const PixelBox& blocks) {
     const glm::ivec2 needed = blocks_of({{0, 0}, drawn_->size_px()}).size;
     if (!blocks_ || blocks_->size_px() != needed) blocks_.emplace(needed);
     blocks_->bind();
     glScissor(blocks.first.x, blocks.first.y, blocks.size.x, blocks.size.y);
-    leaping_.use();
+    block_program_.use();
     drawn_->bind_textures(0);
-    leaping_.set("drawn_depth", 1);
-    leaping_.set("picture_size", glm::vec2(size_px));
-    leaping_.set("depth_terms", depth_terms(camera, bone.grid().spacing_mm, size_px));
-    leaping_.set("pixel_width", pixel_width(camera, size_px));
-    leaping_.fill_picture();
+    block_program_.set("drawn_depth", 1);
+    block_program_.set("picture_size", glm::vec2(size_px));
+    block_program_.set("depth_terms", depth_terms(camera, bone.grid().spacing_mm, size_px));
+    block_program_.set("pixel_width", pixel_width(camera, size_px));
+    block_program_.fill_picture();
 }
 
 void Silhouettes::search(const BoneTextures& bone, const Camera& camera, const SceneAppearance& look,
@@ -77,7 +77,7 @@ void Silhouettes::search(const BoneTextures& bone, const Camera& camera, const S
     program.set("picture_size", glm::vec2(size_px));
     program.set("pixel_width", pixel_width(camera, size_px));
     blocks_->bind_textures(colour_unit + 2);
-    program.set("leaping_blocks", colour_unit + 2);
+    program.set("discontinuity_blocks", colour_unit + 2);
     program.set("first_block", glm::vec2(blocks.first));
     program.set("block_counts", glm::vec2(blocks.size));
     program.draw_triangles(2 * blocks.size.x * blocks.size.y);

@@ -1,10 +1,10 @@
-// Antialiased silhouettes of the bone: where depth leaps between two pixels, each is a mixture of the colours
+// Antialiased silhouettes of the bone: where depth jumps between two pixels, each is a mixture of the colours
 // on either side, by the share of it that the nearer surface covers.
 //
 // One ray for each such pixel finds the share: it looks for the fullest place near the surface's outline
 // (silhouettes.frag.glsl). The picture's own rays are not drawn again, and nothing is shaded twice. Other
 // pixels, and depth, stay as they were drawn. Display colours are mixed, as in the scaling of pictures. Only
-// blocks of 8 x 8 pixels in which depth leaps are searched (leaping_blocks.frag.glsl).
+// blocks of 8 x 8 pixels with a depth discontinuity are searched (discontinuity_blocks.frag.glsl).
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct RaycastSettings;
 
 class Silhouettes {
   public:
-    Silhouettes() : program_(silhouette_files), leaping_(make_program(leaping_block_files)) {}
+    Silhouettes() : program_(silhouette_files), block_program_(make_program(discontinuity_block_files)) {}
 
     /// A picture to draw the bone into beforehand, bound, its viewport of that size; it may be larger.
     const gl::Framebuffer& begin(const glm::ivec2& size_px);
@@ -32,15 +32,15 @@ class Silhouettes {
               const PixelBox& near_bone);
 
   private:
-    void find_leaps(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
-                    const PixelBox& blocks);
+    void find_discontinuities(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
+                              const PixelBox& blocks);
     void search(const BoneTextures& bone, const Camera& camera, const SceneAppearance& look,
                 const RaycastSettings& settings, const glm::ivec2& size_px, const PixelBox& blocks);
 
     BoneProgram program_;
-    gl::Program leaping_;
+    gl::Program block_program_;
     std::optional<gl::Framebuffer> drawn_;
-    std::optional<gl::Framebuffer> blocks_;  ///< a pixel each: whether depth leaps there
+    std::optional<gl::Framebuffer> blocks_;  ///< a pixel each: whether depth is discontinuous there
 };
 
 }  // namespace osteomill

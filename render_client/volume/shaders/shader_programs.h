@@ -20,7 +20,8 @@ inline constexpr ProgramFiles gathered_light_files{
 inline constexpr ProgramFiles contact_shadow_files{"camera_rays.vert.glsl",
                                                    {"lighting.glsl", "contact_shadow.frag.glsl"}};
 inline constexpr ProgramFiles upscale_files{"upscale.vert.glsl", {"upscale.frag.glsl"}};
-inline constexpr ProgramFiles leaping_block_files{"whole_picture.vert.glsl", {"leaping_blocks.frag.glsl"}};
+inline constexpr ProgramFiles discontinuity_block_files{"whole_picture.vert.glsl",
+                                                        {"discontinuity_blocks.frag.glsl"}};
 inline constexpr ProgramFiles light_field_files{"upscale.vert.glsl",
                                                 {"lighting.glsl", "light_field.frag.glsl"}};
 inline constexpr ProgramFiles interleave_rows_files{"upscale.vert.glsl", {"interleave_rows.frag.glsl"}};

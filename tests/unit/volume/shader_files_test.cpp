@@ -40,8 +40,8 @@ std::vector<std::string_view> behind_bone_sampling(std::string_view places, cons
 TEST_F(ShaderFilesTest, AllCompileInAllTheirPrograms) {
     std::set<std::string_view> used;
     for (const ProgramFiles& files :
-         {background_files, gathered_light_files, contact_shadow_files, leaping_block_files, upscale_files,
-          interleave_rows_files, light_field_files, tool_files, mesh_surface_files}) {
+         {background_files, gathered_light_files, contact_shadow_files, discontinuity_block_files,
+          upscale_files, interleave_rows_files, light_field_files, tool_files, mesh_surface_files}) {
         EXPECT_NO_THROW(make_program(files)) << files.vertex;
         used.insert(files.vertex);
         used.insert(files.fragment.begin(), files.fragment.end());

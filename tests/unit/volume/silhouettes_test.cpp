@@ -33,7 +33,7 @@ void draw(RaycastRenderer& renderer, const gl::Framebuffer& framebuffer, const B
     renderer.draw(textures, camera, framebuffer.size_px());
 }
 
-TEST_F(SilhouettesTest, ChangeWhatIsBesideALeapOfDepthAndNothingElse) {
+TEST_F(SilhouettesTest, ChangeWhatIsBesideADepthDiscontinuityAndNothingElse) {
     const BoneTextures textures(carved_ball(), {});
     const gl::Framebuffer plain(size_px), smooth(size_px);
     RaycastRenderer plain_renderer, smooth_renderer;
@@ -73,7 +73,7 @@ TEST_F(SilhouettesTest, AreTheSameInPartsAsInTheWhole) {
     draw(renderer, whole, textures, ball_camera());
     const gl::Framebuffer coarse(size_px / 2);
     draw(renderer, coarse, textures, ball_camera());  // the renderer draws other sizes in between
-    // The second kind cuts through the blocks that are searched for leaps.
+    // The second kind cuts through the blocks that are searched for depth discontinuities.
     for (const glm::ivec2 part : {glm::ivec2(80, 48), glm::ivec2(61, 45)}) {
         parts.bind();
         glClear(GL_COLOR_BUFFER_BIT);
