@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "common/scene/scene_keys.h"
 #include "common/text/plain_text.h"
 
 namespace osteomill {
@@ -30,8 +31,7 @@ PlaneGuide read_plane(TomlReader reader) {
     return plane;
 }
 
-/// With its spring.
-void read_guide(TomlReader& reader, Fixture& fixture) {
+void read_path(TomlReader& reader, Fixture& fixture) {
     const std::optional<TomlReader> line = reader.table("line");
     const std::optional<TomlReader> plane = reader.table("plane");
     if (line.has_value() == plane.has_value())
@@ -42,8 +42,6 @@ void read_guide(TomlReader& reader, Fixture& fixture) {
         fixture.path = read_line(*line);
     else
         fixture.path = read_plane(*plane);
-    fixture.radius_mm = reader.number("radius_mm", {0.0, 100.0}).value_or(fixture.radius_mm);
-    fixture.reach_mm = reader.number("reach_mm", {0.1, 100.0}).value_or(fixture.reach_mm);
 }
 
 std::string read_tissue(TomlReader& reader, std::span<const Tissue> tissues) {
@@ -67,23 +65,11 @@ Fixture read_fixture(TomlReader& reader, std::span<const Tissue> tissues) {
     Fixture fixture =
         usual_fixture(static_cast<FixtureKind>(required(reader, "kind", reader.choice("kind", kind_names))));
     fixture.name = std::move(name);
-    fixture.is_on = reader.truth("on").value_or(true);
-    if (fixture.kind == FixtureKind::guide) {
-        read_guide(reader, fixture);
-    } else {
+    if (fixture.kind == FixtureKind::guide)
+        read_path(reader, fixture);
+    else
         fixture.tissue = read_tissue(reader, tissues);
-        fixture.distance_mm = reader.number("distance_mm", {0.0, 10.0}).value_or(fixture.distance_mm);
-    }
-    fixture.fade_mm = reader.number("fade_mm", {0.05, 20.0}).value_or(fixture.fade_mm);
-    fixture.damping_n_s_per_m =
-        reader.number("damping_n_s_per_m", {0.0, 1000.0}).value_or(fixture.damping_n_s_per_m);
-    if (fixture.kind == FixtureKind::slow) {
-        fixture.spindle_share = reader.number("spindle_share", {0.1, 1.0}).value_or(fixture.spindle_share);
-    } else {
-        fixture.stiffness_n_per_mm =
-            reader.number("stiffness_n_per_mm", {0.01, 20.0}).value_or(fixture.stiffness_n_per_mm);
-        fixture.max_force_n = reader.number("max_force_n", {0.05, 20.0}).value_or(fixture.max_force_n);
-    }
+    scene_keys::of_fixture(reader, fixture, usual_fixture(fixture.kind));
     reader.refuse_other_keys();
     if (fixture.kind == FixtureKind::guide && fixture.reach_mm <= fixture.fade_mm)
         reader.fail("reach_mm",

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "common/scene/scene_keys.h"
+
 namespace osteomill {
 
 namespace {
@@ -45,7 +47,8 @@ CylinderRegion read_cylinder(TomlReader reader) {
 
 }  // namespace
 
-std::optional<PlanRegion> read_region(TomlReader& reader, std::span<const Tissue> tissues, const char* table) {
+std::optional<PlanRegion> read_region(TomlReader& reader, std::span<const Tissue> tissues,
+                                      const char* table) {
     const std::optional<std::string> tissue = reader.text("tissue");
     const std::optional<TomlReader> sphere = reader.table("sphere");
     const std::optional<TomlReader> cylinder = reader.table("cylinder");
@@ -60,7 +63,7 @@ std::optional<PlanRegion> read_region(TomlReader& reader, std::span<const Tissue
 Plan read_plan(TomlReader reader, std::span<const Tissue> tissues) {
     Plan plan;
     std::optional<PlanRegion> region = read_region(reader, tissues, "[plan]");
-    plan.margin_mm = reader.number("margin_mm", {0.0, most_mm}).value_or(plan.margin_mm);
+    scene_keys::of_plan(reader, plan, Plan());
     reader.refuse_other_keys();
     if (!region) reader.fail("tissue", std::string("[plan] takes one of ") + region_keys);
     plan.region = *std::move(region);

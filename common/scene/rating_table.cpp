@@ -8,6 +8,7 @@
 #include "common/scene/plan_table.h"
 #include "common/scene/rating_condition.h"
 #include "common/scene/rating_quantities.h"
+#include "common/scene/scene_keys.h"
 #include "common/text/plain_text.h"
 
 namespace osteomill {
@@ -73,7 +74,7 @@ std::string bounded(TomlReader& reader, const char* key, std::size_t most) {
 RatingItem read_item(TomlReader& reader, const Scene& scene) {
     RatingItem item{.name = bounded(reader, "name", longest_rating_name)};
     if (item.name.empty()) reader.fail_missing("name");
-    item.points = reader.number("points", {0.01, most_rating_points}).value_or(item.points);
+    scene_keys::of_rating_item(reader, item, RatingItem());
     item.when = bounded(reader, "when", longest_rating_condition);
     item.source = bounded(reader, "source", longest_rating_source);
     item.region = read_region(reader, scene.tissues, "[[rating]]");

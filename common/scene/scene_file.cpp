@@ -12,6 +12,7 @@
 #include "common/scene/phantom_names.h"
 #include "common/scene/plan_table.h"
 #include "common/scene/rating_table.h"
+#include "common/scene/scene_keys.h"
 #include "common/scene/tissue_tables.h"
 #include "common/scene/toml_reader.h"
 #include "common/scene/toml_text.h"
@@ -21,11 +22,8 @@ namespace osteomill {
 
 namespace {
 
-constexpr double seconds_per_minute = 60.0;
-
 const std::vector<std::string> motion_names(trajectory_names.begin(), trajectory_names.end());
 const std::vector<std::string> phantom_choices(phantom_names.begin(), phantom_names.end());
-const std::vector<std::string> sense_names(spindle_sense_names.begin(), spindle_sense_names.end());
 
 std::filesystem::path resolved(const std::string& path, const std::filesystem::path& folder) {
     const std::filesystem::path given(path);
@@ -106,34 +104,23 @@ Burr read_burr(TomlReader& reader) {
     burr.name = required(reader, "name", reader.text("name"));
     burr.diameter_mm = required(reader, "diameter_mm", reader.number("diameter_mm", {0.2, 20.0}));
     burr.head = read_head(reader, burr.diameter_mm);
-    burr.edges = static_cast<int>(reader.whole_number("edges", 1, 64).value_or(burr.edges));
-    burr.spindle_rev_per_s =
-        reader.number("rpm", {100.0, 500'000.0}).value_or(default_spindle_rpm) / seconds_per_minute;
-    burr.cutting_coefficients_n_per_mm2 =
-        reader.vector("cutting_coefficients_n_per_mm2").value_or(burr.cutting_coefficients_n_per_mm2);
+    scene_keys::of_burr(reader, burr, Burr());
     const glm::dvec3& k = burr.cutting_coefficients_n_per_mm2;
     if (!(k.x > 0.0 && k.y >= 0.0 && k.z >= 0.0 && k.x < 1e5 && k.y < 1e5 && k.z < 1e5))
         reader.fail("cutting_coefficients_n_per_mm2",
                     "K_t must be above 0, K_r and K_a at least 0, all below 100000 N/mm^2");
-    burr.edge_coefficients_n_per_mm =
-        reader.vector("edge_coefficients_n_per_mm").value_or(burr.edge_coefficients_n_per_mm);
     const glm::dvec3& e = burr.edge_coefficients_n_per_mm;
     if (!(e.x >= 0.0 && e.y >= 0.0 && e.z >= 0.0 && e.x <= 100.0 && e.y <= 100.0 && e.z <= 100.0))
         reader.fail("edge_coefficients_n_per_mm",
                     "K_te, K_re and K_ae must be at least 0 and at most 100 N/mm");
-    burr.sense = reader.choice("turns", sense_names).value_or(0) == 0 ? SpindleSense::clockwise
-                                                                      : SpindleSense::counter_clockwise;
     burr.shank = read_shank(reader, burr.radius_mm());
-    burr.run_out_mm = reader.number("run_out_mm", {0.0, 0.2}).value_or(burr.run_out_mm);
     reader.refuse_other_keys();
     return burr;
 }
 
 Motor read_motor(TomlReader reader) {
     Motor motor;
-    motor.stall_torque_n_mm =
-        required(reader, "stall_torque_n_mm", reader.number("stall_torque_n_mm", {0.01, 10'000.0}));
-    motor.steady_torque_n_mm = reader.number("steady_torque_n_mm", {0.0, 10'000.0}).value_or(0.0);
+    scene_keys::of_motor(reader, motor);
     reader.refuse_other_keys();
     if (motor.steady_torque_n_mm >= motor.stall_torque_n_mm)
         reader.fail("steady_torque_n_mm", "'steady_torque_n_mm' must be below 'stall_torque_n_mm'");
@@ -168,16 +155,14 @@ DeviceMapping read_device(TomlReader reader) {
                         "'rotation' must be orthonormal with determinant +1 (rows of a rotation matrix)");
         mapping.rotation = orthonormal(mapping.rotation, defect);
     }
-    mapping.scale = reader.number("scale", {0.01, 100.0}).value_or(mapping.scale);
-    mapping.offset_mm = reader.place("offset_mm").value_or(mapping.offset_mm);
+    scene_keys::of_device(reader, mapping, DeviceMapping());
     reader.refuse_other_keys();
     return mapping;
 }
 
 ToolPose read_pose(TomlReader reader) {
     ToolPose pose;
-    pose.position_mm = reader.place("position_mm").value_or(pose.position_mm);
-    pose.spindle_axis = reader.direction("spindle_axis").value_or(pose.spindle_axis);
+    scene_keys::of_start_pose(reader, pose, ToolPose());
     reader.refuse_other_keys();
     return pose;
 }
@@ -186,11 +171,7 @@ TrajectorySpec read_trajectory(TomlReader reader, const std::filesystem::path& f
     TrajectorySpec spec;
     const std::optional<std::size_t> motion = reader.choice("motion", motion_names);
     const std::optional<std::string> file = reader.text("file");
-    spec.start_mm = reader.place("start_mm").value_or(spec.start_mm);
-    spec.travel_direction = reader.direction("travel_direction").value_or(spec.travel_direction);
-    spec.speed_mm_per_s = reader.number("speed_mm_per_s", {0.01, 500.0}).value_or(spec.speed_mm_per_s);
-    spec.depth_mm = reader.number("depth_mm", {0.01, 200.0}).value_or(spec.depth_mm);
-    spec.width_mm = reader.number("width_mm", {0.01, 500.0}).value_or(spec.width_mm);
+    scene_keys::of_trajectory(reader, spec, TrajectorySpec());
     reader.refuse_other_keys();
     if (motion.has_value() == file.has_value())
         reader.fail("motion",
@@ -218,7 +199,7 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
     const auto* file = std::get_if<FileSource>(&scene.bone);
     scene.tissues = read_tissues(reader.tables("tissues"), file != nullptr && !file->segmentation.empty());
     for (TomlReader& burr : reader.tables("burrs")) scene.burrs.push_back(read_burr(burr));
-    if (scene.burrs.empty()) scene.burrs = default_burr_set(default_spindle_rpm / seconds_per_minute);
+    if (scene.burrs.empty()) scene.burrs = default_burr_set(Burr().spindle_rev_per_s);
     std::vector<std::string> burr_names;
     for (const Burr& burr : scene.burrs) {
         if (std::find(burr_names.begin(), burr_names.end(), burr.name) != burr_names.end())
@@ -226,11 +207,10 @@ Scene read_all(TomlReader reader, const std::filesystem::path& folder) {
         burr_names.push_back(burr.name);
     }
     scene.start_burr = reader.choice("start_burr", burr_names).value_or(0);
-    scene.wall_friction = reader.number("wall_friction", {0.0, 1.0}).value_or(scene.wall_friction);
-    scene.force_scale = reader.number("force_scale", {0.1, 10.0}).value_or(scene.force_scale);
+    scene_keys::of_scene(reader, scene, Scene());
     if (auto table = reader.table("motor")) scene.motor = read_motor(*table);
     if (auto table = reader.table("coupling")) {
-        scene.feed_forward = table->truth("feed_forward").value_or(scene.feed_forward);
+        scene_keys::of_coupling(*table, scene, Scene());
         table->refuse_other_keys();
     }
     if (auto table = reader.table("device")) scene.device = read_device(*table);

@@ -8,7 +8,7 @@
 
 #include "common/scene/material.h"
 #include "common/scene/scene_file.h"
-#include "common/scene/tissue_tables.h"
+#include "common/scene/scene_keys.h"
 #include "common/scene/toml_text.h"
 
 namespace osteomill {
@@ -17,6 +17,10 @@ namespace {
 
 /// Reads back as the same number, bit for bit.
 std::string as_toml(double number) {
+    return fmt::format("{}", number);
+}
+
+std::string as_toml(int number) {
     return fmt::format("{}", number);
 }
 
@@ -44,6 +48,17 @@ std::string as_toml(const glm::dvec3& v) {
     return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
 }
 
+/// The rpm that reads back as this speed, bit for bit, in as few digits as there are: rounding may put the
+/// plain product one step beside it.
+double rpm_of(double rev_per_s) {
+    constexpr double seconds_per_minute = 60.0;
+    const double product = rev_per_s * seconds_per_minute;
+    for (const double rpm :
+         {std::round(product), product, std::nextafter(product, 0.0), std::nextafter(product, HUGE_VAL)})
+        if (rpm / seconds_per_minute == rev_per_s) return rpm;
+    return product;
+}
+
 /// Keys of one table, each on a line.
 class Keys {
   public:
@@ -58,6 +73,29 @@ class Keys {
     template <typename Value>
     Keys& add(const char* key, const Value& value, const Value& usual) {
         return value == usual && !is_complete_ ? *this : add(key, value);
+    }
+    // The keys of scene_keys.h.
+    void number(const char* key, double value, double usual, const AllowedRange& /*range*/) {
+        add(key, value, usual);
+    }
+    void needed_number(const char* key, double value, const AllowedRange& /*range*/) { add(key, value); }
+    void whole_number(const char* key, int value, int usual, int /*low*/, int /*high*/) {
+        add(key, value, usual);
+    }
+    void rpm(const char* key, double rev_per_s, double usual_rev_per_s, const AllowedRange& /*range*/) {
+        add(key, rpm_of(rev_per_s), rpm_of(usual_rev_per_s));
+    }
+    void truth(const char* key, bool value, bool usual) { add(key, value, usual); }
+    void vector(const char* key, const glm::dvec3& value, const glm::dvec3& usual) { add(key, value, usual); }
+    void place(const char* key, const glm::dvec3& value, const glm::dvec3& usual) { add(key, value, usual); }
+    void direction(const char* key, const glm::dvec3& value, const glm::dvec3& usual) {
+        add(key, value, usual);
+    }
+    void text(const char* key, const std::string& value) { add_if_any(key, value); }
+    template <typename Choice, typename Names>
+    void choice(const char* key, Choice value, Choice usual, const Names& names) {
+        add(key, std::string(names[static_cast<std::size_t>(value)]),
+            std::string(names[static_cast<std::size_t>(usual)]));
     }
     /// Nothing if there is none.
     template <typename Value>
@@ -76,17 +114,6 @@ class Keys {
     bool is_complete_;
     std::string text_;
 };
-
-/// The rpm that reads back as this speed, bit for bit, in as few digits as there are: rounding may put the
-/// plain product one step beside it.
-double rpm_of(double rev_per_s) {
-    constexpr double seconds_per_minute = 60.0;
-    const double product = rev_per_s * seconds_per_minute;
-    for (const double rpm :
-         {std::round(product), product, std::nextafter(product, 0.0), std::nextafter(product, HUGE_VAL)})
-        if (rpm / seconds_per_minute == rev_per_s) return rpm;
-    return product;
-}
 
 std::string bone_text(const std::variant<PhantomSource, FileSource>& bone, SceneText extent) {
     Keys keys(extent);
@@ -116,16 +143,11 @@ std::string colour_text(const std::array<std::uint8_t, 3>& rgb) {
 
 std::string tissue_text(const Tissue& tissue, SceneText extent) {
     Keys keys(extent);
-    keys.add_text(fmt::format("label = {}\n", tissue.label))
+    keys.add("label", int{tissue.label})
         .add("name", tissue.name)
         .add("colour", colour_text(tissue.colour_rgb))
-        .add("identifier", colour_text(identifier_of(tissue)), colour_text(tissue.colour_rgb))
-        .add_if_any("segment", tissue.segment)
-        .add("protected", tissue.is_protected, false)
-        .add("warn_mm", tissue.warn_mm, usual_warn_mm(tissue.is_protected))
-        .add("opacity", tissue.opacity, 1.0)
-        .add("shows_through_mm", tissue.shows_through_mm, usual_shows_through_mm(tissue.is_protected))
-        .add("shows_through_strength", tissue.shows_through_strength, Tissue().shows_through_strength);
+        .add("identifier", colour_text(identifier_of(tissue)), colour_text(tissue.colour_rgb));
+    scene_keys::of_tissue(keys, tissue, Tissue());
     if (tissue.strength) {
         const TissueStrength& strength = *tissue.strength;
         const TissueStrength usual = usual_strength(strength);
@@ -136,7 +158,7 @@ std::string tissue_text(const Tissue& tissue, SceneText extent) {
             keys.add("relative_stiffness", strength.relative_stiffness, usual.relative_stiffness);
         keys.add("relative_edge", strength.relative_edge, usual.relative_edge);
     }
-    keys.add("stiffness_factor", tissue.stiffness_factor, 1.0).add("cuttable", tissue.is_cuttable, true);
+    scene_keys::of_tissue_under_burr(keys, tissue, Tissue());
     return "\n[[tissues]]\n" + keys.text();
 }
 
@@ -149,16 +171,7 @@ std::string burr_text(const Burr& burr, SceneText extent) {
         if (burr.head.shape != HeadShape::pear) keys.add("tip_diameter_mm", burr.head.tip_diameter_mm);
         keys.add("neck_diameter_mm", burr.head.neck_diameter_mm);
     }
-    const Burr usual;
-    if (burr.edges != usual.edges || extent == SceneText::complete)
-        keys.add_text(fmt::format("edges = {}\n", burr.edges));
-    keys.add("rpm", rpm_of(burr.spindle_rev_per_s), default_spindle_rpm)
-        .add("cutting_coefficients_n_per_mm2", burr.cutting_coefficients_n_per_mm2,
-             usual.cutting_coefficients_n_per_mm2)
-        .add("edge_coefficients_n_per_mm", burr.edge_coefficients_n_per_mm, usual.edge_coefficients_n_per_mm);
-    keys.add("turns", std::string(spindle_sense_names[burr.sense == SpindleSense::clockwise ? 0 : 1]),
-             std::string(spindle_sense_names[0]));
-    keys.add("run_out_mm", burr.run_out_mm, usual.run_out_mm);
+    scene_keys::of_burr(keys, burr, Burr());
     std::string shank;
     for (const ShankPoint& point : burr.shank)
         shank += fmt::format("{}[{}, {}]", shank.empty() ? "" : ", ", point.height_mm, point.radius_mm);
@@ -174,15 +187,13 @@ std::string device_text(const DeviceMapping& device, SceneText extent) {
         keys.add_text(
             fmt::format("rotation = [{}, {}, {}]\n", as_toml(rows[0]), as_toml(rows[1]), as_toml(rows[2])));
     }
-    keys.add("scale", device.scale, usual.scale).add("offset_mm", device.offset_mm, usual.offset_mm);
+    scene_keys::of_device(keys, device, usual);
     return keys.below("\n# How the device lies on the patient.\n[device]\n");
 }
 
 std::string pose_text(const ToolPose& pose, SceneText extent) {
-    const ToolPose usual;
     Keys keys(extent);
-    keys.add("position_mm", pose.position_mm, usual.position_mm)
-        .add("spindle_axis", pose.spindle_axis, usual.spindle_axis);
+    scene_keys::of_start_pose(keys, pose, ToolPose());
     return keys.below(
         "\n# Where the tool starts: the burr's centre, and the direction from tip to shank.\n[start_pose]\n");
 }
@@ -195,11 +206,7 @@ std::string trajectory_text(const TrajectorySpec& trajectory, SceneText extent) 
         keys.add("motion", trajectory_names[static_cast<std::size_t>(*motion)]);
     else
         keys.add("file", std::get<std::filesystem::path>(trajectory.source));
-    keys.add("start_mm", trajectory.start_mm, usual.start_mm)
-        .add("travel_direction", trajectory.travel_direction, usual.travel_direction)
-        .add("speed_mm_per_s", trajectory.speed_mm_per_s, usual.speed_mm_per_s)
-        .add("depth_mm", trajectory.depth_mm, usual.depth_mm)
-        .add("width_mm", trajectory.width_mm, usual.width_mm);
+    scene_keys::of_trajectory(keys, trajectory, usual);
     return keys.below("\n# The motion of a simulated hand.\n[trajectory]\n");
 }
 
@@ -216,7 +223,7 @@ void add_region(Keys& keys, const PlanRegion& region) {
 std::string plan_text(const Plan& plan, SceneText extent) {
     Keys keys(extent);
     add_region(keys, plan.region);
-    keys.add("margin_mm", plan.margin_mm, Plan().margin_mm);
+    scene_keys::of_plan(keys, plan, Plan());
     return keys.below("\n# The bone to remove.\n[plan]\n");
 }
 
@@ -224,7 +231,9 @@ std::string rating_text(const Rating& rating, SceneText extent) {
     std::string text = rating.empty() ? "" : "\n# Items that earn a session points.\n";
     for (const RatingItem& item : rating) {
         Keys keys(extent);
-        keys.add("name", item.name).add("points", item.points, RatingItem().points).add("when", item.when);
+        keys.add("name", item.name);
+        scene_keys::of_rating_item(keys, item, RatingItem());
+        keys.add("when", item.when);
         keys.add_if_any("source", item.source);
         if (item.region) add_region(keys, *item.region);
         text += "[[rating]]\n" + keys.text();
@@ -242,37 +251,25 @@ std::string path_text(const std::variant<LineGuide, PlaneGuide>& path) {
 }
 
 std::string fixture_text(const Fixture& fixture, SceneText extent) {
-    const Fixture usual = usual_fixture(fixture.kind);
     Keys keys(extent);
-    keys.add("name", fixture.name)
-        .add("kind", fixture_kind_names[static_cast<std::size_t>(fixture.kind)])
-        .add("on", fixture.is_on, true);
+    keys.add("name", fixture.name).add("kind", fixture_kind_names[static_cast<std::size_t>(fixture.kind)]);
     if (fixture.kind == FixtureKind::guide)
-        keys.add_text(path_text(fixture.path))
-            .add("radius_mm", fixture.radius_mm, usual.radius_mm)
-            .add("reach_mm", fixture.reach_mm, usual.reach_mm);
+        keys.add_text(path_text(fixture.path));
     else
-        keys.add("tissue", fixture.tissue).add("distance_mm", fixture.distance_mm, usual.distance_mm);
-    keys.add("fade_mm", fixture.fade_mm, usual.fade_mm)
-        .add("damping_n_s_per_m", fixture.damping_n_s_per_m, usual.damping_n_s_per_m);
-    if (fixture.kind == FixtureKind::slow)
-        keys.add("spindle_share", fixture.spindle_share, usual.spindle_share);
-    else
-        keys.add("stiffness_n_per_mm", fixture.stiffness_n_per_mm, usual.stiffness_n_per_mm)
-            .add("max_force_n", fixture.max_force_n, usual.max_force_n);
+        keys.add("tissue", fixture.tissue);
+    scene_keys::of_fixture(keys, fixture, usual_fixture(fixture.kind));
     return "[[fixture]]\n" + keys.text();
 }
 
 }  // namespace
 
 std::string write_scene(const Scene& scene, SceneText extent) {
-    std::string text = Keys(extent)
-                           .add("name", scene.name)
-                           .add_if_any("description", scene.description)
-                           .add("start_burr", scene.burrs.at(scene.start_burr).name, scene.burrs.at(0).name)
-                           .add("wall_friction", scene.wall_friction, Scene().wall_friction)
-                           .add("force_scale", scene.force_scale, Scene().force_scale)
-                           .text();
+    Keys top(extent);
+    top.add("name", scene.name)
+        .add_if_any("description", scene.description)
+        .add("start_burr", scene.burrs.at(scene.start_burr).name, scene.burrs.at(0).name);
+    scene_keys::of_scene(top, scene, Scene());
+    std::string text = top.text();
     text += bone_text(scene.bone, extent) + stiffness_text(scene.stiffness, extent);
     if (!scene.tissues.empty()) text += "\n# Tissues, by their label in the bone.\n";
     for (const Tissue& tissue : scene.tissues) text += tissue_text(tissue, extent);
@@ -280,14 +277,14 @@ std::string write_scene(const Scene& scene, SceneText extent) {
         text += "\n# Burrs to choose from.\n";
         for (const Burr& burr : scene.burrs) text += burr_text(burr, extent);
     }
-    if (scene.motor)
-        text += Keys(extent)
-                    .add("stall_torque_n_mm", scene.motor->stall_torque_n_mm)
-                    .add("steady_torque_n_mm", scene.motor->steady_torque_n_mm, 0.0)
-                    .below("\n# How the spindle slows under load, as it is heard.\n[motor]\n");
-    text += Keys(extent)
-                .add("feed_forward", scene.feed_forward, Scene().feed_forward)
-                .below("\n# How the bone's force comes to the hand.\n[coupling]\n");
+    if (scene.motor) {
+        Keys motor(extent);
+        scene_keys::of_motor(motor, *scene.motor);
+        text += motor.below("\n# How the spindle slows under load, as it is heard.\n[motor]\n");
+    }
+    Keys coupling(extent);
+    scene_keys::of_coupling(coupling, scene, Scene());
+    text += coupling.below("\n# How the bone's force comes to the hand.\n[coupling]\n");
     text += device_text(scene.device, extent) + pose_text(scene.start_pose, extent) +
             trajectory_text(scene.trajectory, extent);
     if (scene.plan) text += plan_text(*scene.plan, extent);

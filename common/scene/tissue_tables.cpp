@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/scene/material.h"
+#include "common/scene/scene_keys.h"
 #include "common/text/plain_text.h"
 
 namespace osteomill {
@@ -45,15 +46,14 @@ std::optional<TissueStrength> read_strength(TomlReader& reader) {
 }
 
 /// If a tissue's strength is given, a bone must be able to hold its product with the factor.
-double read_stiffness_factor(TomlReader& reader, const std::optional<TissueStrength>& strength) {
-    const double factor = reader.number("stiffness_factor", {0.01, 100.0}).value_or(1.0);
+void require_that_bone_holds(double factor, const std::optional<TissueStrength>& strength,
+                             const TomlReader& reader) {
     if (strength && !(factor * strength->relative_stiffness >= stiffness_per_code &&
                       factor * strength->relative_stiffness <= largest_relative_stiffness))
         reader.fail(
             "stiffness_factor",
             fmt::format("'stiffness_factor' times the tissue's relative stiffness {} must be {:g} to {:g}",
                         strength->relative_stiffness, stiffness_per_code, largest_relative_stiffness));
-    return factor;
 }
 
 }  // namespace
@@ -70,18 +70,10 @@ std::vector<Tissue> read_tissues(std::vector<TomlReader> readers, bool has_segme
         tissue.colour_rgb = required(reader, "colour", read_colour(reader, "colour"));
         tissue.identifier_rgb = read_colour(reader, "identifier");
         if (tissue.identifier_rgb == tissue.colour_rgb) tissue.identifier_rgb.reset();
-        tissue.is_protected = reader.truth("protected").value_or(false);
+        scene_keys::of_tissue(reader, tissue, Tissue());
         tissue.strength = read_strength(reader);
-        tissue.stiffness_factor = read_stiffness_factor(reader, tissue.strength);
-        tissue.is_cuttable = reader.truth("cuttable").value_or(true);
-        tissue.segment = reader.text("segment").value_or("");
-        tissue.opacity = reader.number("opacity", {0.0, 1.0}).value_or(1.0);
-        tissue.warn_mm =
-            reader.number("warn_mm", {0.0, most_warn_mm}).value_or(usual_warn_mm(tissue.is_protected));
-        tissue.shows_through_mm = reader.number("shows_through_mm", {0.0, most_shows_through_mm})
-                                      .value_or(usual_shows_through_mm(tissue.is_protected));
-        tissue.shows_through_strength =
-            reader.number("shows_through_strength", {0.0, 1.0}).value_or(Tissue().shows_through_strength);
+        scene_keys::of_tissue_under_burr(reader, tissue, Tissue());
+        require_that_bone_holds(tissue.stiffness_factor, tissue.strength, reader);
         if (!tissue.segment.empty() && !has_segmentation)
             reader.fail("segment", "'segment' needs [bone] segmentation = \"FILE.seg.nrrd\"");
         reader.refuse_other_keys();

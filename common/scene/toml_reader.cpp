@@ -54,6 +54,17 @@ std::optional<std::int64_t> TomlReader::whole_number(std::string_view key, std::
     return value;
 }
 
+void TomlReader::rpm(std::string_view key, double& rev_per_s, double usual_rev_per_s,
+                     const AllowedRange& range_rpm) {
+    constexpr double seconds_per_minute = 60.0;
+    const std::optional<double> rpm = number(key, range_rpm);
+    rev_per_s = rpm ? *rpm / seconds_per_minute : usual_rev_per_s;
+}
+
+void TomlReader::needed_number(std::string_view key, double& value, const AllowedRange& range) {
+    value = required(*this, key, number(key, range));
+}
+
 const std::string& TomlReader::plain(std::string_view key, const std::string& text) const {
     if (const auto why = why_not_plain(text)) fail(key, fmt::format("'{}' {}", key, *why));
     return text;

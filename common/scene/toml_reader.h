@@ -43,6 +43,37 @@ class TomlReader {
     std::optional<glm::dvec3> direction(std::string_view key);
     /// A list of lists of `width` numbers each.
     std::optional<std::vector<std::vector<double>>> rows(std::string_view key, std::size_t width);
+
+    /// As above into `value`, which is `usual` if the key is absent: for the keys of scene_keys.h.
+    void number(std::string_view key, double& value, double usual, const AllowedRange& range) {
+        value = number(key, range).value_or(usual);
+    }
+    void whole_number(std::string_view key, int& value, int usual, int low, int high) {
+        value = static_cast<int>(whole_number(key, low, high).value_or(usual));
+    }
+    /// In the file revolutions per minute.
+    void rpm(std::string_view key, double& rev_per_s, double usual_rev_per_s, const AllowedRange& range_rpm);
+    void truth(std::string_view key, bool& value, bool usual) { value = truth(key).value_or(usual); }
+    void vector(std::string_view key, glm::dvec3& value, const glm::dvec3& usual) {
+        value = vector(key).value_or(usual);
+    }
+    void place(std::string_view key, glm::dvec3& value, const glm::dvec3& usual) {
+        value = place(key).value_or(usual);
+    }
+    void direction(std::string_view key, glm::dvec3& value, const glm::dvec3& usual) {
+        value = direction(key).value_or(usual);
+    }
+    /// Empty if absent.
+    void text(std::string_view key, std::string& value) { value = text(key).value_or(""); }
+    /// One of an enumeration, by its place among `names`.
+    template <typename Choice, typename Names>
+    void choice(std::string_view key, Choice& value, Choice usual, const Names& names) {
+        const auto index = choice(key, std::vector<std::string>(names.begin(), names.end()));
+        value = index ? static_cast<Choice>(*index) : usual;
+    }
+    /// Throws SceneError if the key is absent.
+    void needed_number(std::string_view key, double& value, const AllowedRange& range);
+
     std::optional<TomlReader> table(std::string_view key);
     std::vector<TomlReader> tables(std::string_view key);
 

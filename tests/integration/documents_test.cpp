@@ -1,5 +1,6 @@
 // The documents are correct: links lead somewhere, paths exist, and the programs have the options that
 // commands use.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 #include <stdexcept>
 
 #include "common/scene/scene_file.h"
+#include "common/scene/scene_keys.h"
 #include "tests/support/child_process.h"
 #include "tests/support/document_checks.h"
 #include "tests/support/temporary_folder.h"
@@ -214,6 +216,61 @@ TEST(Documents, DescribeEveryKeyOfAScene) {
         keys.insert((*match)[1]);
     EXPECT_GT(keys.size(), 40u);
     for (const std::string& each : keys) EXPECT_THAT(page, HasSubstr("`" + each + "`"));
+}
+
+/// Ranges of a scene's keys as the tables of docs/scenes.md write them: five digits and more with a space.
+struct Ranges {
+    std::map<std::string, std::set<std::string>> of{};
+    static std::string as_written(double bound) {
+        std::string digits = fmt::format("{}", bound);
+        if (digits.size() > 4 && digits.find('.') == std::string::npos) digits.insert(digits.size() - 3, " ");
+        return digits;
+    }
+    void number(const char* key, double, double, const AllowedRange& range) {
+        of[key].insert(as_written(range.low) + " to " + as_written(range.high));
+    }
+    void needed_number(const char* key, double, const AllowedRange& range) { number(key, 0.0, 0.0, range); }
+    void rpm(const char* key, double, double, const AllowedRange& range) { number(key, 0.0, 0.0, range); }
+    void whole_number(const char* key, int, int, int low, int high) {
+        number(key, 0.0, 0.0, {double(low), double(high)});
+    }
+    void truth(const char* key, bool, bool) { of[key].insert("true"); }
+    void vector(const char* key, const glm::dvec3&, const glm::dvec3&) { of[key].insert("["); }
+    void place(const char* key, const glm::dvec3&, const glm::dvec3&) { of[key].insert("within 10 000"); }
+    void direction(const char* key, const glm::dvec3&, const glm::dvec3&) {
+        of[key].insert("length above 0");
+    }
+    void text(const char* key, const std::string&) { of[key].insert("text"); }
+    template <typename Choice, typename Names>
+    void choice(const char* key, Choice, Choice, const Names& names) {
+        for (const char* name : names) of[key].insert(fmt::format("`\"{}\"`", name));
+    }
+};
+
+TEST(Documents, GiveTheRangeOfEveryKeyOfAScene) {
+    Ranges ranges;
+    scene_keys::of_scene(ranges, Scene(), Scene());
+    scene_keys::of_tissue(ranges, Tissue(), Tissue());
+    scene_keys::of_tissue_under_burr(ranges, Tissue(), Tissue());
+    scene_keys::of_burr(ranges, Burr(), Burr());
+    scene_keys::of_motor(ranges, Motor());
+    scene_keys::of_coupling(ranges, Scene(), Scene());
+    scene_keys::of_device(ranges, DeviceMapping(), DeviceMapping());
+    scene_keys::of_start_pose(ranges, ToolPose(), ToolPose());
+    scene_keys::of_trajectory(ranges, TrajectorySpec(), TrajectorySpec());
+    scene_keys::of_plan(ranges, Plan(), Plan());
+    scene_keys::of_rating_item(ranges, RatingItem(), RatingItem());
+    for (const FixtureKind kind : {FixtureKind::guide, FixtureKind::forbidden, FixtureKind::slow})
+        scene_keys::of_fixture(ranges, Fixture{.kind = kind}, Fixture());
+
+    EXPECT_GE(ranges.of.size(), 36u);
+    const std::string page = text_in_repository("docs/scenes.md");
+    for (const auto& [key, written] : ranges.of) {
+        const std::size_t row = page.find("| `" + key + "` |");
+        ASSERT_NE(row, std::string::npos) << key;
+        const std::string line = page.substr(row, page.find('\n', row) - row);
+        for (const std::string& range : written) EXPECT_THAT(line, HasSubstr(range));
+    }
 }
 
 TEST(DocumentChecks, FindLinksThatLeadNowhere) {
