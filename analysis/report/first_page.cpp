@@ -11,6 +11,7 @@
 #include "analysis/report/rating_html.h"
 #include "analysis/report/smoothness.h"
 #include "analysis/report/verdict.h"
+#include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 
 namespace osteomill {
@@ -29,9 +30,10 @@ std::string heading(const SessionTrace& trace) {
         about += " · " + html_text(began);
     html += fmt::format("<p class='about'>{}</p>", about);
     if (session.plan)
-        html += fmt::format("<p class='about'>{}</p>",
-                            trf("To be removed: {}, with a margin of {:.3g} mm",
-                                html_text(describe(*session.plan)), session.plan->margin_mm));
+        html +=
+            fmt::format("<p class='about'>{}</p>",
+                        trf("To be removed: {}, with a margin of {} mm", html_text(describe(*session.plan)),
+                            with_decimal_sign(fmt::format("{:.3g}", session.plan->margin_mm))));
     if (!trace.error.empty())
         html +=
             fmt::format("<p class='wrong'>{}</p>",

@@ -7,6 +7,7 @@
 
 #include "analysis/report/html_text.h"
 #include "analysis/report/page_style.h"
+#include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 
 namespace osteomill {
@@ -24,7 +25,8 @@ std::string table(std::span<const MetricRow> rows) {
     for (const MetricRow& row : rows) {
         const ShownValue value = shown(row);
         html += fmt::format("<tr><td>{}</td><td class='n'>{}</td><td class='u'>{}</td></tr>",
-                            html_text(tr_filled(row.text)), value.number, html_text(value.unit));
+                            html_text(with_decimal_sign(tr_filled(row.text))), value.number,
+                            html_text(value.unit));
     }
     return html + table_end;
 }
@@ -41,7 +43,7 @@ std::string table_of_several(std::span<const MetricRow> rows, const SessionInfo&
     std::string html = fmt::format("{}<tr><th></th>", table_begin);
     for (const MetricRow* column : columns) {
         const std::string unit = shown(*column).unit;
-        html += fmt::format("<th class='n'>{}{}</th>", html_text(tr_filled(column->text)),
+        html += fmt::format("<th class='n'>{}{}</th>", html_text(with_decimal_sign(tr_filled(column->text))),
                             unit.empty() ? "" : " (" + html_text(unit) + ")");
     }
     html += "</tr>";

@@ -8,6 +8,7 @@
 
 #include "analysis/report/headlines.h"
 #include "analysis/report/metric_files.h"
+#include "common/words/decimal_sign.h"
 
 namespace osteomill {
 
@@ -49,14 +50,21 @@ h2,h3{break-after:avoid}figure,svg,tr,section{break-inside:avoid}figcaption,.til
 .wide{font-size:9px}.wide td,.wide th{padding:2px 4px}}
 )";
 
-std::string number_text(double value) {
-    if (!std::isfinite(value)) return "–";
+namespace {
+
+std::string number_with_point(double value) {
     const double size = std::abs(value);
     if (size >= 1000.0) return fmt::format("{:.0f}", value);
     if (size >= 100.0) return fmt::format("{:.1f}", value);
     if (size == 0.0 || size == std::round(size)) return fmt::format("{:g}", value);
     if (size >= 0.01) return fmt::format("{:.{}f}", value, size >= 10.0 ? 1 : size >= 1.0 ? 2 : 3);
     return fmt::format("{:.2g}", value);
+}
+
+}  // namespace
+
+std::string number_text(double value) {
+    return std::isfinite(value) ? with_decimal_sign(number_with_point(value)) : "–";
 }
 
 ShownValue shown_value(std::string_view key, double value, std::string_view unit) {

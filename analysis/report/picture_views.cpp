@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 
 namespace osteomill {
@@ -162,11 +163,12 @@ NamedView view_of(const NearestApproach& approach, double burr_diameter_mm) {
         std::max(least_half_width_mm, 1.5 * (glm::length(apart) + 0.5 * burr_diameter_mm));
     NamedView view = section_along(apart, approach.sample->burr_mm, half_width_mm);
     const std::string structure = tissue_words(approach.structure);
-    const double time_s = approach.sample->time_s;
+    const std::string time_s = with_decimal_sign(fmt::format("{:.1f}", approach.sample->time_s));
     view.title = approach.distance_mm > 0.0
-                     ? trf("{:.2f} mm from the {}, at {:.1f} s, {}", approach.distance_mm, structure, time_s,
+                     ? trf("{} mm from the {}, at {} s, {}",
+                           with_decimal_sign(fmt::format("{:.2f}", approach.distance_mm)), structure, time_s,
                            view.title)
-                     : trf("Touch of the {}, at {:.1f} s, {}", structure, time_s, view.title);
+                     : trf("Touch of the {}, at {} s, {}", structure, time_s, view.title);
     return view;
 }
 

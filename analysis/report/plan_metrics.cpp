@@ -9,11 +9,16 @@
 #include "analysis/report/planned_region.h"
 #include "analysis/report/voxel_set.h"
 #include "common/statistics/percentile.h"
+#include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 
 namespace osteomill {
 
 namespace {
+
+std::string length_text(double length_mm) {
+    return with_decimal_sign(fmt::format("{:.3g}", length_mm));
+}
 
 void add_distances(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>& to,
                    std::vector<double>& distances_mm) {
@@ -82,10 +87,10 @@ std::optional<PlanMetrics> plan_metrics(const SessionTrace& trace) {
 std::string describe(const Plan& plan) {
     if (const auto* tissue = std::get_if<TissueRegion>(&plan.region)) return tissue_words(tissue->tissue);
     if (const auto* sphere = std::get_if<SphereRegion>(&plan.region))
-        return trf("a sphere of {:.3g} mm radius", sphere->radius_mm);
+        return trf("a sphere of {} mm radius", length_text(sphere->radius_mm));
     const auto& cylinder = std::get<CylinderRegion>(plan.region);
-    return trf("a cylinder of {:.3g} mm radius, {:.3g} mm long", cylinder.radius_mm,
-               glm::length(cylinder.to_mm - cylinder.from_mm));
+    return trf("a cylinder of {} mm radius, {} mm long", length_text(cylinder.radius_mm),
+               length_text(glm::length(cylinder.to_mm - cylinder.from_mm)));
 }
 
 }  // namespace osteomill

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/report/condition_text.h"
 #include "analysis/report/html_text.h"
 #include "analysis/report/page_style.h"
 #include "common/words/translation.h"
@@ -50,9 +51,9 @@ std::string measured_text(const RatedItem& one) {
     if (!one.why_not.empty()) return html_text(trf("cannot be read: {}", one.why_not));
     std::string text;
     for (const AskedValue& asked : one.values)
-        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ",
-                            html_text(asked.of.empty() ? asked.key : trf("{} of {}", asked.key, asked.of)),
-                            asked.value ? number_text(*asked.value) : tr("not measured"));
+        text +=
+            fmt::format("{}{} = {}", text.empty() ? "" : ", ", html_text(quantity_text(asked.key, asked.of)),
+                        asked.value ? quantity_value(asked.key, *asked.value).text() : tr("not measured"));
     return text;
 }
 
@@ -78,12 +79,12 @@ std::string rating_table(const RatingResult& rating) {
            "are no part of it."),
         table_begin, tr("points"), tr("item"), tr("reached where"), tr("measured"));
     for (const RatedItem& one : rating.items)
-        html += fmt::format("<tr>{}<td>{}{}</td><td><code>{}</code></td><td>{}</td></tr>", verdict_cells(one),
+        html += fmt::format("<tr>{}<td>{}{}</td><td>{}</td><td>{}</td></tr>", verdict_cells(one),
                             html_text(tr(one.item.name)),
                             one.item.source.empty()
                                 ? ""
                                 : "<span class='source'>" + html_text(tr(one.item.source)) + "</span>",
-                            html_text(one.item.when), measured_text(one));
+                            html_text(condition_text(one.item.when)), measured_text(one));
     return html + table_end;
 }
 

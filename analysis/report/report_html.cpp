@@ -8,6 +8,7 @@
 #include "analysis/report/page_style.h"
 #include "analysis/report/rating_html.h"
 #include "analysis/report/session_plots.h"
+#include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 
 namespace osteomill {
@@ -41,9 +42,10 @@ std::string events(const SessionTrace& trace) {
     for (const ControlEvent& event : trace.events) {
         const char* const action = tr(name_of(event.action));
         const bool is_note = event.action == SessionAction::mark && !event.is_refused;
-        html += fmt::format("<tr><td class='n'>{}</td><td class='n'>{:.1f}</td><td>{}</td><td>{}</td></tr>",
-                            ++number, event.time_s, event.is_refused ? trf("{}, refused", action) : action,
-                            html_text(is_note ? event.text : tr_filled(event.text)));
+        html += fmt::format("<tr><td class='n'>{}</td><td class='n'>{}</td><td>{}</td><td>{}</td></tr>",
+                            ++number, with_decimal_sign(fmt::format("{:.1f}", event.time_s)),
+                            event.is_refused ? trf("{}, refused", action) : action,
+                            html_text(is_note ? event.text : with_decimal_sign(tr_filled(event.text))));
     }
     return html + table_end;
 }

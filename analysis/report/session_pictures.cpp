@@ -18,6 +18,7 @@
 #include "analysis/report/picture_overlay.h"
 #include "analysis/report/picture_views.h"
 #include "common/recording/playhead.h"
+#include "common/words/decimal_sign.h"
 
 namespace osteomill {
 
@@ -87,7 +88,8 @@ void add_marks(const std::filesystem::path& file, const Pictures& make, const Na
                 continue;
             }
             ReportPicture picture = make.of(playhead.bone(), view, picture_px);
-            picture.title = fmt::format("{}: {:.1f} s {}", number, event.time_s, event.text);
+            picture.title = fmt::format("{}: {} s {}", number,
+                                        with_decimal_sign(fmt::format("{:.1f}", event.time_s)), event.text);
             pictures.marks.push_back(std::move(picture));
         }
     });

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "analysis/report/html_text.h"
+#include "common/words/decimal_sign.h"
 
 namespace osteomill {
 
@@ -103,20 +104,23 @@ std::vector<Dot> visible(const PlotLine& line, const Axes& axes) {
     return dots;
 }
 
+std::string tick_text(double value, double step) {
+    return with_decimal_sign(fmt::format("{:g}", std::abs(value) < 1e-9 * step ? 0.0 : value));
+}
+
 void add_axes(std::string& svg, const SvgPlot& plot, const Axes& axes) {
     const double y_step = tick_step(axes.y);
     for (double y = std::ceil(axes.y.low / y_step) * y_step; y <= axes.y.high + 1e-9 * y_step; y += y_step)
         svg += fmt::format(
             "<path d='M{:.1f} {:.1f}H{:.1f}' stroke='#e3e3e3'/><text x='{:.1f}' y='{:.1f}' "
-            "text-anchor='end'>{:g}</text>",
-            left, axes.py(y), width - right, left - 6.0, axes.py(y) + 4.0,
-            std::abs(y) < 1e-9 * y_step ? 0.0 : y);
+            "text-anchor='end'>{}</text>",
+            left, axes.py(y), width - right, left - 6.0, axes.py(y) + 4.0, tick_text(y, y_step));
     const double x_step = tick_step(axes.x);
     for (double x = std::ceil(axes.x.low / x_step) * x_step; x <= axes.x.high + 1e-9 * x_step; x += x_step)
         svg += fmt::format(
             "<path d='M{0:.1f} {1:.1f}v5' stroke='#888'/><text x='{0:.1f}' y='{2:.1f}' "
-            "text-anchor='middle'>{3:g}</text>",
-            axes.px(x), height - bottom, height - bottom + 18.0, std::abs(x) < 1e-9 * x_step ? 0.0 : x);
+            "text-anchor='middle'>{3}</text>",
+            axes.px(x), height - bottom, height - bottom + 18.0, tick_text(x, x_step));
     svg +=
         fmt::format("<path d='M{:.1f} {:.1f}H{:.1f}' stroke='#888'/>", left, height - bottom, width - right);
     svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>",

@@ -16,10 +16,12 @@
 #include <system_error>
 #include <vector>
 
+#include "analysis/report/condition_text.h"
 #include "analysis/report/headlines.h"
 #include "analysis/report/session_metrics.h"
 #include "analysis/report/smoothness.h"
 #include "common/scene/burr_head.h"
+#include "common/scene/rating_quantities.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/shipped_scenes.h"
 #include "common/session/session_control.h"
@@ -136,7 +138,8 @@ std::set<std::string> words_of_numbers() {
     for (const MetricRow& row : metric_rows(all)) words.insert({row.group, row.text});
     for (const Headline& one : headlines) words.insert({one.text, text_of(one.better)});
     for (const double reaches_per_s : {1.0, 2.0, 4.0, 8.0}) words.insert(smoothness_word(reaches_per_s));
-    std::set<std::string> looked_up;
+    for (const RatedQuantity& one : rated_quantities) words.insert(quantity_text(one.key, ""));
+    std::set<std::string> looked_up{"and", "or", "not"};  // of a rating's conditions
     for (const std::string& text : words) {
         const std::string places = with_places_for_numbers(text);
         looked_up.insert(translation_into("de").contains(places) ? places : text);
