@@ -59,6 +59,13 @@ Texture3D::Texture3D(VoxelFormat format, const glm::ivec3& size) : format_(forma
     }
 }
 
+void Texture3D::end_at_edges() {
+    glBindTexture(GL_TEXTURE_3D, id_);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        glTexParameteri(GL_TEXTURE_3D, axis, GL_CLAMP_TO_EDGE);
+    glBindTexture(GL_TEXTURE_3D, 0);
+}
+
 void Texture3D::upload(const glm::ivec3& first, const glm::ivec3& size,
                        std::span<const std::uint8_t> texels) {
     const std::size_t needed = byte_count(size, format_);

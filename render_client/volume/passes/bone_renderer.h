@@ -1,9 +1,13 @@
 // Interface of a renderer of the bone.
 #pragma once
 
+#include <epoxy/gl.h>
+
 #include <glm/vec2.hpp>
+#include <span>
 
 #include "render_client/volume/camera.h"
+#include "render_client/volume/passes/pixel_box.h"
 #include "render_client/volume/scene_appearance.h"
 #include "render_client/volume/textures/bone_textures.h"
 
@@ -15,6 +19,16 @@ class BoneRenderer {
     /// Draws background and bone, colour and depth, over the whole viewport of `size_px` in the bound
     /// framebuffer, within glScissor's part. Depth is that of Camera::projection.
     virtual void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) = 0;
+    /// The same in each of these parts alone. Leaves the scissor test off.
+    virtual void draw_parts(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
+                            std::span<const PixelBox> parts) {
+        glEnable(GL_SCISSOR_TEST);
+        for (const PixelBox& part : parts) {
+            glScissor(part.first.x, part.first.y, part.size.x, part.size.y);
+            draw(bone, camera, size_px);
+        }
+        glDisable(GL_SCISSOR_TEST);
+    }
 
     /// Takes effect from the next draw on.
     void set_appearance(const SceneAppearance& look) { look_ = look; }

@@ -207,13 +207,8 @@ std::int64_t IncrementalBonePass::draw_timed(const BoneTextures& bone, const Cam
     std::int64_t pixels = 0;
     target.bind();
     if (measures) stopwatch_->start();
-    glEnable(GL_SCISSOR_TEST);
-    for (const PixelBox& box : boxes) {
-        glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
-        renderer_.draw(bone, camera, target.size_px());
-        pixels += box.count();
-    }
-    glDisable(GL_SCISSOR_TEST);
+    renderer_.draw_parts(bone, camera, target.size_px(), boxes);
+    for (const PixelBox& box : boxes) pixels += box.count();
     drawn_this_frame_px_ += pixels;
     if (measures) {
         stopwatch_->stop();

@@ -3,6 +3,7 @@
 #include <array>
 #include <glm/common.hpp>
 #include <optional>
+#include <vector>
 
 #include "render_client/volume/shaders/appearance_uniforms.h"
 
@@ -54,25 +55,47 @@ void set_ray_uniforms(const gl::Program& program, const BoneTextures& bone, cons
 RaycastRenderer::RaycastRenderer(const RaycastSettings& settings)
     : bone_program_(raycast_files), settings_(settings) {}
 
+bool RaycastRenderer::smooths(const BoneTextures& bone) const {
+    return look().smooth_silhouettes && !bone.is_translucent();
+}
+
 void RaycastRenderer::draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {
-    if (!look().smooth_silhouettes || bone.is_translucent()) return draw_rays(bone, camera, size_px);
-    GLint target = 0;
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+    if (!smooths(bone)) return draw_rays(bone, camera, size_px);
     const bool is_part = glIsEnabled(GL_SCISSOR_TEST) == GL_TRUE;
-    const PixelBox whole{{0, 0}, size_px};
-    const PixelBox box = is_part ? common_part(scissor_box(), whole) : whole;
-    if (!silhouettes_) silhouettes_.emplace();
-    silhouettes_->begin(size_px);
-    // Silhouettes at the edge of a part depend on the pixel beyond it.
-    const PixelBox grown = common_part({box.first - 1, box.size + 2}, whole);
+    const PixelBox box = is_part ? scissor_box() : PixelBox{{0, 0}, size_px};
     glEnable(GL_SCISSOR_TEST);
-    glScissor(grown.first.x, grown.first.y, grown.size.x, grown.size.y);
-    draw_rays(bone, camera, size_px);
-    glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
-    silhouettes_->draw(bone, camera, look(), settings_, size_px, static_cast<GLuint>(target), box,
-                       common_part(box, pixels_beside(bone, camera, size_px)));
+    draw_smooth(bone, camera, size_px, {&box, 1});
     glScissor(box.first.x, box.first.y, box.size.x, box.size.y);
     if (!is_part) glDisable(GL_SCISSOR_TEST);
+}
+
+void RaycastRenderer::draw_parts(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
+                                 std::span<const PixelBox> parts) {
+    if (!smooths(bone)) return BoneRenderer::draw_parts(bone, camera, size_px, parts);
+    glEnable(GL_SCISSOR_TEST);
+    draw_smooth(bone, camera, size_px, parts);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+/// The scissor test is on.
+void RaycastRenderer::draw_smooth(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
+                                  std::span<const PixelBox> parts) {
+    GLint target = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+    if (!silhouettes_) silhouettes_.emplace();
+    silhouettes_->begin(size_px);
+    const PixelBox whole{{0, 0}, size_px};
+    const PixelBox seen = pixels_beside(bone, camera, size_px);
+    std::vector<SmoothedPart> smoothed;
+    for (const PixelBox& part : parts) {
+        const PixelBox box = common_part(part, whole);
+        smoothed.push_back({.box = box, .near_bone = common_part(box, seen)});
+        // Silhouettes at the edge of a part depend on the pixel beyond it.
+        const PixelBox grown = common_part({box.first - 1, box.size + 2}, whole);
+        glScissor(grown.first.x, grown.first.y, grown.size.x, grown.size.y);
+        draw_rays(bone, camera, size_px);
+    }
+    silhouettes_->draw(bone, camera, look(), settings_, size_px, static_cast<GLuint>(target), smoothed);
 }
 
 void RaycastRenderer::draw_rays(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) {

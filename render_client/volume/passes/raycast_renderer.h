@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "render_client/volume/passes/background.h"
 #include "render_client/volume/passes/bone_renderer.h"
@@ -34,8 +35,13 @@ class RaycastRenderer final : public BoneRenderer {
   public:
     explicit RaycastRenderer(const RaycastSettings& settings = {});
     void draw(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px) override;
+    void draw_parts(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
+                    std::span<const PixelBox> parts) override;
 
   private:
+    bool smooths(const BoneTextures& bone) const;
+    void draw_smooth(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
+                     std::span<const PixelBox> parts);
     void draw_rays(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px);
 
     Background background_;

@@ -17,6 +17,10 @@ PixelBox blocks_of(const PixelBox& box) {
     return {first, last - first + 1};
 }
 
+bool shows_bone(const SmoothedPart& part) {
+    return part.near_bone.size.x > 0 && part.near_bone.size.y > 0;
+}
+
 float pixel_width(const Camera& camera, const glm::ivec2& size_px) {
     return static_cast<float>(2.0 * camera.half_extent(size_px).y / size_px.y);
 }
@@ -34,40 +38,45 @@ const gl::Framebuffer& Silhouettes::begin(const glm::ivec2& size_px) {
 
 void Silhouettes::draw(const BoneTextures& bone, const Camera& camera, const SceneAppearance& look,
                        const RaycastSettings& settings, const glm::ivec2& size_px, GLuint target,
-                       const PixelBox& box, const PixelBox& near_bone) {
-    drawn_->copy_to(target, box);
-    const bool is_seen = near_bone.size.x > 0 && near_bone.size.y > 0;
+                       std::span<const SmoothedPart> parts) {
     // Depth stays, and no pixel hides another.
     const GLboolean tests_depth = glIsEnabled(GL_DEPTH_TEST);
     glDisable(GL_DEPTH_TEST);
-    const PixelBox blocks = is_seen ? blocks_of(near_bone) : PixelBox{};
-    if (is_seen) find_discontinuities(bone, camera, size_px, blocks);
+    // A software rasteriser's copy waits until all is drawn, and so do the vertices, which read the blocks:
+    // first everything is drawn, of all parts, so that they wait once.
+    find_discontinuities(bone, camera, size_px, parts);
+    for (const SmoothedPart& part : parts) {
+        glScissor(part.box.first.x, part.box.first.y, part.box.size.x, part.box.size.y);
+        drawn_->copy_to(target, part.box);
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glViewport(0, 0, size_px.x, size_px.y);
-    if (is_seen) {
-        glScissor(near_bone.first.x, near_bone.first.y, near_bone.size.x, near_bone.size.y);
-        search(bone, camera, look, settings, size_px, blocks);
-    }
+    search(bone, camera, look, settings, size_px, parts);
     if (tests_depth == GL_TRUE) glEnable(GL_DEPTH_TEST);
 }
 
 void Silhouettes::find_discontinuities(const BoneTextures& bone, const Camera& camera,
-                                       const glm::ivec2& size_px, const PixelBox& blocks) {
+                                       const glm::ivec2& size_px, std::span<const SmoothedPart> parts) {
     const glm::ivec2 needed = blocks_of({{0, 0}, drawn_->size_px()}).size;
     if (!blocks_ || blocks_->size_px() != needed) blocks_.emplace(needed);
     blocks_->bind();
-    glScissor(blocks.first.x, blocks.first.y, blocks.size.x, blocks.size.y);
     block_program_.use();
     drawn_->bind_textures(0);
     block_program_.set("drawn_depth", 1);
     block_program_.set("picture_size", glm::vec2(size_px));
     block_program_.set("depth_terms", depth_terms(camera, bone.grid().spacing_mm, size_px));
     block_program_.set("pixel_width", pixel_width(camera, size_px));
-    block_program_.fill_picture();
+    for (const SmoothedPart& part : parts) {
+        if (!shows_bone(part)) continue;
+        const PixelBox blocks = blocks_of(part.near_bone);
+        glScissor(blocks.first.x, blocks.first.y, blocks.size.x, blocks.size.y);
+        block_program_.fill_picture();
+    }
 }
 
 void Silhouettes::search(const BoneTextures& bone, const Camera& camera, const SceneAppearance& look,
-                         const RaycastSettings& settings, const glm::ivec2& size_px, const PixelBox& blocks) {
+                         const RaycastSettings& settings, const glm::ivec2& size_px,
+                         std::span<const SmoothedPart> parts) {
     const gl::Program& program = program_.use(bone, look);
     set_ray_uniforms(program, bone, camera, size_px, settings);
     constexpr int colour_unit = BoneProgram::first_free_unit;
@@ -78,9 +87,15 @@ void Silhouettes::search(const BoneTextures& bone, const Camera& camera, const S
     program.set("pixel_width", pixel_width(camera, size_px));
     blocks_->bind_textures(colour_unit + 2);
     program.set("discontinuity_blocks", colour_unit + 2);
-    program.set("first_block", glm::vec2(blocks.first));
-    program.set("block_counts", glm::vec2(blocks.size));
-    program.draw_triangles(2 * blocks.size.x * blocks.size.y);
+    for (const SmoothedPart& part : parts) {
+        if (!shows_bone(part)) continue;
+        const PixelBox blocks = blocks_of(part.near_bone);
+        glScissor(part.near_bone.first.x, part.near_bone.first.y, part.near_bone.size.x,
+                  part.near_bone.size.y);
+        program.set("first_block", glm::vec2(blocks.first));
+        program.set("block_counts", glm::vec2(blocks.size));
+        program.draw_triangles(2 * blocks.size.x * blocks.size.y);
+    }
 }
 
 }  // namespace osteomill

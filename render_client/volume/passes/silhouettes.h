@@ -8,6 +8,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/bone_renderer.h"
@@ -18,24 +19,31 @@ namespace osteomill {
 
 struct RaycastSettings;
 
+/// Part of a picture, and the part of that in which bone may be seen: only there are silhouettes.
+struct SmoothedPart {
+    PixelBox box{};
+    PixelBox near_bone{};
+};
+
 class Silhouettes {
   public:
     Silhouettes() : program_(silhouette_files), block_program_(make_program(discontinuity_block_files)) {}
 
     /// A picture to draw the bone into beforehand, bound, its viewport of that size; it may be larger.
     const gl::Framebuffer& begin(const glm::ivec2& size_px);
-    /// Fills a box of the framebuffer `target` with what begin()'s picture shows there, silhouettes within
-    /// the part of it that is `near_bone` smoothed. A border of one pixel round the box must be drawn there,
-    /// too. The scissor test is on. Leaves the target bound, and the scissor somewhere within the box.
+    /// Fills parts of the framebuffer `target` with what begin()'s picture shows there, silhouettes smoothed.
+    /// A border of one pixel round each part must be drawn there, too. The scissor test is on. Leaves the
+    /// target bound, and the scissor somewhere within the last part.
     void draw(const BoneTextures& bone, const Camera& camera, const SceneAppearance& look,
-              const RaycastSettings& settings, const glm::ivec2& size_px, GLuint target, const PixelBox& box,
-              const PixelBox& near_bone);
+              const RaycastSettings& settings, const glm::ivec2& size_px, GLuint target,
+              std::span<const SmoothedPart> parts);
 
   private:
     void find_discontinuities(const BoneTextures& bone, const Camera& camera, const glm::ivec2& size_px,
-                              const PixelBox& blocks);
+                              std::span<const SmoothedPart> parts);
     void search(const BoneTextures& bone, const Camera& camera, const SceneAppearance& look,
-                const RaycastSettings& settings, const glm::ivec2& size_px, const PixelBox& blocks);
+                const RaycastSettings& settings, const glm::ivec2& size_px,
+                std::span<const SmoothedPart> parts);
 
     BoneProgram program_;
     gl::Program block_program_;

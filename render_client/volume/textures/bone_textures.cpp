@@ -77,6 +77,7 @@ Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
 
     for (Steps wait = arrival(blocks); wait.step();) co_yield 0.4;
     blocks_ = blocks.get();
+    blocks_->end_at_edges();  // its outermost blocks lie beyond the box, and hold no bone
     const glm::ivec3 size = empty_space_.size_blocks();
     for (int z = 0; z < size.z; ++z) {
         upload_blocks({{0, 0, z}, {size.x, size.y, 1}});
