@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include "common/program/available_memory.h"
 #include "common/text/file_name.h"
@@ -53,6 +55,14 @@ std::string without_program(const std::string& line) {
 }
 
 /// How a session's program ended, for people; empty if all went well.
+/// A session's recording is kept to where the disk was full.
+std::string with_remedy_of_full_disk(std::string message) {
+    if (message.find(std::generic_category().message(ENOSPC)) == std::string::npos) return message;
+    return message + ". " +
+           tr("Make room on the disk, then click on \"Make report\": what was recorded until it was full is "
+              "kept");
+}
+
 std::string end_in_words(const ChildProgram& server) {
     const int status = server.status().value_or(0);
     if (status < 0)
@@ -60,7 +70,7 @@ std::string end_in_words(const ChildProgram& server) {
             "the session was broken off (signal {}). What was recorded until then is kept: it is the first "
             "of the sessions so far, and its report is one click away",
             -status);
-    return status == 0 ? std::string() : without_program(server.last_line());
+    return status == 0 ? std::string() : with_remedy_of_full_disk(without_program(server.last_line()));
 }
 
 }  // namespace
@@ -290,6 +300,7 @@ void StartPage::end_of_work() {
         message_ = trf("{} is there", form.name);
         if (const std::string specks = specks_said(said); !specks.empty()) message_ += "; " + specks;
     } else if (work_ == Work::report) {
+        message_ = with_remedy_of_full_disk(message_);
         look_at_home();
         if (std::error_code ignored; std::filesystem::exists(reported_ / "report.html", ignored))
             open_page(reported_ / "report.html");

@@ -93,6 +93,18 @@ TEST_F(StartPageTest, IsThereAfterASessionWasKilledUntilTheWindowIsSentToTheNext
     EXPECT_TRUE(screen.is_due(LinkStatus::lost)) << "no session is there to be lost";
 }
 
+TEST_F(StartPageTest, SaysWhatToDoWhenTheDiskIsFullAtTheEnd) {
+    make_program("haptic_server", "echo 'bone.nrrd: cannot be written: No space left on device' >&2\nexit 1");
+    StartPage window = page();
+    window.start();
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_session_running(); }));
+    EXPECT_THAT(window.message(), HasSubstr("No space left on device. Make room on the disk"));
+    make_program("haptic_server", "echo 'jaw: is no case' >&2\nexit 1");
+    window.start();
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_session_running(); }));
+    EXPECT_EQ(window.message(), "jaw: is no case");
+}
+
 TEST_F(StartPageTest, StartsACaseAtTheSecondClickOnItsCardHoweverLateAndNoOther) {
     make_program("haptic_server", "while :; do sleep 0.01; done");
     StartPage window = page();
