@@ -49,8 +49,10 @@ std::string table_of_several(std::span<const MetricRow> rows, const SessionInfo&
     html += "</tr>";
     for (const std::string& name : names) {
         const auto tissue = std::ranges::find(session.tissues, name, &Tissue::name);
-        html += fmt::format("<tr><td>{}{}</td>", tissue == session.tissues.end() ? "" : swatch(*tissue),
-                            html_text(tissue_words(name)));
+        // A burr has its diameter for a name, if nobody gave it one.
+        html += tissue == session.tissues.end()
+                    ? fmt::format("<tr><td>{}</td>", html_text(with_decimal_sign(tissue_words(name))))
+                    : fmt::format("<tr><td>{}{}</td>", swatch(*tissue), html_text(tissue_words(name)));
         for (const MetricRow* column : columns) {
             const auto found = std::ranges::find_if(
                 rows, [&](const MetricRow& row) { return row.key == column->key && row.of == name; });

@@ -27,7 +27,7 @@ p.about{color:#555;margin:2px 0}p.wrong{background:#fdecea;border-left:4px solid
 .tile b{font-size:21px}.tile span{display:block;color:#555;font-size:12.5px}.tile svg{margin:3px 0 0;display:block}
 table{border-collapse:collapse;margin:6px 0 12px;width:100%}td,th{padding:2px 8px;text-align:left;border-bottom:1px solid #e6e6e6}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}td.u{color:#777;padding-left:0}th{color:#555;font-weight:600}
-th{vertical-align:bottom}td.w{white-space:nowrap}td.yes{color:#007a4d}td.no{color:#b00}
+th{vertical-align:bottom}td.w{white-space:nowrap}td.setting{overflow-wrap:anywhere}td.yes{color:#007a4d}td.no{color:#b00}
 .columns{columns:2;column-gap:36px}.columns section{break-inside:avoid}h3{font-size:15px;margin:14px 0 2px}
 .pictures{display:grid;grid-template-columns:repeat(3,1fr);gap:12px}.pictures.two{grid-template-columns:repeat(2,1fr)}
 figure{margin:0}figure img{width:100%;display:block;border:1px solid #ddd}figcaption{font-size:12.5px;color:#555}

@@ -54,7 +54,8 @@ std::string settings(const SessionInfo& session) {
     if (session.settings.empty()) return {};
     std::string html = heading(tr("Settings")) + table_begin;
     for (const auto& [name, value] : session.settings)
-        html += fmt::format("<tr><td>{}</td><td>{}</td></tr>", html_text(name), html_text(value));
+        html +=
+            fmt::format("<tr><td>{}</td><td class='setting'>{}</td></tr>", html_text(name), html_text(value));
     return html + table_end;
 }
 

@@ -159,6 +159,7 @@ TEST_F(ReportLanguage, IsOfEveryTextOfAJudgedAndRatedSession) {
     EXPECT_THAT(german, HasSubstr("<td>bei 1,0; -2,5; 3,0 mm LPS</td>"));
     EXPECT_THAT(german, HasSubstr("abgetragener Anteil des Plans ≥ 50 % und Berührungen (Pulpa) = 0"));
     EXPECT_THAT(german, HasSubstr("<b>4,05 s</b>"));
+    EXPECT_THAT(german, HasSubstr("<td>1,5 mm</td>"));
 }
 
 TEST_F(ReportLanguage, IsOfEveryTextBesideTheExpertsSessions) {

@@ -56,6 +56,9 @@ TEST(WriteReport, ShowsHostileNamesAsTextInOnePage) {
     EXPECT_EQ(count_of("<table"), count_of("<div class='scroll'><table"));
     EXPECT_EQ(count_of("</table>"), count_of("</table></div>"));
     EXPECT_THAT(page, HasSubstr(".scroll{overflow-x:auto"));
+    // On paper a browser shrinks the whole page to its widest line: a long setting breaks anywhere.
+    EXPECT_THAT(page, HasSubstr("td.setting{overflow-wrap:anywhere}"));
+    EXPECT_EQ(count_of("<td class='setting'>"), 1U);
     EXPECT_THAT(page, Not(HasSubstr("href=")));
     EXPECT_THAT(page, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
     const auto json = nlohmann::json::parse(testing::bytes_of(folder / "report/metrics.json"));
