@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
-#include <span>
 
 #include "simulation/cutting_force/axis_singularity_kernel.h"
 
@@ -57,19 +56,6 @@ double between(const Table& table, double at) {
 double share_of_reach(double distance_voxels) {
     return 0.5 + 0.5 * distance_voxels / look_voxels;
 }
-
-/// A voxel before the tip.
-struct SeenVoxel {
-    glm::ivec3 at;
-    glm::dvec2 aside;  // of the axis
-    double r_squared;
-    double beyond;  // the ball's surface
-    int left;       // by the ball
-    int now;
-    bool is_ahead;
-};
-/// More than a ball of the look's reach holds.
-constexpr std::size_t most_seen = 192;
 
 /// The bone that a larger ball would remove, weighed by the look's disc.
 struct Larger {
@@ -141,14 +127,14 @@ FaceEnd AxisFace::look(const Bone& bone, const Sweep& ball, const glm::dmat3& fr
     const double reach = std::hypot(look_voxels, std::max(sag + rim, outermost));
     const double inner = ball.radius - rim;
     const double outer = ball.radius + outermost;
-    std::array<SeenVoxel, most_seen> seen;
-    std::size_t count = 0;
-    bool is_any_missing = false;
-    bool is_any_there = false;
+    std::array<Larger, larger_voxels.size()> larger;
+    double stiffness = 0.0;
+    double most = 0.0;
+    glm::ivec3 at_most(0);
     for (int z = static_cast<int>(std::ceil(tip.z - reach)); z <= tip.z + reach; ++z)
         for (int y = static_cast<int>(std::ceil(tip.y - reach)); y <= tip.y + reach; ++y) {
             const Interval row = line_through_ball(tip, reach, y, z);
-            for (int x = static_cast<int>(std::ceil(row.first)); x <= row.last && count < most_seen; ++x) {
+            for (int x = static_cast<int>(std::ceil(row.first)); x <= row.last; ++x) {
                 const glm::ivec3 voxel(x, y, z);
                 const glm::dvec3 from_centre = glm::dvec3(voxel) - ball.from;
                 const double squared = glm::dot(from_centre, from_centre);
@@ -160,28 +146,18 @@ FaceEnd AxisFace::look(const Bone& bone, const Sweep& ball, const glm::dmat3& fr
                 const int left = level_left_at(coverage, beyond);
                 const int now = std::min(left, static_cast<int>(bone.fraction_at(voxel)));
                 const bool is_ahead = glm::dot(from_centre, path) > 0.0;
-                is_any_missing |= is_ahead && now < left;
-                is_any_there |= is_ahead && now > 0;
-                seen[count++] = {voxel, aside, r_squared, beyond, left, now, is_ahead};
+                const double weight = look_weight(r_squared);
+                double found = 0.0;
+                for (std::size_t i = 0; i < larger.size(); ++i) {
+                    const int then = level_left_at(coverage, beyond - larger_voxels[i]);
+                    found = weight * std::max(0, now - then);
+                    larger[i].add(weight * (left - then), found, is_ahead, aside);
+                }
+                if (found > 0.0) stiffness += found * bone.stiffness_at(voxel);
+                if (found > most) at_most = voxel;
+                most = std::max(most, found);
             }
         }
-    if (!is_any_missing || !is_any_there) return {};  // as before the tip of a burr deep in bone
-    std::array<Larger, larger_voxels.size()> larger;
-    double stiffness = 0.0;
-    double most = 0.0;
-    glm::ivec3 at_most(0);
-    for (const SeenVoxel& voxel : std::span(seen).first(count)) {
-        const double weight = look_weight(voxel.r_squared);
-        double found = 0.0;
-        for (std::size_t i = 0; i < larger.size(); ++i) {
-            const int then = level_left_at(coverage, voxel.beyond - larger_voxels[i]);
-            found = weight * std::max(0, voxel.now - then);
-            larger[i].add(weight * (voxel.left - then), found, voxel.is_ahead, voxel.aside);
-        }
-        if (found > 0.0) stiffness += found * bone.stiffness_at(voxel.at);
-        if (found > most) at_most = voxel.at;
-        most = std::max(most, found);
-    }
     if (larger[2].there <= 0.0 || larger[2].missing <= 0.0) return {};
     const glm::dvec2 aside = larger[2].aside();
     const double length = glm::length(aside);
