@@ -160,8 +160,14 @@ SteadyCase steady_case(const std::string& name, const Burr& burr, double feed_mm
 }
 
 std::vector<RandomMotion> random_motions(int count, std::uint64_t seed, double voxel_mm,
-                                         std::optional<double> depth_mm, bool edge_forces, bool heads) {
+                                         std::optional<double> depth_mm, bool edge_forces, bool heads,
+                                         double travel_mm, double least_dive_voxels, bool is_milled) {
     auto motions = study::random_motions(count, seed, voxel_mm);
+    for (RandomMotion& drawn : motions) {
+        drawn.run.travel_mm = travel_mm;
+        drawn.run.least_dive_voxels = least_dive_voxels;
+        drawn.run.is_milled = is_milled;
+    }
     if (depth_mm) study::set_depth(motions, *depth_mm);
     if (edge_forces) study::draw_edge_forces(motions, seed);
     if (heads) study::draw_heads(motions, seed);
@@ -268,6 +274,8 @@ void bind_steady(py::module_& module) {
                 return array_of(force_n);
             },
             "Analytical mean force, of a dive over its path, N: (3,).")
+        .def("reference_parts", &study::reference_parts_over_path_n, py::call_guard<py::gil_scoped_release>(),
+             "Sum of the magnitudes of that force's parts, N.")
         .def(
             "run",
             [](const RandomMotion& drawn, const StudiedMilling& model, double surface_voxels) {
@@ -280,7 +288,9 @@ void bind_steady(py::module_& module) {
             "lattice.");
     module.def("random_motions", &random_motions, py::arg("count"), py::arg("seed"),
                py::arg("voxel_mm") = 0.1, py::arg("depth_mm") = py::none(), py::arg("edge_forces") = false,
-               py::arg("heads") = false, "The same for the same seed on every machine.");
+               py::arg("heads") = false, py::arg("travel_mm") = 2.0, py::arg("least_dive_voxels") = 0.0,
+               py::arg("is_milled") = false,
+               "The same for the same seed on every machine. How they run: as SteadyRun has it.");
 }
 
 }  // namespace

@@ -115,26 +115,43 @@ void along_outline(const SteadyMotion& motion, const glm::dmat3& frame, const Bo
     }
 }
 
-}  // namespace
-
-glm::dvec3 mean_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,
-                                  const Quadrature& quadrature) {
+/// Calls `take` with the force on each part of one edge at each psi, and returns the share that each has in a
+/// mean: each edge is at every psi for an equal share of a revolution; helix lag shifts that, not the mean.
+template <typename Take>
+double over_a_turn(const SteadyMotion& motion, const BoneFunction& bone, const Quadrature& quadrature,
+                   Take&& take) {
     const double speed = glm::length(motion.velocity_mm_per_s);
-    if (speed == 0.0) return glm::dvec3(0.0);
+    if (speed == 0.0) return 0.0;
     const glm::dmat3 frame = burr_frame(motion.spindle_axis);
     const glm::dvec3 direction = motion.velocity_mm_per_s / speed;
     const double feed = feed_per_tooth_mm(motion);
-    glm::dvec3 sum(0.0);
     for (int j = 0; j < quadrature.psi; ++j) {
         const double psi = turn_rad * (j + 0.5) / quadrature.psi;
         along_outline(
             motion, frame, bone, quadrature.kappa, [&](double) { return psi; },
             [&](const SurfacePoint& point, double stiffness, double ds_mm) {
-                sum += ds_mm * force_per_edge_length(motion, point, stiffness, feed, direction);
+                take(ds_mm * force_per_edge_length(motion, point, stiffness, feed, direction));
             });
     }
-    // Each edge is at every psi for an equal share of a revolution; helix lag shifts that, not the mean.
-    return sum * (static_cast<double>(motion.burr.edges) / quadrature.psi);
+    return static_cast<double>(motion.burr.edges) / quadrature.psi;
+}
+
+}  // namespace
+
+double mean_reference_parts_n(const SteadyMotion& motion, const BoneFunction& bone,
+                              const Quadrature& quadrature) {
+    double sum = 0.0;
+    const double share =
+        over_a_turn(motion, bone, quadrature, [&](const glm::dvec3& part_n) { sum += glm::length(part_n); });
+    return sum * share;
+}
+
+glm::dvec3 mean_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,
+                                  const Quadrature& quadrature) {
+    glm::dvec3 sum(0.0);
+    const double share =
+        over_a_turn(motion, bone, quadrature, [&](const glm::dvec3& part_n) { sum += part_n; });
+    return sum * share;
 }
 
 glm::dvec3 instantaneous_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,

@@ -42,6 +42,10 @@ struct Quadrature {
 glm::dvec3 mean_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,
                                   const Quadrature& quadrature = {});
 
+/// Sum of the magnitudes of that force's parts, N: errors are of the parts, also where these nearly cancel.
+double mean_reference_parts_n(const SteadyMotion& motion, const BoneFunction& bone,
+                              const Quadrature& quadrature = {});
+
 /// Equation (1): force at the instant when edge 0 has turned by `turned_rad` from the burr's x axis in the
 /// sense of rotation, N. An edge trails by `helix_lag_rad_per_mm` for each mm above the tip.
 glm::dvec3 instantaneous_reference_force_n(const SteadyMotion& motion, const BoneFunction& bone,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/bone/bone_builder.h"
+#include "simulation/carving/voxel_coverage.h"
 
 namespace osteomill::study {
 
@@ -30,6 +31,8 @@ double volume_below(double height, const glm::dvec3& n) {
 /// Part of the voxel that lies below the block's surface, 0 to 255.
 std::uint8_t fraction_below(const glm::dvec3& centre_mm, const BoneBlock& block, double spacing_mm) {
     const double height_mm = block.surface_mm - glm::dot(centre_mm, block.up);
+    if (block.is_milled)
+        return static_cast<std::uint8_t>(level_left_at(VoxelCoverage::smoothed, height_mm / spacing_mm));
     return static_cast<std::uint8_t>(std::lround(255.0 * volume_below(height_mm / spacing_mm, block.up)));
 }
 

@@ -23,6 +23,9 @@ struct BoneBlock {
     glm::dvec3 up{0.0, 0.0, 1.0};  ///< unit
     double surface_mm = 0.0;
     std::optional<TopLayer> layer{};
+    /// Whether voxels at the surface hold as much as a burr leaves of them (voxel_coverage.h), in the place
+    /// of their exact part: the ramp of that is wider than a cube's.
+    bool is_milled = false;
 };
 
 /// Voxelises a block. The box grows outward to whole multiples of `spacing_mm`, so that the faces of voxels

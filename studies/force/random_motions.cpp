@@ -80,10 +80,10 @@ RandomMotion draw_motion(Draw& draw, double voxel_mm) {
     return drawn;
 }
 
-}  // namespace
-
-glm::dvec3 reference_over_path_n(const RandomMotion& drawn) {
-    if (!drawn.dives) return mean_reference_force_n(motion_of(drawn.motion), bone_of(drawn.motion));
+/// Mean of what `of_case` says of the burr at each depth of the path.
+template <typename OfCase>
+auto mean_over_path(const RandomMotion& drawn, OfCase&& of_case) {
+    if (!drawn.dives) return of_case(drawn.motion);
     // By Gauss's five points.
     constexpr std::array<double, 5> points{0.046910077030668, 0.230765344947158, 0.5, 0.769234655052841,
                                            0.953089922969332};
@@ -92,13 +92,25 @@ glm::dvec3 reference_over_path_n(const RandomMotion& drawn) {
     const SteadyPath path = path_of(drawn.motion, drawn.run);
     const double depth_at_start_mm = above_lowest_mm(drawn.motion) - glm::dot(path.start_mm, drawn.motion.up);
     const double deeper_mm = glm::dot(path.start_mm - path.end_mm, drawn.motion.up);
-    glm::dvec3 force_n(0.0);
+    decltype(of_case(drawn.motion)) mean(0.0);
     for (std::size_t i = 0; i < points.size(); ++i) {
         SteadyCase c = drawn.motion;
         c.depth_mm = depth_at_start_mm + points[i] * deeper_mm;
-        force_n += weights[i] * mean_reference_force_n(motion_of(c), bone_of(c));
+        mean += weights[i] * of_case(c);
     }
-    return force_n;
+    return mean;
+}
+
+}  // namespace
+
+glm::dvec3 reference_over_path_n(const RandomMotion& drawn) {
+    return mean_over_path(
+        drawn, [](const SteadyCase& c) { return mean_reference_force_n(motion_of(c), bone_of(c)); });
+}
+
+double reference_parts_over_path_n(const RandomMotion& drawn) {
+    return mean_over_path(
+        drawn, [](const SteadyCase& c) { return mean_reference_parts_n(motion_of(c), bone_of(c)); });
 }
 
 std::vector<RandomMotion> random_motions(int count, std::uint64_t seed, double voxel_mm) {

@@ -37,5 +37,7 @@ void draw_heads(std::vector<RandomMotion>& motions, std::uint64_t seed);
 /// Mean force by the analytical reference. Along a path that dives the force changes with the depth: its mean
 /// over it.
 glm::dvec3 reference_over_path_n(const RandomMotion& drawn);
+/// Likewise the sum of the magnitudes of that force's parts.
+double reference_parts_over_path_n(const RandomMotion& drawn);
 
 }  // namespace osteomill::study

@@ -34,7 +34,10 @@ SteadyPath path_of(const SteadyCase& c, const SteadyRun& run) {
     const bool steady_for_good = std::abs(climb) < 1e-9 || (climb < -1.0 + 1e-9 && c.depth_mm >= radius);
     if (!steady_for_good) {
         const double most_mm = std::min(0.5, c.depth_mm / 3.0) / std::abs(climb);
-        path.steps = std::max(1, std::min(path.steps, static_cast<int>(most_mm / (speed * path.step_s))));
+        const double least_mm = std::min(run.least_dive_voxels * run.voxel_mm, c.depth_mm);
+        const double step_mm = speed * path.step_s;
+        path.steps = std::max({1, static_cast<int>(std::ceil(least_mm / step_mm)),
+                               std::min(path.steps, static_cast<int>(most_mm / step_mm))});
         path.start_mm -= 0.5 * path.steps * path.step_s * c.velocity_mm_per_s;
     }
     path.end_mm = path.start_mm + path.steps * path.step_s * c.velocity_mm_per_s;
@@ -53,7 +56,8 @@ ForceSeries run_steady(const SteadyCase& c, const SteadyRun& run, const MakeMode
     const BoneBlock block{.low_mm = glm::min(path.start_mm, path.end_mm) - margin,
                           .high_mm = glm::max(path.start_mm, path.end_mm) + margin,
                           .up = c.up,
-                          .surface_mm = run.surface_voxels * run.voxel_mm};
+                          .surface_mm = run.surface_voxels * run.voxel_mm,
+                          .is_milled = run.is_milled};
     const auto model = make_model(voxelised(block, run.voxel_mm), c.burr);
     if (c.previous_groove_mm_higher) {
         const glm::dvec3 higher = *c.previous_groove_mm_higher * c.up;

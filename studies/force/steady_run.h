@@ -15,6 +15,10 @@ struct SteadyRun {
     int min_steps = 20;
     /// How far the bone's surface, and the burr with it, is off its place in the lattice, outward.
     double surface_voxels = 0.0;
+    /// Whether the bone's surface is as a burr leaves it (BoneBlock).
+    bool is_milled = false;
+    /// The path of a dive is no shorter than that, nor than the cut is deep.
+    double least_dive_voxels = 0.0;
 };
 
 /// How far the burr goes. A motion along the surface goes on for `run.travel_mm` (or `min_steps`). A motion

@@ -44,7 +44,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--heads", action="store_true",
                         help="cylinders, cones, barrels and pears in the place of balls, of random proportions")
     parser.add_argument("--offsets", action="store_true",
-                        help="run each random motion also with the bone's surface up to a quarter of a voxel off in the lattice")
+                        help="run each random motion also with the bone's surface up to a quarter of a voxel off in the lattice; dives "
+                        "are a voxel long")
+    parser.add_argument("--milled-surface", action="store_true",
+                        help="the bone of random motions begins as a burr leaves it, not with the exact parts of voxels")
     parser.add_argument("--quick", action="store_true", help="fewer points, shorter runs: under a minute")
     parser.add_argument("--voxel-mm", type=number_within(0.01, 1.0), help="edge of a voxel, of --cases and --random (0.1)")
     parser.add_argument("--milling-rate-hz", type=number_within(1.0, 100_000.0), help="steps of the voxel model a second (100)")
@@ -67,14 +70,14 @@ def _require_what_belongs_together(options: argparse.Namespace) -> None:
         raise UsageError("--random excludes --cases")
     if options.quick and (options.cases or options.random):
         raise UsageError(f"--quick excludes {'--cases' if options.cases else '--random'}")
-    for name in ("seed", "depth_mm", "edge_forces", "heads", "offsets"):
+    for name in ("seed", "depth_mm", "edge_forces", "heads", "offsets", "milled_surface"):
         if getattr(options, name) not in (None, False) and not options.random:
             raise UsageError(f"--{name.replace('_', '-')} requires --random")
-    for name in ("milling_rate_hz", "travel_mm"):
-        if getattr(options, name) is not None and not options.cases:
-            raise UsageError(f"--{name.replace('_', '-')} requires --cases")
-    if options.voxel_mm is not None and not (options.cases or options.random):
-        raise UsageError("--voxel-mm requires --cases or --random")
+    if options.milling_rate_hz is not None and not options.cases:
+        raise UsageError("--milling-rate-hz requires --cases")
+    for name in ("voxel_mm", "travel_mm"):
+        if getattr(options, name) is not None and not (options.cases or options.random):
+            raise UsageError(f"--{name.replace('_', '-')} requires --cases or --random")
 
 
 def measure(case: dict[str, Any]) -> Any:
@@ -89,7 +92,8 @@ def name_of(case: dict[str, Any]) -> str:
 
 def _drawn(options: argparse.Namespace, count: int) -> force_random.Drawn:
     return {"count": count, "seed": 1 if options.seed is None else options.seed, "voxel_mm": options.voxel_mm or 0.1,
-            "depth_mm": options.depth_mm, "edge_forces": options.edge_forces, "heads": options.heads}
+            "depth_mm": options.depth_mm, "edge_forces": options.edge_forces, "heads": options.heads,
+            "travel_mm": options.travel_mm or 2.0, "least_dive_voxels": 1.0 if options.offsets else 0.0, "is_milled": options.milled_surface}
 
 
 def _report_random(study: StudyRun, drawn: force_random.Drawn, cases: list[Any], outcomes: list[Any]) -> dict[str, Any]:

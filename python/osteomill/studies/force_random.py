@@ -40,9 +40,11 @@ def measure(case: dict[str, Any]) -> dict[str, Any]:
     series = ForceSeries(*drawn.run(_studies.Milling()))
     force_n, reference_n = series.mean_force_n(), drawn.reference()
     moved_n = [ForceSeries(*drawn.run(_studies.Milling(), surface_voxels=by)).mean_force_n() for by in case["offsets_voxels"]]
+    parts_n = drawn.reference_parts() if moved_n else 0.0
     return {"reference_n": reference_n, "force_n": force_n, "error": relative_error(force_n, reference_n),
             "ripple": series.ripple(), "deviations": series.deviations(), "largest_step": series.largest_step(),
             "changes": [relative_error(moved, force_n) for moved in moved_n],
+            "changes_of_parts": [float(np.linalg.norm(moved - force_n)) / parts_n for moved in moved_n],
             "step_us": float(np.percentile(series.step_us, 50))}
 
 
@@ -60,7 +62,8 @@ def table_of(cases: list[dict[str, Any]], outcomes: list[dict[str, Any]]) -> pd.
             **{f"reference_{axis}_n": value for axis, value in zip("xyz", found["reference_n"])},
             **{f"force_{axis}_n": value for axis, value in zip("xyz", found["force_n"])},
             "error_percent": 100.0 * found["error"],
-            **({"change_percent": 100.0 * max(found["changes"])} if found["changes"] else {}),
+            **({"change_percent": 100.0 * max(found["changes"]), "change_of_parts_percent": 100.0 * max(found["changes_of_parts"])}
+               if found["changes"] else {}),
             "ripple_percent": 100.0 * found["ripple"],
             "largest_step": found["largest_step"], "step_us": found["step_us"],
         })
@@ -80,9 +83,7 @@ def summary_of(drawn: Drawn, table: pd.DataFrame, outcomes: list[dict[str, Any]]
         "median_error_percent": percentile(table["error_percent"], 50),
         **{f"p{share}_error_percent": percentile(table["error_percent"], share) for share in (90, 95, 99)},
         "max_error_percent": percentile(table["error_percent"], 100),
-        **{f"p{share}_change_percent": percentile(table["change_percent"], share)
-           for share in (50, 95, 99, 100) if "change_percent" in table},
-        **({"along_max_change_percent": percentile(along["change_percent"], 100)} if "change_percent" in table else {}),
+        **(_changes(table, along) if "change_percent" in table else {}),
         "along_median_error_percent": percentile(along["error_percent"], 50),
         "along_p90_error_percent": percentile(along["error_percent"], 90),
         "ripple_p90_percent": percentile(along["ripple_percent"], 90),
@@ -96,6 +97,15 @@ def summary_of(drawn: Drawn, table: pd.DataFrame, outcomes: list[dict[str, Any]]
     }
 
 
+def _changes(table: pd.DataFrame, along: pd.DataFrame) -> dict[str, float]:
+    return {
+        **{f"p{share}_change_percent": percentile(table["change_percent"], share) for share in (50, 95, 99, 100)},
+        "along_max_change_percent": percentile(along["change_percent"], 100),
+        "p99_change_of_parts_percent": percentile(table["change_of_parts_percent"], 99),
+        "max_change_of_parts_percent": percentile(table["change_of_parts_percent"], 100),
+    }
+
+
 def percentile(values: Any, share: float) -> float:
     """0 if there are no values."""
     return float(np.percentile(values, share)) if len(values) else 0.0
@@ -103,7 +113,9 @@ def percentile(values: Any, share: float) -> float:
 
 def words_of(summary: dict[str, Any]) -> str:
     moved = ("; with the surface a quarter of a voxel off in the lattice the mean changes by at most {p95_change_percent:.2f} % in 95 of "
-             "100, {p99_change_percent:.2f} in 99, {p100_change_percent:.2f} at worst; along the surface {along_max_change_percent:.2f}" if "p50_change_percent" in summary else "")
+             "100, {p99_change_percent:.2f} in 99, {p100_change_percent:.2f} at worst ({along_max_change_percent:.2f} along the surface); of the sum of "
+             "its parts' magnitudes by {p99_change_of_parts_percent:.2f} % in 99 of 100, {max_change_of_parts_percent:.2f} at worst"
+             if "p50_change_percent" in summary else "")
     return (
         "{cases} motions of seed {seed}: error median {median_error_percent:.2f} %, 90 % within {p90_error_percent:.2f}, "
         "95 % within {p95_error_percent:.2f}, 99 % within {p99_error_percent:.2f}, worst {max_error_percent:.2f} %; "
