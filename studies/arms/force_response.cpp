@@ -22,7 +22,7 @@ constexpr double block_voxel_mm = 0.1;
 constexpr double slot_depth_mm = 1.0;
 constexpr double feed_mm_per_s = 4.0;
 constexpr double swing_mm_per_s = 1.0;
-constexpr double settling_s = 3.0;
+constexpr double transient_s = 3.0;
 constexpr double least_measured_s = 1.0;
 constexpr int least_periods = 2;
 
@@ -63,7 +63,7 @@ ForceResponse respond(const std::string& coupling_name, double stiffness_n_per_m
         throw std::invalid_argument(fmt::format("a stiffness of {} N/mm is not above 0", stiffness_n_per_mm));
     const Burr burr{.diameter_mm = 5.0, .spindle_rev_per_s = 10'000.0 / 60.0};
     const double periods = std::max<double>(least_periods, std::ceil(least_measured_s * hz));
-    const int settling_ticks = static_cast<int>(settling_s / sample_s);
+    const int settling_ticks = static_cast<int>(transient_s / sample_s);
     const int measured_ticks = static_cast<int>(std::lround(periods / hz / sample_s));
     const double end_mm = hand_x_mm((settling_ticks + measured_ticks) * sample_s, hz);
 

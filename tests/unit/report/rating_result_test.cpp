@@ -138,7 +138,7 @@ TEST_F(RatedSession, AddsUpPointsAndSaysThemEverywhere) {
     EXPECT_THAT(metrics_csv(made.rows), HasSubstr("rating_item_points,Opened,2,\n"));
     EXPECT_THAT(made.html, HasSubstr("<b>2 of 7 points</b>Not reached: All gone; Seen (not decided); Of a"));
     EXPECT_THAT(made.html, HasSubstr("a book"));
-    EXPECT_THAT(made.html, HasSubstr("burr_in_view_share = not measured"));
+    EXPECT_THAT(made.html, HasSubstr("cut with the burr in view = not measured"));
 }
 
 TEST_F(RatedSession, ShowsWhoUndoesTheWayToFullMarks) {

@@ -151,7 +151,9 @@ class ReportLanguage : public ::testing::Test {
 };
 
 TEST_F(ReportLanguage, IsOfEveryTextOfAJudgedAndRatedSession) {
-    write("anna", jaw());
+    SessionInfo session = jaw();
+    session.burrs.front().name = "1.5 mm";
+    write("anna", session);
     expect_all_translated("anna");
     const std::string german = page("anna", "de");
     EXPECT_THAT(german, HasSubstr("<b>Eröffnet: Pulpa</b>"));

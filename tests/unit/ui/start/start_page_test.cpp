@@ -99,10 +99,10 @@ TEST_F(StartPageTest, SaysWhatToDoWhenTheDiskIsFullAtTheEnd) {
     window.start();
     ASSERT_TRUE(comes_true(window, [&] { return !window.is_session_running(); }));
     EXPECT_THAT(window.message(), HasSubstr("No space left on device. Make room on the disk"));
-    make_program("haptic_server", "echo 'jaw: is no case' >&2\nexit 1");
+    make_program("haptic_server", "echo 'there is no such case' >&2\nexit 1");
     window.start();
     ASSERT_TRUE(comes_true(window, [&] { return !window.is_session_running(); }));
-    EXPECT_EQ(window.message(), "jaw: is no case");
+    EXPECT_EQ(window.message(), "there is no such case");
 }
 
 TEST_F(StartPageTest, StartsACaseAtTheSecondClickOnItsCardHoweverLateAndNoOther) {
