@@ -1,8 +1,24 @@
-# osteomill_module(NAME SOURCES a.cpp ... LIBRARIES lib ... [LOOPS]): one static library of a folder of the house, or of several.
-# Includes are written from the repository root ("common/bone/grid.h"). LOOPS: it has inner loops that
-# somebody waits for, see osteomill_optimisation.cmake.
+# osteomill_sources(VARIABLE PATTERN FOLDERS... [EXCEPT file...]): sets VARIABLE to the files of these folders, themselves without theirs, that
+# the pattern takes. A file that comes or goes is seen by the next build.
+function(osteomill_sources variable pattern)
+    cmake_parse_arguments(arg "" "" "EXCEPT" ${ARGN})
+    set(files)
+    foreach(folder ${arg_UNPARSED_ARGUMENTS})
+        file(GLOB found CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${folder}/${pattern})
+        list(APPEND files ${found})
+    endforeach()
+    list(REMOVE_ITEM files "" ${arg_EXCEPT})
+    set(${variable} ${files} PARENT_SCOPE)
+endfunction()
+
+# osteomill_module(NAME [FOLDERS folder... [EXCEPT file...]] [SOURCES file...] LIBRARIES lib ... [LOOPS]): a static library of all sources in
+# these folders, but for the mains of programs (NAME_main.cpp) and those in EXCEPT, and of SOURCES. Includes are written from the
+# repository root ("common/bone/grid.h"). LOOPS: it has inner loops that somebody waits for, see osteomill_optimisation.cmake.
 function(osteomill_module name)
-    cmake_parse_arguments(arg "LOOPS" "" "SOURCES;LIBRARIES" ${ARGN})
+    cmake_parse_arguments(arg "LOOPS" "" "FOLDERS;EXCEPT;SOURCES;LIBRARIES" ${ARGN})
+    osteomill_sources(found *.cpp ${arg_FOLDERS} EXCEPT ${arg_EXCEPT})
+    list(FILTER found EXCLUDE REGEX "_main\\.cpp$")
+    list(APPEND arg_SOURCES ${found})
     if(arg_SOURCES)
         add_library(${name} STATIC ${arg_SOURCES})
         target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})

@@ -24,7 +24,7 @@ def written(types):
 
 def declarations():
     """Classes and functions of the package, by name."""
-    trees = [ast.parse((PACKAGE / file).read_text()) for file in ("_core.pyi", "env.py", "render.py", "repeat_recording.py", "spaces.py", "sweep.py", "vector_env.py")]
+    trees = [ast.parse((PACKAGE / file).read_text()) for file in ("_core.pyi", "env.py", "render.py", "repeat_recording.py", "fallback_spaces.py", "sweep.py", "vector_env.py")]
     return {node.name: node for tree in trees for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
 
 

@@ -13,7 +13,7 @@ namespace osteomill {
 
 namespace {
 
-constexpr int longest_wait_ms = 5;
+constexpr int longest_datagram_wait_ms = 5;
 constexpr auto nap = std::chrono::milliseconds(5);
 constexpr std::uint64_t ns_per_ms = 1'000'000;
 /// A pose that no force of the loop has answered by then is answered with the one before.
@@ -149,7 +149,7 @@ void BridgeArm::run() {
     std::uint64_t request_ns = 0;
     std::optional<std::uint64_t> refused_ns;
     while (!stops_.load(std::memory_order_relaxed)) {
-        const std::optional<std::size_t> bytes = socket_.receive(buffer, from, longest_wait_ms);
+        const std::optional<std::size_t> bytes = socket_.receive(buffer, from, longest_datagram_wait_ms);
         const std::uint64_t now_ns = omb_now_ns();
         const bool has_force = forces_.refresh();
         if (has_force) force_ns_ = now_ns;

@@ -24,7 +24,7 @@ constexpr int idle_pace_ms = 1;
 constexpr int armless_pace_ms = 10;
 /// A state that no force of the loop has answered by then is answered with the one before.
 constexpr int longest_answer_ms = 3;
-constexpr double mm_per_m = 1000.0;
+constexpr double to_mm = 1000.0;  // from the metres of Haply's service
 
 glm::dvec3 limited(const glm::dvec3& force_n) {
     const double size_n = glm::length(force_n);
@@ -162,12 +162,12 @@ void HaplyArm::take_arm(const HaplyInverse3& arm, const std::optional<HaplyGrip>
     if (!is_arm_able_) was_lost_ = true;
 
     take_grip(grip);
-    sensor_.read(clutch_.position_mm(mm_per_m * arm.position_m, is_clutch_),
+    sensor_.read(clutch_.position_mm(to_mm * arm.position_m, is_clutch_),
                  std::chrono::duration<double>(now - sensed_).count());
     sensed_ = now;
     newest_.state.position_mm = sensor_.position_mm();
     newest_.state.velocity_mm_per_s = is_clutch_             ? glm::dvec3(0.0)
-                                      : arm.velocity_m_per_s ? mm_per_m * *arm.velocity_m_per_s
+                                      : arm.velocity_m_per_s ? to_mm * *arm.velocity_m_per_s
                                                              : sensor_.velocity_mm_per_s();
     newest_.state.connected = is_arm_able_ && !was_lost_;
     newest_.said_s = seconds_of(first_request_);

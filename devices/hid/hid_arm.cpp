@@ -12,7 +12,7 @@ namespace osteomill {
 namespace {
 
 /// An arm answers within a millisecond or two; this is how long the thread sleeps if it does not.
-constexpr int longest_wait_ms = 5;
+constexpr int longest_report_wait_ms = 5;
 
 class ArmConversation final : public HidConversation {
   public:
@@ -29,7 +29,7 @@ class ArmConversation final : public HidConversation {
     }
 
     bool exchange() noexcept override {
-        link_.receive(longest_wait_ms, clock_s_());
+        link_.receive(longest_report_wait_ms, clock_s_());
         std::optional<glm::dvec3> wanted_n;
         if (forces_.refresh()) wanted_n = forces_.front();
         link_.answer(clock_s_(), wanted_n);

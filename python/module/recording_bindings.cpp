@@ -14,12 +14,12 @@
 #include "analysis/hdf5/recording_hdf5.h"
 #include "analysis/report/metric_files.h"
 #include "analysis/report/session_metrics.h"
-#include "haptic_server/replay/repeated_session.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
 #include "python/module/bone_view.h"
 #include "python/module/opened_recording.h"
 #include "python/module/released_lock.h"
+#include "python/module/repeated_session.h"
 
 namespace osteomill::python {
 

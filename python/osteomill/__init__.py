@@ -30,7 +30,7 @@ except ModuleNotFoundError as error:
 from osteomill.env import Env
 from osteomill.render import Rendering, View, render
 from osteomill.repeat_recording import Repeated, repeat
-from osteomill.spaces import Box
+from osteomill.fallback_spaces import Box
 from osteomill.sweep import sweep
 from osteomill.vector_env import VectorEnv
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
 if TYPE_CHECKING or not HAS_GYMNASIUM:
-    from osteomill import spaces
+    from osteomill import fallback_spaces as spaces
 else:
     from gymnasium import spaces
 

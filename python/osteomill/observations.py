@@ -14,7 +14,7 @@ from osteomill.gymnasium_spaces import spaces
 from osteomill.render import View
 
 if TYPE_CHECKING:
-    from osteomill.spaces import Box
+    from osteomill.fallback_spaces import Box
 
 Observation = dict[str, NDArray[Any]]
 

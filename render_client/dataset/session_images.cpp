@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render_client/ui/view/first_view.h"
+#include "render_client/dataset/first_view.h"
 #include "render_client/volume/structures/structure_surface.h"
 
 namespace osteomill {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 /// Gaps of freshly carved bone scatter by a tenth of a voxel.
-constexpr double touching_voxels = 0.2;
+constexpr double touching_gap_voxels = 0.2;
 /// A longer step in a tick is a jump of the device, not the motion of a hand.
 constexpr double longest_move_mm = 5.0;  // at the arm
 
@@ -127,7 +127,7 @@ void HandpieceVibration::aim(const Engagement& engagement, const glm::dmat3& fra
     for (std::size_t i = 0; i < engagement.count; ++i) {
         const EngagedPatch& patch = engagement.patches[i];
         const double advance_mm_per_s = glm::dot(patch.normal, feed_mm_per_s_);
-        if (advance_mm_per_s <= 0.0 || patch.gap_mm > touching_voxels * engagement.spacing_mm) continue;
+        if (advance_mm_per_s <= 0.0 || patch.gap_mm > touching_gap_voxels * engagement.spacing_mm) continue;
         const double x = glm::dot(patch.normal, frame[0]);
         const double y = glm::dot(patch.normal, frame[1]);
         const glm::dvec3 chip_n = advance_mm_per_s * patch.cutting_n_s_per_mm;

@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "render_client/dataset/first_view.h"
 #include "render_client/ui/panels/inset_panel.h"
 #include "render_client/ui/panels/layout.h"
-#include "render_client/ui/view/first_view.h"
 #include "render_client/volume/magnification.h"
 
 namespace osteomill {

@@ -1,4 +1,4 @@
-#include "render_client/ui/view/first_view.h"
+#include "render_client/dataset/first_view.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render_client/dataset/dataset_run.h"
+#include "render_client/ui/dataset_run.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "haptic_server/replay/repeated_session.h"
+#include "python/module/repeated_session.h"
 
 #include <fmt/format.h>
 
