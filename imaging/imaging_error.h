@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

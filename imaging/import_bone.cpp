@@ -12,9 +12,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/bone/usual_spacing.h"
+#include "common/bone/grid.h"
 #include "common/program/progress.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "imaging/bone_file/hu_file.h"
 #include "imaging/formats/image_reader.h"
 #include "imaging/formats/plausible_geometry.h"

@@ -8,10 +8,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/log/line_sink.h"
-#include "common/program/program_output.h"
-#include "common/program/stop_signals.h"
-#include "common/text/plain_text.h"
+#include "common/log/line_stream.h"
+#include "common/program/run_program.h"
+#include "common/text/foreign_text.h"
 #include "common/words/translation.h"
 #include "render_client/link/bone_link.h"
 #include "render_client/link/recording_player.h"

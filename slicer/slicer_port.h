@@ -3,7 +3,7 @@
 //
 // The connected receiver keeps its place: a newer connection is closed at once, or else any process of this
 // machine could displace 3D Slicer. A receiver that reads nothing for 10 s is dropped. The log has a line for
-// each connection and its end, one every two seconds at most (limited_log.h).
+// each connection and its end, one every two seconds at most (rate_limit.h).
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "common/log/limited_log.h"
+#include "common/log/rate_limit.h"
 #include "slicer/igtl_messages.h"
 
 namespace osteomill {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "common/bone/patient_space.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "common/text/words.h"
 
 namespace osteomill {

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "common/log/limited_log.h"
-#include "common/log/token_bucket.h"
+#include "common/log/rate_limit.h"
 #include "common/session/structure_distance.h"
 #include "common/session/tool_state.h"
 #include "render_client/link/bone_link.h"

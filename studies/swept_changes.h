@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/bone/gathered_changes.h"
+#include "common/bone/brick_change.h"
 #include "simulation/carving/carve.h"
 
 namespace osteomill::study {

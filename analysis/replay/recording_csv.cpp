@@ -7,10 +7,9 @@
 #include <span>
 #include <stdexcept>
 
-#include "common/scene/trajectory_columns.h"
 #include "common/session/written_pose.h"
-#include "common/text/csv_cell.h"
-#include "common/text/plain_text.h"
+#include "common/text/csv.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

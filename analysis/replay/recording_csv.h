@@ -25,7 +25,7 @@ enum class CsvLines {
 /// force_y_n, force_z_n (on the hand), burr (its name, quoted), spindle (1: on), removed_mm3 (as the server
 /// counted), nearest_structure (quoted name of the protected one; empty: none is near), nearest_structure_mm
 /// (0 and below: the burr overlaps it). Patient LPS.
-/// Trajectory: as simulated hands follow it (trajectory_columns.h), from time 0 at the recording's first
+/// Trajectory: as simulated hands follow it (written_pose.h), from time 0 at the recording's first
 /// line; the pedal is down where the spindle turned. A comment above names the recorded arm. Other actions on
 /// the session (undo, place) are no motion.
 class RecordingCsv {

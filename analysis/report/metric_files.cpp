@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/start_conditions.h"
-#include "common/text/csv_cell.h"
+#include "common/text/csv.h"
 
 namespace osteomill {
 

@@ -10,7 +10,7 @@
 
 #include "analysis/report/burr_in_view.h"
 #include "analysis/report/surface_normal.h"
-#include "common/bone/structure_in_bone.h"
+#include "common/bone/structure_mask.h"
 #include "common/recording/packet_reader.h"
 #include "common/recording/playhead.h"
 

@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "common/files/input_file.h"
-#include "common/files/table_line.h"
-#include "common/text/plain_text.h"
-#include "common/text/utf8.h"
+#include "common/text/csv.h"
+#include "common/text/foreign_text.h"
 #include "common/text/words.h"
 
 namespace osteomill {

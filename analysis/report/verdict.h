@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/report/session_metrics.h"
-#include "common/scene/pass_marks.h"
+#include "common/scene/rating.h"
 
 namespace osteomill {
 

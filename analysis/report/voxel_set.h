@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "common/bone/voxel_mask.h"
+#include "common/bone/brick.h"
 
 namespace osteomill {
 

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/bone/brick_table.h"
+#include "common/bone/brick.h"
 #include "common/bone/structure_mask.h"
 
 namespace osteomill {

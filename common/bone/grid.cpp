@@ -1,5 +1,6 @@
 #include "common/bone/grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,16 @@ void require_valid(const Grid& grid) {
     if (!is_place(grid.origin_mm) || !is_place(centre_of_voxel_mm(grid, grid.size_voxels - 1)))
         throw std::invalid_argument(
             "grid reaches more than 10 m from the patient's origin, or its origin is no place");
+}
+
+double usual_spacing_mm(const glm::dvec3& size_mm, double finest_mm, std::uint64_t available_bytes) {
+    double voxels = usual_voxels;
+    if (available_bytes > 0)
+        voxels = std::min(
+            voxels, usual_share_of_memory * static_cast<double>(available_bytes) / session_bytes_per_voxel);
+    const double spacing_mm = std::max(finest_mm, std::cbrt(size_mm.x * size_mm.y * size_mm.z / voxels));
+    const double steps_per_mm = spacing_mm > 0.1 ? 20.0 : 100.0;
+    return std::ceil(steps_per_mm * spacing_mm - 1e-6) / steps_per_mm;
 }
 
 }  // namespace osteomill

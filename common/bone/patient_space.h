@@ -1,11 +1,18 @@
 // Bounds of positions and directions in patient space, whatever they come from: a file, a peer or an option.
 #pragma once
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
 namespace osteomill {
+
+// Check that a vector holds finite numbers.
+
+inline bool is_finite(const glm::dvec3& v) noexcept {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// No patient and no operating theatre is larger than ten metres, and scanners place the patient within
 /// metres of their centre. A larger coordinate is a wrong unit, or an attempt to break the arithmetic.

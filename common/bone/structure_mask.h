@@ -10,7 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/bone/voxel_mask.h"
+#include "common/bone/bone.h"
+#include "common/bone/brick.h"
 
 namespace osteomill {
 
@@ -61,5 +62,14 @@ struct Structure {
     std::size_t tissue = 0;  ///< index in the scene's tissues
     StructureMask mask{};
 };
+
+// The structure made of a tissue's labels in a bone: for structures without a mask of their own.
+
+/// All voxels of the bone's bricks with this label, whatever fraction is left; empty if there are none.
+StructureMask structure_in_bone(const Bone& bone, std::uint8_t label);
+
+/// Whether any bone left in the brick of that slot has the label. For one brick at a time: a whole large bone
+/// takes long.
+bool brick_has_label(const Bone& bone, std::size_t slot, std::uint8_t label);
 
 }  // namespace osteomill

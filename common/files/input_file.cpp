@@ -10,7 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

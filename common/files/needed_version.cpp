@@ -5,7 +5,7 @@
 #include <array>
 #include <charconv>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

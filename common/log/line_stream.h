@@ -5,8 +5,11 @@
 // failing log must not end the program.
 #pragma once
 
+#include <unistd.h>
+
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <sstream>
 #include <string>
@@ -32,7 +35,7 @@ class LineStream {
 
     /// `text`: one or more whole lines, or one that is to be overwritten; text of this program only.
     void write(std::string text);
-    /// One line, whatever is in it: printable (plain_text.h), and a line break behind it. `level`, as of a
+    /// One line, whatever is in it: printable (foreign_text.h), and a line break behind it. `level`, as of a
     /// log, is for JSON.
     void say(std::string_view line, const char* level = "info");
     /// Whether everything is written, or never will be: a line that matters only now should not queue behind
@@ -68,6 +71,26 @@ class LineStreamBuffer final : public std::stringbuf {
 
   private:
     LineStream& stream_;
+};
+
+// The log of a program (spdlog) as lines of a stream that never blocks the caller.
+
+/// Makes spdlog's functions write to `stream`, each line headed with time, `program` and level, the level in
+/// colour on a terminal. A line that cannot be formatted is left out.
+void log_to(std::shared_ptr<LineStream> stream, const std::string& program);
+
+/// Lines of a program on its standard output and standard error while it runs. Neither can hold it up.
+struct ProgramOutput {
+    /// For programs that wait for a line.
+    std::shared_ptr<LineStream> out = std::make_shared<LineStream>(STDOUT_FILENO);
+    /// For people; the log goes there, too.
+    std::shared_ptr<LineStream> err = std::make_shared<LineStream>(STDERR_FILENO);
+
+    /// Last: waits for both for a bounded time. Later output is discarded.
+    void finish() const {
+        out->finish();
+        err->finish();
+    }
 };
 
 }  // namespace osteomill

@@ -6,8 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/net/asn1_time.h"
-
 namespace osteomill {
 
 bool may_act_as(const X509& certificate, TlsContext::Role role) {

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "common/net/revocation_lists.h"
-#include "common/net/tls_files.h"
+#include "common/net/tls_options.h"
 
 namespace osteomill {
 

@@ -1,18 +1,28 @@
 // --tls-cert, --tls-key, --tls-ca and --tls-crl, the same for every program.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/files/distinct_files.h"
-#include "common/net/tls_files.h"
 
 namespace CLI {
 class App;
-}
+}  // namespace CLI
 
 namespace osteomill {
+
+// The files that a program needs to speak TLS.
+
+/// All PEM. scripts/make_lab_certificates.sh makes them.
+struct TlsFiles {
+    std::filesystem::path certificate;  ///< this program's own, and any intermediate ones up to the CA
+    std::filesystem::path key;          ///< the certificate's private key, without a passphrase
+    std::filesystem::path ca;           ///< the lab's CA: who may be at the other end
+    std::filesystem::path crl{};        ///< the lists of whom it no longer vouches for; empty: none
+};
 
 class TlsOptions {
   public:

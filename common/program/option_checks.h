@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 
@@ -53,7 +53,7 @@ inline void prepare(CLI::App& app) {
     for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) prepare(*subcommand);
 }
 
-/// Parses as CLI11 does, with two differences. It refuses arguments that are no plain text (plain_text.h),
+/// Parses as CLI11 does, with two differences. It refuses arguments that are no plain text (foreign_text.h),
 /// because they name files and people, and such names go into logs, reports and recordings. And it takes
 /// "[a,b]" for a name. Throws CLI::ParseError.
 inline void parse_arguments(CLI::App& app, int argc, const char* const* argv) {

@@ -4,18 +4,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <stdexcept>
 
-#include "common/log/line_sink.h"
-#include "common/program/program_output.h"
-#include "common/program/stop_signals.h"
-#include "common/text/plain_text.h"
+#include "common/log/line_stream.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
+
+// The signals that end a program, as a flag, so that it can save its data first.
+
+/// From now on SIGINT, SIGTERM and SIGHUP (lost terminal; not under nohup) set the flag, and do nothing more,
+/// however often they come. A pipe without a reader, and a file over the limit of `ulimit -f`, fail like a
+/// full disk instead of ending the program.
+const std::atomic<bool>& stop_on_signals();
+
+/// From now on these signals end the program at once: for a program with nothing to save that may have to
+/// wait.
+void end_on_signals();
+
+/// The second half of stop_on_signals() alone.
+void ignore_signals_of_streams();
 
 inline constexpr int exit_success = 0;
 inline constexpr int exit_failure = 1;

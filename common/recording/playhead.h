@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/recording/recorded_time.h"
 #include "common/recording/recording_reader.h"
-#include "common/wire/followed_state.h"
+#include "common/wire/session_receiver.h"
 
 namespace osteomill {
 

@@ -1,12 +1,17 @@
 // A recording, event by event: the sessions in it, their bones and their state frames.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
+#include "common/recording/packet.h"
 #include "common/recording/packet_reader.h"
 #include "common/wire/session_receiver.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
@@ -47,5 +52,56 @@ class RecordingReader {
     PacketReader packets_;
     SessionReceiver receiver_;
 };
+
+// The time of a recording: seconds since its first frame. If recordings were joined, each session follows the
+// one before at once, whenever it was recorded.
+
+/// Whether a packet has the time that its frame states. Frames are sealed, packets are not: if the two
+/// differ, the recording was damaged or moved in time.
+inline bool has_time_of(const v2::ServerFrame& frame, const Packet& packet) {
+    return frame.has_recorded_unix_ns() &&
+           frame.recorded_unix_ns() == packet.stamp.time_since_epoch().count();
+}
+
+class RecordedTime {
+  public:
+    /// The next frame's time; never earlier than the one before.
+    double next_s(Stamp stamp, bool begins_session) {
+        if (begins_session || !session_began_) {
+            session_began_ = stamp;
+            session_begins_s_ = last_s_;
+        }
+        const std::chrono::duration<double> since = stamp - *session_began_;
+        last_s_ = std::max(last_s_, session_begins_s_ + since.count());
+        return last_s_;
+    }
+    double last_s() const { return last_s_; }
+
+  private:
+    std::optional<Stamp> session_began_;
+    double session_begins_s_ = 0.0;
+    double last_s_ = 0.0;
+};
+
+/// The outline of a recording: its duration, and the moments worth seeing.
+struct RecordedMoment {
+    enum class Kind {
+        mark,   ///< that somebody set
+        touch,  ///< a spell of touching a protected structure begins
+    };
+    double time_s = 0.0;  ///< since the first frame
+    Kind kind = Kind::mark;
+
+    bool operator==(const RecordedMoment&) const = default;
+};
+
+struct RecordingOutline {
+    double duration_s = 0.0;                ///< from the first frame to the last that can be read
+    std::vector<RecordedMoment> moments{};  ///< in their order
+    bool has_view = false;                  ///< it states the operator's viewpoint
+};
+
+/// Reads all frames, but no bone. Throws RecordingError for a file that is no recording.
+RecordingOutline outline_of(const std::filesystem::path& file);
 
 }  // namespace osteomill

@@ -3,13 +3,43 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "common/scene/burr_head.h"
-
 namespace osteomill {
+
+// The shape of a burr's cutting head: the ball, or a body of revolution with flat or tapered sides.
+
+/// `ball`: a sphere. `cylinder`: straight sides (a fissure burr). `cone`: tapered sides. `barrel`: widest in
+/// the middle. `pear`: a half ball at the tip that tapers to the neck.
+enum class HeadShape { ball, cylinder, cone, barrel, pear };
+
+inline constexpr std::array<std::string_view, 5> head_shape_names{"ball", "cylinder", "cone", "barrel",
+                                                                  "pear"};
+
+/// The head's sizes besides the burr's diameter, which is the largest of the head. A ball has none.
+struct BurrHead {
+    HeadShape shape = HeadShape::ball;
+    double length_mm = 0.0;         ///< from the tip to the neck's end, along the spindle
+    double tip_diameter_mm = 0.0;   ///< at the tip's face; of a pear nothing
+    double neck_diameter_mm = 0.0;  ///< at the face towards the shank
+
+    bool operator==(const BurrHead&) const = default;
+};
+
+/// A head of the usual proportions: a cone half as wide at its tip, a barrel 0.7 as wide at both ends, a pear
+/// 0.6 as wide at its neck.
+BurrHead usual_head(HeadShape shape, double diameter_mm, double length_mm);
+
+/// Throws std::invalid_argument unless the head is a ball with nothing else set, or its length lies within
+/// half its diameter to 30 mm (of a pear: from one diameter on), and its ends are between 0.3 times the
+/// diameter and the diameter; a cylinder's are the diameter, and one end of a cone is.
+void require_valid(const BurrHead& head, double diameter_mm);
 
 /// Which way the burr turns, seen from the handpiece (from the shank towards the tip).
 enum class SpindleSense { clockwise, counter_clockwise };
@@ -82,6 +112,19 @@ struct Motor {
 inline double speed_share_under(const Motor& motor, double torque_n_mm) noexcept {
     const double over_n_mm = torque_n_mm - motor.steady_torque_n_mm;
     return 1.0 - std::clamp(over_n_mm / (motor.stall_torque_n_mm - motor.steady_torque_n_mm), 0.0, 1.0);
+}
+
+// The burr's own axes: origin at the sphere's centre, +z along the spindle from tip to shank.
+
+/// Columns are the burr's x, y, z axes in patient LPS; right-handed, orthonormal. `spindle_axis` is a unit
+/// vector. The direction of x is immaterial (the burr turns), but it varies continuously except near a
+/// spindle along -z (Duff et al. 2017, Building an Orthonormal Basis, Revisited).
+inline glm::dmat3 burr_frame(const glm::dvec3& spindle_axis) {
+    const glm::dvec3& n = spindle_axis;
+    const double sign = std::copysign(1.0, n.z);
+    const double a = -1.0 / (sign + n.z);
+    const double b = n.x * n.y * a;
+    return {{1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
 
 }  // namespace osteomill

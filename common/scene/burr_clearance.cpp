@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/scene/burr_frame.h"
+#include "common/scene/burr.h"
 #include "common/scene/burr_profile.h"
 
 namespace osteomill {

@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "common/scene/burr_head.h"
+#include "common/scene/burr.h"
 
 namespace osteomill {
 

@@ -4,14 +4,27 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
 #include <variant>
 
-#include "common/scene/fixture_set.h"
-
 namespace osteomill {
+
+using FixtureSet = std::uint32_t;
+
+// Some of a scene's fixtures, as a number: bit i is the i-th.
+
+inline constexpr std::size_t most_fixtures = 16;  ///< of a scene
+inline constexpr FixtureSet every_fixture = (FixtureSet{1} << most_fixtures) - 1;
+
+constexpr FixtureSet fixture_bit(std::size_t number) {
+    return FixtureSet{1} << number;
+}
+constexpr bool has_fixture(FixtureSet set, std::size_t number) {
+    return (set & fixture_bit(number)) != 0;
+}
 
 /// `guide` draws the burr's centre to a line, a tube or a plane. `forbidden` keeps the burr's head off a
 /// structure. `slow` makes its feed heavy, or its spindle slow, near a structure.

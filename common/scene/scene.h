@@ -2,7 +2,9 @@
 // by scene_file.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
@@ -10,19 +12,19 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "common/scene/burr.h"
 #include "common/scene/fixture.h"
-#include "common/scene/pass_marks.h"
 #include "common/scene/plan.h"
 #include "common/scene/rating.h"
 #include "common/scene/stiffness_relation.h"
 
 namespace osteomill {
 
-/// A bone made by code: one of phantom_names.h.
+/// A bone made by code: one of phantom_names.
 struct PhantomSource {
     std::string name = "tooth";
 
@@ -147,5 +149,67 @@ std::vector<Burr> felt_burrs(const Scene& scene);
 
 /// The scene's relation of stiffness to CT numbers, with the tissues that have a stiffness of their own.
 StiffnessRelation stiffness_of(const Scene& scene);
+
+// Factors by which the edge forces in a tissue exceed those that its stiffness implies; the edge forces of
+// scenes with such tissues are weighted by them.
+
+/// By tissue label: relative edge force over relative stiffness.
+struct EdgeShares {
+    EdgeShares() { of_label.fill(1.0f); }
+    explicit EdgeShares(const std::vector<Tissue>& tissues) : EdgeShares() {
+        for (const Tissue& tissue : tissues)
+            if (tissue.strength)
+                of_label[tissue.label] =
+                    static_cast<float>(tissue.strength->relative_edge / tissue.strength->relative_stiffness);
+    }
+
+    /// In every tissue edges rub as its stiffness implies.
+    bool are_all_one() const {
+        return std::all_of(of_label.begin(), of_label.end(), [](float share) { return share == 1.0f; });
+    }
+
+    std::array<float, 256> of_label;
+};
+
+/// Tissues that no burr cuts, such as an implant or a probe's tip: they stay, and are a wall to the burr.
+struct UncutTissues {
+    UncutTissues() = default;
+    explicit UncutTissues(const std::vector<Tissue>& tissues) {
+        for (const Tissue& tissue : tissues) {
+            of_label[tissue.label] = !tissue.is_cuttable;
+            has_any = has_any || !tissue.is_cuttable;
+        }
+    }
+
+    bool has_any = false;
+    std::array<bool, 256> of_label{};  ///< by tissue label
+};
+
+/// The burrs of a scene, each turning at its own speed or at the one that was chosen.
+class TurningBurrs {
+  public:
+    explicit TurningBurrs(std::vector<Burr> burrs) : burrs_(std::move(burrs)) {
+        for (const Burr& burr : burrs_) own_rev_per_s_.push_back(burr.spindle_rev_per_s);
+    }
+
+    std::size_t size() const { return burrs_.size(); }
+    const std::vector<Burr>& all() const { return burrs_; }
+    const Burr& operator[](std::size_t burr) const { return burrs_[burr]; }
+
+    /// Lets a burr turn at a share of its own speed from now on. Real-time safe.
+    const Burr& turn(std::size_t burr, double speed_share) noexcept {
+        burrs_[burr].spindle_rev_per_s = speed_share * own_rev_per_s_[burr];
+        return burrs_[burr];
+    }
+
+  private:
+    std::vector<Burr> burrs_;
+    std::vector<double> own_rev_per_s_;
+};
+
+// Names of the bones made by code, in the order in which people see them.
+
+/// Each has a scene of its name, scenes/NAME.toml.
+inline constexpr std::array phantom_names{"jaw", "mastoid", "tooth", "cube", "head"};
 
 }  // namespace osteomill

@@ -8,15 +8,13 @@
 #include <glm/matrix.hpp>
 
 #include "common/files/needed_version.h"
-#include "common/scene/fixture_table.h"
-#include "common/scene/phantom_names.h"
-#include "common/scene/plan_table.h"
-#include "common/scene/rating_table.h"
+#include "common/scene/scene.h"
 #include "common/scene/scene_keys.h"
+#include "common/scene/task_tables.h"
 #include "common/scene/tissue_tables.h"
 #include "common/scene/toml_reader.h"
 #include "common/scene/toml_text.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

@@ -41,7 +41,7 @@
 
 namespace osteomill {
 
-/// One line, printable (plain_text.h): "file:line: what is wrong; what would be right".
+/// One line, printable (foreign_text.h): "file:line: what is wrong; what would be right".
 class SceneError : public std::runtime_error {
   public:
     explicit SceneError(const std::string& message);

@@ -9,7 +9,7 @@
 
 #include "common/scene/material.h"
 #include "common/scene/scene_keys.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

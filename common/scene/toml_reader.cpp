@@ -9,7 +9,7 @@
 #include "common/bone/patient_space.h"
 #include "common/scene/nearest_name.h"
 #include "common/scene/scene_file.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

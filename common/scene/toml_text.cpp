@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "common/files/input_file.h"
-#include "common/text/utf8.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

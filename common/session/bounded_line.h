@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "common/text/utf8.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

@@ -9,11 +9,21 @@
 #include <type_traits>
 
 #include "common/scene/burr.h"
-#include "common/scene/fixture_set.h"
+#include "common/scene/fixture.h"
 #include "common/session/bounded_line.h"
-#include "common/session/solve_counts.h"
 
 namespace osteomill {
+
+/// Outcomes of a coupling's contact solves since the start of a session: the largest residual, and how often
+/// the plain solve failed.
+struct SolveCounts {
+    double max_residual_n = 0.0;  ///< largest force left over after a tick
+    std::uint64_t fallbacks = 0;  ///< ticks without a balance, until they were damped
+    std::uint64_t relaxed = 0;    ///< of these, ticks in which normal forces alone were kept
+    std::uint64_t damped = 0;     ///< ticks with a balance, damped because bone drove the burr off
+
+    bool operator==(const SolveCounts&) const = default;
+};
 
 /// The client that moves the tool, as seen by the client that this is sent to.
 enum class ToolDriver {
@@ -76,5 +86,16 @@ static_assert(std::is_trivially_copyable_v<ToolState>);
 inline double spindle_rpm(const ToolState& tool, const Burr& burr) {
     return tool.spindle_rpm.value_or(60.0 * burr.spindle_rev_per_s);
 }
+
+// Appearance of a tool: whether two states of it look the same in a picture.
+
+/// Less than a pixel, and about the tremble of a good arm's encoders.
+inline constexpr double quiet_motion_mm = 0.002;
+/// Less than a plot shows.
+inline constexpr double quiet_force_n = 0.002;
+
+/// Whether a viewer that received `sent` would see nothing new in `now`, except for the time. Compare with
+/// the state sent last, not with the previous frame, so that slow motion is sent, too.
+bool looks_the_same(const ToolState& sent, const ToolState& now);
 
 }  // namespace osteomill

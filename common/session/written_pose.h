@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <glm/vec3.hpp>
+#include <string_view>
 
 #include "common/scene/scene.h"
 
@@ -34,5 +35,14 @@ inline ToolPose as_written(const ToolPose& pose) noexcept {
     return {with_decimals<hand_decimals_mm>(pose.position_mm),
             with_decimals<axis_decimals>(pose.spindle_axis)};
 }
+
+// First lines of a trajectory in CSV, for writers and readers; see devices/simulated/csv_trajectory.h.
+
+inline constexpr std::string_view trajectory_columns = "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal";
+/// Column that may follow them.
+inline constexpr std::string_view trajectory_burr_column = ",burr";
+/// Beginning of a comment that may stand above the columns: behind it come the limits of the arm in whose
+/// hand the motion was recorded, as JSON (recorded_arm.h). An arm on rails takes them.
+inline constexpr std::string_view trajectory_arm = "# arm ";
 
 }  // namespace osteomill

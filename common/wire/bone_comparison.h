@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "common/wire/running_checksum.h"
-#include "common/wire/wire_error.h"
+#include "common/wire/bone_replica.h"
+#include "common/wire/frame.h"
 #include "osteomill/v2/bone.pb.h"
 
 namespace osteomill {

@@ -3,9 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "common/bone/finite.h"
 #include "common/bone/patient_space.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "common/wire/geometry_messages.h"
 
 namespace osteomill {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/session/session_control.h"
-#include "common/wire/wire_error.h"
+#include "common/wire/frame.h"
 #include "osteomill/v2/session.pb.h"
 
 namespace osteomill {

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "common/bone/ct_volume.h"
-#include "common/wire/wire_error.h"
+#include "common/wire/frame.h"
 #include "common/wire/zstd_compressor.h"
 #include "osteomill/v2/bone.pb.h"
 

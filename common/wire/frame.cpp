@@ -3,6 +3,7 @@
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/message_lite.h>
+#include <google/protobuf/stubs/logging.h>
 
 #include <stdexcept>
 
@@ -61,6 +62,11 @@ std::optional<std::span<const std::uint8_t>> FrameDecoder::next() {
         return waiting.subspan(prefix, size);
     }
     return std::nullopt;
+}
+
+bool parse_message(std::span<const std::uint8_t> bytes, google::protobuf::MessageLite& message) {
+    const google::protobuf::LogSilencer silence;
+    return message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()));
 }
 
 }  // namespace osteomill

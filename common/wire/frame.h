@@ -12,9 +12,14 @@
 
 namespace google::protobuf {
 class MessageLite;
-}
+}  // namespace google::protobuf
 
 namespace osteomill {
+
+/// Reason why something that came over the wire was refused: one line for people, fit for a log.
+struct WireError {
+    std::string line{};
+};
 
 /// The largest message in a frame. It bounds the memory that either side holds for a peer that it does not
 /// trust, and how long one frame keeps the next waiting; a snapshot is cut to fit.
@@ -56,5 +61,11 @@ class FrameDecoder {
     std::size_t taken_ = 0;  // bytes at the front of the buffer that next() has handed out
     std::string error_;
 };
+
+// Parsing of a message that came from outside.
+
+/// False if the bytes are no such message; the caller reports the error. protobuf by itself would write a
+/// line to standard error for each text that is not UTF-8, and a stranger could fill a log with them.
+bool parse_message(std::span<const std::uint8_t> bytes, google::protobuf::MessageLite& message);
 
 }  // namespace osteomill

@@ -6,7 +6,7 @@
 
 #include "common/bone/grid.h"
 #include "common/session/viewpoint.h"
-#include "common/wire/wire_error.h"
+#include "common/wire/frame.h"
 #include "osteomill/v2/bone.pb.h"
 
 namespace osteomill::v2 {

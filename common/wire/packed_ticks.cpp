@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/session/seen_steps.h"
-#include "common/wire/parse_message.h"
+#include "common/wire/frame.h"
 
 namespace osteomill {
 

@@ -11,9 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "common/session/decimal_code.h"
 #include "common/session/tick_sample.h"
-#include "common/wire/wire_error.h"
+#include "common/wire/frame.h"
 #include "common/wire/zstd_compressor.h"
 #include "osteomill/v2/session.pb.h"
 

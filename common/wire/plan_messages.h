@@ -7,7 +7,7 @@
 #include "common/scene/fixture.h"
 #include "common/scene/plan.h"
 #include "common/scene/rating.h"
-#include "common/wire/wire_error.h"
+#include "common/wire/frame.h"
 #include "osteomill/v2/session.pb.h"
 
 namespace osteomill {

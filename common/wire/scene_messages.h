@@ -8,8 +8,8 @@
 #include "common/scene/scene.h"
 #include "common/session/operator_command.h"
 #include "common/session/tool_state.h"
+#include "common/wire/frame.h"
 #include "common/wire/session_info.h"
-#include "common/wire/wire_error.h"
 #include "osteomill/v2/session.pb.h"
 #include "osteomill/v2/tool.pb.h"
 

@@ -3,7 +3,6 @@
 #include <xxhash.h>
 
 #include "common/wire/frame.h"
-#include "common/wire/parse_message.h"
 
 namespace osteomill {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <variant>
 
-#include "common/wire/wire_error.h"
+#include "common/wire/frame.h"
 #include "osteomill/v2/session.pb.h"
 
 namespace osteomill {

@@ -10,9 +10,14 @@
 
 #include "common/scene/scene.h"
 #include "common/session/operator_command.h"
-#include "common/wire/protocol_version.h"
 
 namespace osteomill {
+
+// The version of the protocol in proto/osteomill/v2. Another major version cannot be understood; a higher
+// minor one says more than an older reader knows of.
+
+inline constexpr std::uint32_t protocol_major = 2;
+inline constexpr std::uint32_t protocol_minor = 3;
 
 struct SessionInfo {
     std::uint32_t protocol_major = osteomill::protocol_major;

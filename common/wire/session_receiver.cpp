@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "common/wire/control_messages.h"
 #include "common/wire/geometry_messages.h"
 #include "common/wire/packed_changes.h"
@@ -137,6 +137,21 @@ SessionReceiver::Outcome SessionReceiver::take_state(v2::StateFrame message, boo
     }
     if (message.has_comparison()) arrived.comparison = std::move(*message.mutable_comparison());
     return SessionEvent(std::move(arrived));
+}
+
+std::variant<FollowedState, WireError> follow(const StateArrived& arrived, BoneReplica& replica) {
+    FollowedState followed;
+    for (const ChangedBrick& changed : arrived.changes) {
+        auto corrected = replica.correct(changed);
+        if (auto* error = std::get_if<WireError>(&corrected)) return std::move(*error);
+        if (changed.change.kind == ChangeKind::milled &&
+            std::get<Correction>(corrected) == Correction::raises)
+            followed.has_regained_bone = true;
+    }
+    if (arrived.bone_checksum)
+        followed.check =
+            *arrived.bone_checksum == replica.checksum() ? ReplicaCheck::equal : ReplicaCheck::differs;
+    return followed;
 }
 
 }  // namespace osteomill

@@ -11,12 +11,12 @@
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
 #include "common/session/session_state.h"
+#include "common/wire/bone_replica.h"
+#include "common/wire/frame.h"
 #include "common/wire/packed_ticks.h"
-#include "common/wire/running_checksum.h"
 #include "common/wire/session_info.h"
 #include "common/wire/snapshot.h"
 #include "common/wire/structure_messages.h"
-#include "common/wire/wire_error.h"
 #include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
@@ -30,7 +30,7 @@ struct BoneArrived {
     RunningChecksum checksum;
 };
 
-/// A state frame. Its changes are checked against the bone when they are applied: see followed_state.h.
+/// A state frame. Its changes are checked against the bone when they are applied.
 struct StateArrived {
     SessionState state{};
     std::vector<ChangedBrick> changes{};           ///< in the order in which they are to be applied
@@ -114,5 +114,24 @@ class SessionReceiver {
     std::uint32_t bricks_received_ = 0;
     std::uint32_t bricks_announced_ = 0;
 };
+
+// A state frame, applied to a replica of the bone that is kept equal to the server's.
+
+/// The result of checking a replica against a frame's checksum.
+enum class ReplicaCheck {
+    none,     ///< the frame stated none
+    equal,    ///< the replica has it
+    differs,  ///< the replica has another
+};
+
+struct FollowedState {
+    ReplicaCheck check = ReplicaCheck::none;
+    /// A change raised a fraction, which milling cannot: the replica had lost bone, and has it again. Those
+    /// that restore bone are no such changes.
+    bool has_regained_bone = false;
+};
+
+/// After an error part of the changes may have been applied: a fresh bone is needed.
+std::variant<FollowedState, WireError> follow(const StateArrived& arrived, BoneReplica& replica);
 
 }  // namespace osteomill

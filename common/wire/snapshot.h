@@ -11,7 +11,7 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/bone_builder.h"
-#include "common/wire/wire_error.h"
+#include "common/wire/frame.h"
 #include "common/wire/zstd_compressor.h"
 #include "osteomill/v2/bone.pb.h"
 

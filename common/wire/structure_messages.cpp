@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "common/wire/mask_bytes.h"
+#include "common/wire/packed_changes.h"
 #include "common/wire/zstd_compressor.h"
 
 namespace osteomill {

@@ -9,7 +9,7 @@
 
 #include "common/bone/structure_mask.h"
 #include "common/session/structure_distance.h"
-#include "common/wire/wire_error.h"
+#include "common/wire/frame.h"
 #include "osteomill/v2/session.pb.h"
 
 namespace osteomill {

@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "simulation/device/arm_spring.h"
 
 namespace osteomill {

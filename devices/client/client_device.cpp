@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
 #include "common/scene/device_mapping.h"
 
 namespace osteomill {

@@ -6,7 +6,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
 
 namespace osteomill {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "devices/hid/hid_arm.h"
 #include "devices/hid/profile_file.h"
 #include "devices/hid/space_mouse_report.h"

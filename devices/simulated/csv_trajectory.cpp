@@ -9,10 +9,10 @@
 
 #include "common/bone/patient_space.h"
 #include "common/files/input_file.h"
-#include "common/files/table_line.h"
-#include "common/scene/trajectory_columns.h"
 #include "common/session/session_control.h"
-#include "common/text/plain_text.h"
+#include "common/session/written_pose.h"
+#include "common/text/csv.h"
+#include "common/text/foreign_text.h"
 #include "common/text/words.h"
 
 namespace osteomill {

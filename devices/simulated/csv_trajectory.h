@@ -5,7 +5,7 @@
 //
 // The first line must be this header, with or without `burr` (index into the scene's set). Times ascend. The
 // axis points from the tip to the shank and is normalised here. `pedal` is 0 or 1. Blank lines and lines that
-// begin with # are skipped (one may name an arm: trajectory_columns.h). Anything else is refused with file
+// begin with # are skipped (one may name an arm: written_pose.h). Anything else is refused with file
 // and line.
 #pragma once
 

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "common/net/asn1_time.h"
+#include "common/net/own_certificate.h"
 #include "common/net/tls_context.h"
 
 namespace osteomill {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/net/listen_address.h"
-#include "common/net/tls_files.h"
+#include "common/net/tls_options.h"
 #include "haptic_server/check/check_row.h"
 
 namespace osteomill {

@@ -16,7 +16,7 @@
 #include <thread>
 #include <utility>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "haptic_server/monitoring/host_name.h"
 
 namespace osteomill {

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "common/program/program_output.h"
+#include "common/log/line_stream.h"
 #include "haptic_server/program/server_options.h"
 
 namespace osteomill {

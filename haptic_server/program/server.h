@@ -4,12 +4,12 @@
 #include <atomic>
 #include <string>
 
-#include "common/program/program_output.h"
+#include "common/log/line_stream.h"
 #include "haptic_server/program/server_options.h"
 
 namespace osteomill {
 
-/// Gives the flag that asks to end; from then on, signals set it (stop_signals.h).
+/// Gives the flag that asks to end; from then on, signals set it (run_program.h).
 using StopFlag = const std::atomic<bool>& (*)();
 
 /// Runs until the duration or the trajectory ends, or the stop flag is set from anywhere. The flag is asked

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/files/output_place.h"
-#include "common/program/program_output.h"
+#include "common/log/line_stream.h"
 #include "haptic_server/program/session_json.h"
 #include "haptic_server/session/session_assembly.h"
 

@@ -7,7 +7,7 @@
 
 #include "common/program/command_line.h"
 #include "common/program/option_checks.h"
-#include "common/scene/phantom_names.h"
+#include "common/scene/scene.h"
 #include "common/session/session_control.h"
 #include "common/words/translation.h"
 #include "haptic_server/session/measured_device.h"

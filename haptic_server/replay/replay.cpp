@@ -21,7 +21,7 @@
 #include "analysis/surface/surface_mesh.h"
 #include "common/files/atomic_file.h"
 #include "common/program/progress.h"
-#include "common/program/stop_signals.h"
+#include "common/program/run_program.h"
 #include "common/words/translation.h"
 #include "haptic_server/replay/recorded_session.h"
 #include "haptic_server/streaming/streaming_server.h"

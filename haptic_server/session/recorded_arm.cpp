@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "common/files/input_file.h"
-#include "common/scene/trajectory_columns.h"
+#include "common/session/written_pose.h"
 #include "common/text/foreign_json.h"
 
 namespace osteomill {

@@ -9,7 +9,7 @@
 
 #include "common/files/input_file.h"
 #include "common/program/available_memory.h"
-#include "common/scene/phantom_names.h"
+#include "common/scene/scene.h"
 #include "common/scene/scene_file.h"
 #include "imaging/case/case_folder.h"
 #include "imaging/case/case_placement.h"

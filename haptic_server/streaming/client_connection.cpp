@@ -9,7 +9,7 @@
 #include <chrono>
 
 #include "common/net/tls_failure.h"
-#include "common/wire/parse_message.h"
+#include "common/wire/frame.h"
 
 namespace osteomill {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "common/log/token_bucket.h"
+#include "common/log/rate_limit.h"
 #include "common/net/stream.h"
 #include "common/wire/frame.h"
 #include "haptic_server/streaming/answered_states.h"

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "common/session/viewpoint.h"
-#include "common/wire/wire_error.h"
+#include "common/wire/frame.h"
 #include "haptic_server/streaming/answered_states.h"
 #include "haptic_server/streaming/outgoing_frames.h"
 #include "haptic_server/streaming/tool_lease.h"

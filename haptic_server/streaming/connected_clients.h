@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "common/bone/brick_change.h"
-#include "common/log/limited_log.h"
+#include "common/log/rate_limit.h"
 #include "common/session/session_state.h"
 #include "common/wire/bone_replica.h"
-#include "common/wire/wire_error.h"
+#include "common/wire/frame.h"
 #include "haptic_server/streaming/client_connection.h"
 #include "haptic_server/streaming/connection_quota.h"
 #include "haptic_server/streaming/control_lease.h"

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <utility>
 
-#include "common/scene/arm_scale.h"
+#include "common/scene/device_mapping.h"
 
 namespace osteomill {
 

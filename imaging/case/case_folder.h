@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/pass_marks.h"
+#include "common/scene/rating.h"
 #include "imaging/formats/image_reader.h"
 #include "imaging/segmentation/segmentation.h"
 
@@ -21,7 +21,7 @@ namespace osteomill {
 /// Throws std::invalid_argument for anything else, with the built-in ones and the nearest name.
 std::string scene_of_case(const std::string& name);
 
-/// The folder's own name, for people. Throws std::invalid_argument if that is no plain text (plain_text.h).
+/// The folder's own name, for people. Throws std::invalid_argument if that is no plain text (foreign_text.h).
 std::string name_of_case(const std::filesystem::path& folder);
 
 /// Parts of a case besides its scan. A folder stands for the label maps in it.

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/bone/structure_in_bone.h"
+#include "common/bone/structure_mask.h"
 #include "imaging/imaging_error.h"
 #include "imaging/resampling/region.h"
 #include "imaging/segmentation/segment_structure.h"

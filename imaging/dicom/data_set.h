@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

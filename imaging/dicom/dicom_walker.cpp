@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "common/scene/phantom_names.h"
+#include "common/scene/scene.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/shipped_scenes.h"
 #include "imaging/phantoms/head_phantom.h"

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "common/scene/nearest_name.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "common/text/words.h"
 #include "imaging/bone_file/digest.h"
 #include "imaging/formats/image_reader.h"

@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/bone/finite.h"
 #include "common/bone/patient_space.h"
 #include "python/module/released_lock.h"
 

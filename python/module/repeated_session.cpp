@@ -14,9 +14,9 @@
 
 #include "common/recording/playhead.h"
 #include "common/scene/scene_file.h"
-#include "common/session/decimal_code.h"
 #include "common/session/seen_steps.h"
-#include "common/text/plain_text.h"
+#include "common/session/tick_sample.h"
+#include "common/text/foreign_text.h"
 #include "common/text/words.h"
 #include "devices/simulated/hand_model.h"
 #include "devices/simulated/recorded_device.h"

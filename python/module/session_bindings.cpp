@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
 #include "python/module/bone_view.h"

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/recording/recording_writer.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "haptic_server/session/device_table.h"
 #include "haptic_server/session/session_defaults.h"
 #include "haptic_server/session/session_settings.h"

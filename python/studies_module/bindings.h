@@ -6,7 +6,7 @@
 #include <exception>
 #include <stdexcept>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill::python {
 

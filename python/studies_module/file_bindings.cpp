@@ -11,9 +11,9 @@
 #include "common/files/atomic_file.h"
 #include "common/files/distinct_files.h"
 #include "common/files/input_file.h"
-#include "common/files/table_line.h"
+#include "common/text/csv.h"
 #include "common/text/foreign_json.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "common/text/words.h"
 #include "python/studies_module/bindings.h"
 

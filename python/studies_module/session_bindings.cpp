@@ -20,7 +20,7 @@
 #include "analysis/report/trainee_groups.h"
 #include "common/files/input_file.h"
 #include "common/recording/packet_reader.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "common/words/translation.h"
 #include "imaging/bone_file/digest.h"
 #include "python/studies_module/bindings.h"

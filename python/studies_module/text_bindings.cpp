@@ -6,8 +6,8 @@
 #include <string>
 
 #include "common/text/address_text.h"
-#include "common/text/csv_cell.h"
-#include "common/text/plain_text.h"
+#include "common/text/csv.h"
+#include "common/text/foreign_text.h"
 #include "python/studies_module/bindings.h"
 
 namespace osteomill::python {

@@ -13,10 +13,10 @@
 #include <sstream>
 
 #include "common/files/input_file.h"
-#include "common/files/table_line.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/toml_reader.h"
 #include "common/scene/toml_text.h"
+#include "common/text/csv.h"
 #include "common/text/words.h"
 
 namespace osteomill {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/recording/recording_outline.h"
+#include "common/recording/recording_reader.h"
 
 namespace osteomill {
 

@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "common/net/tls_files.h"
+#include "common/net/tls_options.h"
 #include "render_client/link/session_source.h"
 
 namespace osteomill {

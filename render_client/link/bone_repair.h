@@ -10,9 +10,8 @@
 #include <variant>
 
 #include "common/wire/bone_comparison.h"
-#include "common/wire/followed_state.h"
+#include "common/wire/frame.h"
 #include "common/wire/session_receiver.h"
-#include "common/wire/wire_error.h"
 
 namespace osteomill {
 

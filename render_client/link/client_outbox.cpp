@@ -5,8 +5,8 @@
 
 #include "common/wire/control_messages.h"
 #include "common/wire/geometry_messages.h"
-#include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
+#include "common/wire/session_info.h"
 
 namespace osteomill {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/recording/playhead.h"
-#include "common/recording/recording_outline.h"
+#include "common/recording/recording_reader.h"
 #include "render_client/link/key_frames.h"
 #include "render_client/link/rate_meter.h"
 #include "render_client/link/session_source.h"

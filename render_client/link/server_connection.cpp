@@ -10,7 +10,7 @@
 
 #include "common/files/session_file.h"
 #include "common/net/tls_failure.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "common/wire/control_messages.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"

@@ -8,10 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "common/wire/followed_state.h"
+#include "common/wire/frame.h"
 #include "common/wire/session_info.h"
 #include "common/wire/session_receiver.h"
-#include "common/wire/wire_error.h"
 #include "render_client/link/bone_repair.h"
 
 namespace osteomill {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "common/net/tls_files.h"
+#include "common/net/tls_options.h"
 #include "render_client/ui/dataset_options.h"
 #include "render_client/ui/panels/theme.h"
 #include "render_client/ui/view/cut_settings.h"

@@ -6,7 +6,7 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
-#include "common/scene/uncut_tissues.h"
+#include "common/scene/scene.h"
 #include "simulation/carving/removed_voxels.h"
 #include "simulation/carving/sweep.h"
 #include "simulation/carving/voxel_coverage.h"

@@ -64,7 +64,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "common/session/solve_counts.h"
+#include "common/session/tool_state.h"
 #include "simulation/coupling/contact_solve.h"
 #include "simulation/coupling/force_correction.h"
 #include "simulation/device/device_limits.h"

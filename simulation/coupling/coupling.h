@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "common/scene/scene.h"
-#include "common/session/solve_counts.h"
+#include "common/session/tool_state.h"
 #include "simulation/coupling/fixture_pull.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/exchange/milling_step.h"

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "common/bone/finite.h"
-#include "common/scene/burr_frame.h"
+#include "common/bone/patient_space.h"
+#include "common/scene/burr.h"
 
 namespace osteomill {
 

@@ -40,7 +40,7 @@
 #include <vector>
 
 #include "common/scene/burr.h"
-#include "common/scene/turning_burrs.h"
+#include "common/scene/scene.h"
 #include "simulation/coupling/coupling.h"
 
 namespace osteomill {

@@ -5,7 +5,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "common/scene/burr_frame.h"
+#include "common/scene/burr.h"
 #include "simulation/carving/simd.h"
 #include "simulation/cutting_force/axis_singularity_kernel.h"
 #include "simulation/cutting_force/edge_advance.h"

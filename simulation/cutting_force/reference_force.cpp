@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "common/scene/burr_frame.h"
+#include "common/scene/burr.h"
 #include "common/scene/burr_profile.h"
 
 namespace osteomill::study {

@@ -1,8 +1,8 @@
 // Limits of an arm's abilities, in its own space and in the patient's: two types, so that one is not confused
-// with the other. arm_scale.h says how a figure converts.
+// with the other. device_mapping.h says how a figure converts.
 #pragma once
 
-#include "common/scene/arm_scale.h"
+#include "common/scene/device_mapping.h"
 
 namespace osteomill {
 

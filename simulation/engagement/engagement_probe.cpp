@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "common/scene/burr_frame.h"
+#include "common/scene/burr.h"
 #include "common/scene/burr_profile.h"
 
 namespace osteomill {

@@ -6,8 +6,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/burr.h"
-#include "common/scene/edge_shares.h"
-#include "common/scene/uncut_tissues.h"
+#include "common/scene/scene.h"
 #include "simulation/engagement/brick_neighbourhood.h"
 #include "simulation/engagement/burr_patches.h"
 #include "simulation/engagement/engagement.h"

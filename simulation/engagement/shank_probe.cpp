@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "common/scene/burr_frame.h"
+#include "common/scene/burr.h"
 
 namespace osteomill {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "common/scene/fixture_set.h"
+#include "common/scene/fixture.h"
 #include "common/scene/scene.h"
 
 namespace osteomill {

@@ -12,8 +12,6 @@
 #include <vector>
 
 #include "common/scene/scene.h"
-#include "common/scene/turning_burrs.h"
-#include "common/scene/uncut_tissues.h"
 #include "simulation/engagement/brick_neighbourhood.h"
 #include "simulation/force_models/contact_law.h"
 #include "simulation/force_models/erosion.h"

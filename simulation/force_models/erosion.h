@@ -20,7 +20,7 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
-#include "common/scene/uncut_tissues.h"
+#include "common/scene/scene.h"
 #include "simulation/force_models/ball_rows.h"
 
 namespace osteomill {

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "common/scene/burr_frame.h"
+#include "common/scene/burr.h"
 #include "simulation/force_models/ball_rows.h"
 
 namespace osteomill {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
 
 namespace osteomill {
 

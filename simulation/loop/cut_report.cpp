@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "common/bone/finite.h"
-#include "common/scene/burr_frame.h"
+#include "common/bone/patient_space.h"
+#include "common/scene/burr.h"
 #include "simulation/engagement/engagement.h"
 #include "simulation/loop/spindle_torque.h"
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "common/scene/burr.h"
-#include "common/scene/turning_burrs.h"
+#include "common/scene/scene.h"
 #include "common/session/tool_state.h"
 #include "simulation/exchange/milling_step.h"
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
 #include "common/scene/device_mapping.h"
 #include "common/session/written_pose.h"
 #include "simulation/loop/clearance.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "common/scene/burr_frame.h"
+#include "common/scene/burr.h"
 
 namespace osteomill {
 

@@ -1,6 +1,6 @@
 #include "simulation/safety/safety_monitor.h"
 
-#include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
 
 namespace osteomill {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
 
 namespace osteomill {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "common/scene/burr_frame.h"
+#include "common/scene/burr.h"
 
 namespace osteomill::study {
 

@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "common/files/input_file.h"
-#include "common/scene/burr_frame.h"
+#include "common/scene/burr.h"
 #include "common/scene/burr_profile.h"
 #include "common/text/foreign_json.h"
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "common/statistics/percentile.h"
-#include "common/wire/followed_state.h"
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
+#include "common/wire/session_receiver.h"
 #include "haptic_server/streaming/outgoing_frames.h"
 #include "studies/swept_changes.h"
 

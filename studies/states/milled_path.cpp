@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/bone/finite.h"
-#include "common/scene/burr_frame.h"
+#include "common/bone/patient_space.h"
+#include "common/scene/burr.h"
 #include "common/sound/burr_sound.h"
 #include "simulation/coupling/handpiece_vibration.h"
 #include "simulation/device/device_limits.h"

@@ -3,7 +3,6 @@
 
 #include "common/wire/ct_pieces.h"
 #include "common/wire/frame.h"
-#include "common/wire/parse_message.h"
 #include "common/wire/sealed_frame.h"
 #include "common/wire/session_receiver.h"
 #include "render_client/link/verified_replica.h"

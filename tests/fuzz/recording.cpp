@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "common/recording/playhead.h"
-#include "common/recording/recording_outline.h"
+#include "common/recording/recording_reader.h"
 #include "tests/fuzz/targets.h"
 
 namespace osteomill::fuzz {

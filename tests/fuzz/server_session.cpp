@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "common/bone/finite.h"
+#include "common/bone/patient_space.h"
 #include "common/wire/sealed_frame.h"
 #include "haptic_server/streaming/client_connection.h"
 #include "haptic_server/streaming/client_message.h"

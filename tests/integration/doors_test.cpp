@@ -21,7 +21,7 @@
 
 #include "common/net/tls_context.h"
 #include "common/wire/frame.h"
-#include "common/wire/protocol_version.h"
+#include "common/wire/session_info.h"
 #include "osteomill/v2/session.pb.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/child_process.h"

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "common/wire/frame.h"
-#include "common/wire/protocol_version.h"
+#include "common/wire/session_info.h"
 #include "haptic_server/program/session_json.h"
 #include "osteomill/v2/session.pb.h"
 #include "render_client/link/bone_link.h"

@@ -9,7 +9,6 @@
 #include <string>
 #include <variant>
 
-#include "common/recording/recording_outline.h"
 #include "common/recording/recording_reader.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/child_process.h"

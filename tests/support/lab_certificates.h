@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/net/tls_files.h"
+#include "common/net/tls_options.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::testing {

@@ -10,10 +10,10 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "common/scene/phantom_names.h"
+#include "common/scene/scene.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/shipped_scenes.h"
-#include "common/text/file_name.h"
+#include "common/text/foreign_text.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

@@ -6,7 +6,7 @@
 #include <regex>
 #include <string_view>
 
-#include "common/bone/usual_spacing.h"
+#include "common/bone/grid.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/pass_marks.h"
+#include "common/scene/rating.h"
 #include "common/scene/tissue_tables.h"
 #include "render_client/ui/start/shown_scan.h"
 
@@ -73,7 +73,7 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
 std::string specks_said(const std::string& said);
 
 /// Edge of a voxel if nobody has chosen one: 0.1 mm, of a finer scan its own, 0.02 mm at least, or longer
-/// (usual_spacing.h).
+/// (grid.h).
 double default_spacing_mm(const ImportForm& form, const ScanPreview& look);
 
 /// Takes the result of a preview. Segments that the form knows keep their settings. For another scan the

@@ -11,9 +11,9 @@
 #include <system_error>
 
 #include "common/files/input_file.h"
-#include "common/scene/phantom_names.h"
+#include "common/scene/scene.h"
 #include "common/text/foreign_json.h"
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "common/program/available_memory.h"
-#include "common/text/file_name.h"
+#include "common/text/foreign_text.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/bone/gathered_changes.h"
+#include "common/bone/brick_change.h"
 #include "render_client/volume/passes/detail_control.h"
 #include "render_client/volume/textures/texture_build.h"
 

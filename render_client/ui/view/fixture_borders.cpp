@@ -7,7 +7,7 @@
 #include <exception>
 #include <utility>
 
-#include "common/bone/structure_in_bone.h"
+#include "common/bone/structure_mask.h"
 #include "render_client/volume/bone_colours.h"
 #include "render_client/volume/structures/region_about.h"
 

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "common/wire/tool_appearance.h"
+#include "common/session/tool_state.h"
 
 namespace osteomill {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "common/bone/gathered_changes.h"
+#include "common/bone/brick_change.h"
 
 namespace osteomill {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/bone/structure_in_bone.h"
+#include "common/bone/structure_mask.h"
 
 namespace osteomill {
 

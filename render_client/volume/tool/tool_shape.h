@@ -2,7 +2,6 @@
 #pragma once
 
 #include "common/scene/burr.h"
-#include "common/scene/burr_head.h"
 #include "render_client/volume/tool/triangles.h"
 
 namespace osteomill {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
-#include "common/session/solve_counts.h"
+#include "common/session/tool_state.h"
 #include "devices/simulated/hand_model.h"
 #include "studies/stability/sites/site.h"
 

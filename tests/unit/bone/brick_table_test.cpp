@@ -1,5 +1,3 @@
-#include "common/bone/brick_table.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -7,6 +5,8 @@
 #include <random>
 #include <stdexcept>
 #include <vector>
+
+#include "common/bone/brick.h"
 
 namespace osteomill::brick_table_test {
 namespace {

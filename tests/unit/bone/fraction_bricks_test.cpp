@@ -1,8 +1,8 @@
-#include "common/bone/fraction_bricks.h"
-
 #include <gtest/gtest.h>
 
 #include <vector>
+
+#include "common/bone/bone.h"
 
 namespace osteomill {
 namespace {

@@ -1,8 +1,7 @@
-#include "common/bone/structure_in_bone.h"
-
 #include <gtest/gtest.h>
 
 #include "common/bone/bone_builder.h"
+#include "common/bone/structure_mask.h"
 
 namespace osteomill {
 namespace {

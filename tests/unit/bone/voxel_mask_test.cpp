@@ -1,8 +1,8 @@
-#include "common/bone/voxel_mask.h"
-
 #include <gtest/gtest.h>
 
 #include <vector>
+
+#include "common/bone/brick.h"
 
 namespace osteomill {
 namespace {

@@ -9,7 +9,7 @@
 #include <glm/matrix.hpp>
 #include <random>
 
-#include "common/scene/burr_frame.h"
+#include "common/scene/burr.h"
 #include "tests/support/block.h"
 
 namespace osteomill::carve_head_test {

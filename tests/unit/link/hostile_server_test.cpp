@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/wire/frame.h"
-#include "common/wire/protocol_version.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/sealed_frame.h"
+#include "common/wire/session_info.h"
 #include "common/wire/snapshot.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/block.h"

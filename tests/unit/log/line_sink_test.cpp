@@ -1,9 +1,8 @@
-#include "common/log/line_sink.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 
+#include "common/log/line_stream.h"
 #include "tests/support/unread_pipe.h"
 
 namespace osteomill {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "common/recording/packet_writer.h"
-#include "common/recording/recording_outline.h"
+#include "common/recording/recording_reader.h"
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 #include "tests/support/made_recording.h"

@@ -1,8 +1,7 @@
-#include "common/recording/recording_outline.h"
-
 #include <gmock/gmock.h>
 
 #include "common/recording/packet_reader.h"
+#include "common/recording/recording_reader.h"
 #include "tests/support/made_recording.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,6 +1,6 @@
-#include "common/scene/burr_frame.h"
-
 #include <gtest/gtest.h>
+
+#include "common/scene/burr.h"
 
 namespace osteomill {
 namespace {

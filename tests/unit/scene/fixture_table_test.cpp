@@ -1,8 +1,7 @@
-#include "common/scene/fixture_table.h"
-
 #include <gmock/gmock.h>
 
 #include "common/scene/scene_file.h"
+#include "common/scene/task_tables.h"
 
 namespace osteomill::fixture_table_test {
 namespace {

@@ -1,9 +1,8 @@
-#include "common/scene/rating_table.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "common/scene/scene_file.h"
+#include "common/scene/task_tables.h"
 
 namespace osteomill {
 namespace {

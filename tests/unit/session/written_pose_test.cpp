@@ -7,8 +7,8 @@
 #include <random>
 
 #include "common/bone/patient_space.h"
-#include "common/session/decimal_code.h"
 #include "common/session/seen_steps.h"
+#include "common/session/tick_sample.h"
 
 namespace osteomill {
 namespace {

@@ -1,5 +1,3 @@
-#include "common/sound/sound_cue.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

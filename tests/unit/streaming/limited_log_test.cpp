@@ -1,10 +1,10 @@
-#include "common/log/limited_log.h"
-
 #include <gmock/gmock.h>
 #include <spdlog/sinks/ostream_sink.h>
 
 #include <algorithm>
 #include <sstream>
+
+#include "common/log/rate_limit.h"
 
 namespace osteomill {
 namespace {

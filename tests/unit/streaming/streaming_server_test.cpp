@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/recording/playhead.h"
-#include "common/recording/recording_outline.h"
+#include "common/recording/recording_reader.h"
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
 #include "haptic_server/streaming/answered_states.h"

@@ -1,6 +1,6 @@
-#include "common/text/csv_cell.h"
-
 #include <gtest/gtest.h>
+
+#include "common/text/csv.h"
 
 namespace osteomill {
 namespace {

@@ -1,6 +1,6 @@
-#include "common/text/file_name.h"
-
 #include <gtest/gtest.h>
+
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 namespace {

@@ -20,7 +20,7 @@
 #include "analysis/report/headlines.h"
 #include "analysis/report/session_metrics.h"
 #include "analysis/report/smoothness.h"
-#include "common/scene/burr_head.h"
+#include "common/scene/burr.h"
 #include "common/scene/rating_quantities.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/shipped_scenes.h"

@@ -1,9 +1,8 @@
-#include "common/wire/followed_state.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "common/wire/session_receiver.h"
 #include "tests/support/block.h"
 
 namespace osteomill {

@@ -1,9 +1,8 @@
-#include "common/wire/parse_message.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "common/wire/frame.h"
 #include "osteomill/v2/session.pb.h"
 
 namespace osteomill {

@@ -1,7 +1,6 @@
-#include "common/wire/running_checksum.h"
-
 #include <gtest/gtest.h>
 
+#include "common/wire/bone_replica.h"
 #include "tests/support/speckled_bone.h"
 
 namespace osteomill {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/scene/phantom_names.h"
+#include "common/scene/scene.h"
 #include "common/scene/scene_file.h"
 #include "imaging/phantoms/distance_fields.h"
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "common/bone/usual_spacing.h"
+#include "common/bone/grid.h"
 
 namespace osteomill {
 namespace {

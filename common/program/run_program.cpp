@@ -1,4 +1,4 @@
-#include "common/program/stop_signals.h"
+#include "common/program/run_program.h"
 
 #include <array>
 #include <csignal>

@@ -1,10 +1,8 @@
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 #include <fmt/format.h>
 
 #include <stdexcept>
-
-#include "common/text/utf8.h"
 
 namespace osteomill {
 

@@ -1,4 +1,4 @@
-#include "common/bone/brick_table.h"
+#include "common/bone/brick.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
-#include "common/text/csv_cell.h"
+#include "common/text/csv.h"
 
 #include <algorithm>
 
-#include "common/text/plain_text.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 

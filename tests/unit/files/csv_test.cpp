@@ -1,4 +1,4 @@
-#include "common/files/table_line.h"
+#include "common/text/csv.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "common/wire/tool_appearance.h"
+#include "common/session/tool_state.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,4 +1,5 @@
-// Lines of a table in text (CSV) as spreadsheets of any system and language save it.
+// Tables in text (CSV): lines as spreadsheets of any system and language save them, and cells that a
+// spreadsheet shows as text.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "common/text/utf8.h"
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
+
+// Lines of a table in text (CSV) as spreadsheets of any system and language save it.
 
 /// Removes a carriage return at a line's end and, from the file's first line, the mark of UTF-8. Throws
 /// std::runtime_error with a reason if the mark is UTF-16's.
@@ -81,5 +84,16 @@ inline std::vector<std::string> quoted_cells(std::string_view line, char separat
     }
     return cells;
 }
+
+// A text as a cell of a CSV file (RFC 4180), which a spreadsheet shows as text and does not compute.
+
+/// One line, printable (foreign_text.h); in quotes if it holds a comma, a quote or a blank at an end. A text
+/// that begins as a formula does (=, +, -, @), after blanks, too, gets an apostrophe before it, as
+/// spreadsheets mark text. For texts alone: numbers go into a cell as they are.
+std::string csv_cell(std::string_view text);
+
+/// A table that holds more than ASCII begins with the mark of UTF-8: without it, Excel takes each letter for
+/// two. One of ASCII stays as it is.
+std::string with_utf8_mark(std::string table);
 
 }  // namespace osteomill

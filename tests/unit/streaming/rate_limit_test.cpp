@@ -1,4 +1,4 @@
-#include "common/log/token_bucket.h"
+#include "common/log/rate_limit.h"
 
 #include <gtest/gtest.h>
 
