@@ -36,7 +36,7 @@ inline ToolPose as_written(const ToolPose& pose) noexcept {
             with_decimals<axis_decimals>(pose.spindle_axis)};
 }
 
-// First lines of a trajectory in CSV, for writers and readers; see devices/simulated/csv_trajectory.h.
+// First lines of a trajectory in CSV, for writers and readers; see devices/simulated/trajectory.h.
 
 inline constexpr std::string_view trajectory_columns = "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal";
 /// Column that may follow them.

@@ -23,7 +23,6 @@
 
 #include "common/net/listen_address.h"
 #include "devices/arm_readings.h"
-#include "devices/clutch.h"
 #include "devices/haply/haply_connection.h"
 #include "devices/haply/haply_messages.h"
 #include "devices/position_sensor.h"

@@ -21,20 +21,100 @@
 // A report of another length than the first, or that means nothing, is counted and passed over.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
-#include "devices/clutch.h"
 #include "devices/hid/arm_kinematics.h"
 #include "devices/hid/arm_profile.h"
-#include "devices/hid/arm_report.h"
 #include "devices/hid/hid_transport.h"
-#include "devices/hid/stylus_switch.h"
 #include "devices/position_sensor.h"
 #include "simulation/device/fading_force.h"
 #include "simulation/device/haptic_device.h"
 
 namespace osteomill {
+
+/// The reports that haptic arms of the WoodenHaptics and Polhem family exchange over USB HID. They are not
+/// numbered; every field is a little-endian int16.
+///
+///   first generation, 8 bytes     in   counts a b c, debug
+///                                 out  currents a b c (mA), debug
+///   second generation, 14 bytes   in   counts a b c (arm), d e f (stylus), info
+///                                 out  currents a b c (mA), command, attributes 0 1 2
+///
+/// The switch on the stylus is coded into count d: 10 000 is added while it is pressed. info 1 asks to be
+/// calibrated and stays until that is done. Command 0 drives the motors; command 1 sets the counters, a b c
+/// from the attributes, d e f from the current fields.
+enum class ArmGeneration { first, second };
+
+constexpr std::size_t report_bytes(ArmGeneration generation) {
+    return generation == ArmGeneration::first ? 8 : 14;
+}
+
+struct ArmInput {
+    ArmGeneration generation = ArmGeneration::second;
+    std::array<int, 3> arm_counts{};     ///< a, b, c, as the device has them
+    std::array<int, 3> stylus_counts{};  ///< d, e, f, without the switch
+    bool is_switch_pressed = false;
+    bool asks_for_calibration = false;
+};
+
+/// The generation shows in the length. Nothing for a report of another length, or with an info that is
+/// neither 0 nor 1. Real-time safe.
+std::optional<ArmInput> decode_arm_report(std::span<const std::uint8_t> report) noexcept;
+
+/// The bytes for hidapi: a zero byte for "not numbered", then the report.
+struct ArmOutput {
+    std::array<std::uint8_t, 15> storage{};
+    std::size_t size = 0;
+
+    std::span<const std::uint8_t> bytes() const { return {storage.data(), size}; }
+};
+
+/// No current leaves this file that is larger: the amplifiers' 2 A.
+inline constexpr int most_current_ma = 1999;
+
+/// Drives the motors a, b, c; each current is capped at +-most_current_ma. Real-time safe.
+ArmOutput currents_report(ArmGeneration generation, const std::array<int, 3>& currents_ma) noexcept;
+
+/// Second generation only: sets the counters of the arm, and those of the stylus to zero. Counts beyond an
+/// int16 are capped. The motors are without current. Real-time safe.
+ArmOutput counters_report(const std::array<int, 3>& arm_counts) noexcept;
+
+/// Meaning of the one switch on a stylus: the pedal, or, if the profile lets it, the clutch. Pressed it is
+/// the pedal. Pressed twice within double_press_s and held it is the clutch, until it is let go.
+class StylusSwitch {
+  public:
+    /// From the first press to the second; a pedal that is let go and pressed again is slower.
+    static constexpr double double_press_s = 0.3;
+
+    explicit StylusSwitch(SwitchUse use) : use_(use) {}
+
+    /// `now_s` never decreases. Real-time safe.
+    void read(bool is_pressed, double now_s) noexcept {
+        const bool goes_down = is_pressed && !was_pressed_;
+        if (goes_down && use_ == SwitchUse::pedal_and_clutch)
+            is_clutch_ = has_been_pressed_ && now_s - pressed_s_ <= double_press_s;
+        if (goes_down) {
+            pressed_s_ = now_s;
+            has_been_pressed_ = true;
+        }
+        if (!is_pressed) is_clutch_ = false;
+        was_pressed_ = is_pressed;
+    }
+
+    bool is_pedal() const { return was_pressed_ && !is_clutch_; }
+    bool is_clutch() const { return is_clutch_; }
+
+  private:
+    SwitchUse use_;
+    bool was_pressed_ = false;
+    bool has_been_pressed_ = false;
+    bool is_clutch_ = false;
+    double pressed_s_ = 0.0;
+};
 
 class ArmLink {
   public:

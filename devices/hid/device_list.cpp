@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "common/text/foreign_text.h"
+#include "devices/hid/arm_profile.h"
 #include "devices/hid/hid_arm.h"
-#include "devices/hid/profile_file.h"
-#include "devices/hid/space_mouse_report.h"
+#include "devices/hid/space_mouse.h"
 
 namespace osteomill {
 

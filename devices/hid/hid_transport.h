@@ -1,4 +1,4 @@
-// The seam between the drivers and USB HID: hidapi on one side (hidapi_transport.h), a script in the tests.
+// The seam between the drivers and USB HID: hidapi on one side (hid_transport.cpp), a script in the tests.
 #pragma once
 
 #include <cstdint>
@@ -56,6 +56,17 @@ class HidTransport {
 
     /// Throws HidOpenError.
     virtual std::unique_ptr<HidConnection> open(const std::string& path) = 0;
+};
+
+// HID devices through hidapi and the kernel's hidraw.
+
+/// Advice about installation, for a user without permission.
+inline constexpr const char* udev_rule = "scripts/udev/70-osteomill.rules";
+
+class HidapiTransport final : public HidTransport {
+  public:
+    std::vector<HidDeviceInfo> list() override;
+    std::unique_ptr<HidConnection> open(const std::string& path) override;
 };
 
 }  // namespace osteomill

@@ -11,17 +11,42 @@
 // The left button is the pedal, the right one goes on to the next burr of the scene's set.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <glm/vec3.hpp>
+#include <span>
 
 #include "common/scene/scene.h"
+#include "devices/hid/hid_transport.h"
 #include "devices/hid/hid_worker.h"
-#include "devices/hid/space_mouse_report.h"
 #include "devices/simulated/held_arm.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/device/permission.h"
 #include "simulation/exchange/triple_buffer.h"
 
 namespace osteomill {
+
+// The reports of a 3Dconnexion SpaceMouse: the first byte is the report's number.
+//
+//   1   three int16 of translation; some models add the three of rotation
+//   2   three int16 of rotation
+//   3   buttons, one bit each
+//
+// Full deflection is about +-350. The puck's axes: x to the right, y toward the person, z down.
+
+/// Shares of full deflection, -1 to 1, in device space: x to the right, y away from the person, z up.
+struct SpaceMouseState {
+    glm::dvec3 translation{0.0};
+    glm::dvec3 rotation{0.0};  ///< about those axes
+    std::uint32_t buttons = 0;
+
+    /// Applies a report; false for a meaningless one, which changes nothing. Real-time safe.
+    bool take(std::span<const std::uint8_t> report) noexcept;
+};
+
+/// By vendor: Logitech's number with a product from 0xC603 to 0xC6FF, or 3Dconnexion's own; and by usage: a
+/// multi-axis controller.
+bool is_space_mouse(const HidDeviceInfo& device);
 
 /// A reading that the mouse's thread hands to the haptic loop.
 struct SpaceMouseReading {

@@ -1,5 +1,5 @@
 // Measurements of an arm (haptic_server --measure-arm), as TOML: a table [measured], beside the name of
-// the arm, or within the profile of an arm over USB (devices/hid/profile_file.h).
+// the arm, or within the profile of an arm over USB (devices/hid/arm_profile.h).
 #pragma once
 
 #include <filesystem>

@@ -11,7 +11,7 @@
 
 #include "common/text/words.h"
 #include "devices/hid/device_list.h"
-#include "devices/hid/hidapi_transport.h"
+#include "devices/hid/hid_transport.h"
 
 namespace osteomill {
 

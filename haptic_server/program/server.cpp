@@ -13,7 +13,7 @@
 #include "common/files/atomic_file.h"
 #include "common/files/distinct_files.h"
 #include "devices/hid/device_list.h"
-#include "devices/hid/hidapi_transport.h"
+#include "devices/hid/hid_transport.h"
 #include "haptic_server/check/machine_check.h"
 #include "haptic_server/check/session_check.h"
 #include "haptic_server/monitoring/metrics_page.h"

@@ -13,7 +13,7 @@
 
 #include "common/files/distinct_files.h"
 #include "common/program/command_line.h"
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "haptic_server/program/device_options.h"
 #include "haptic_server/program/session_outputs.h"
 #include "haptic_server/streaming/access_options.h"

@@ -15,7 +15,7 @@
 
 #include "common/scene/scene.h"
 #include "devices/hid/hid_transport.h"
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "devices/simulated/simulated_device.h"
 #include "simulation/coupling/couplings.h"
 #include "simulation/device/haptic_device.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "haptic_server/session/session_scene.h"
 #include "simulation/device/device_limits.h"
 #include "simulation/loop/milling_session.h"

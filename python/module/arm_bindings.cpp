@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "python/module/bindings.h"
 
 namespace osteomill::python {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "python/module/arrays.h"
 #include "python/studies_module/bindings.h"
 #include "studies/stability/map/map_run.h"

@@ -5,7 +5,7 @@
 
 #include "devices/haply/inverse3_profile.h"
 #include "devices/hid/arm_kinematics.h"
-#include "devices/hid/profile_file.h"
+#include "devices/hid/arm_profile.h"
 #include "devices/simulated/simulated_device.h"
 #include "simulation/loop/milling_session.h"
 

@@ -11,8 +11,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
-#include "devices/simulated/arm_model.h"
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 
 namespace osteomill::study {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "devices/bridge/bridge_address.h"
+#include "devices/bridge/datagram_socket.h"
 
 namespace osteomill::study {
 

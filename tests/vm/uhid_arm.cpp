@@ -26,8 +26,8 @@
 
 #include "common/scene/device_mapping.h"
 #include "common/scene/scene_file.h"
+#include "devices/hid/arm_profile.h"
 #include "devices/hid/hid_arm.h"
-#include "devices/hid/profile_file.h"
 #include "devices/simulated/simulated_device.h"
 #include "tests/support/virtual_arm.h"
 

@@ -1,6 +1,5 @@
 #include "devices/client/client_device.h"
-#include "devices/simulated/arm_model.h"
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "haptic_server/session/device_table.h"
 
 namespace osteomill {

@@ -3,9 +3,9 @@
 
 #include <memory>
 
+#include "devices/hid/arm_profile.h"
 #include "devices/hid/hid_arm.h"
-#include "devices/hid/hidapi_transport.h"
-#include "devices/hid/profile_file.h"
+#include "devices/hid/hid_transport.h"
 #include "haptic_server/session/device_table.h"
 #include "haptic_server/session/measured_device.h"
 #include "simulation/loop/clock.h"

@@ -1,7 +1,6 @@
 #include <variant>
 
-#include "devices/simulated/arm_model.h"
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "devices/simulated/trajectory.h"
 #include "haptic_server/session/device_table.h"
 #include "haptic_server/session/measured_device.h"

@@ -1,9 +1,8 @@
 #include <memory>
 
-#include "devices/hid/hidapi_transport.h"
+#include "devices/hid/hid_transport.h"
 #include "devices/hid/space_mouse.h"
-#include "devices/simulated/arm_model.h"
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "haptic_server/session/device_table.h"
 #include "simulation/loop/clock.h"
 #include "simulation/loop/real_time.h"

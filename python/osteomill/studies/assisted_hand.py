@@ -27,7 +27,7 @@ LONGEST = 4.0  # times the recording: a hand that is held off for good gives up
 
 @dataclasses.dataclass(frozen=True)
 class Grip:
-    """A hand's mass, spring and damper: kg, N/mm, N s/mm. Published values spread by a factor of five (devices/simulated/hand_model.h)."""
+    """A hand's mass, spring and damper: kg, N/mm, N s/mm. Published values spread by a factor of five (devices/simulated/hand_and_arm.h)."""
 
     mass_kg: float
     stiffness_n_per_mm: float

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_and_arm.h"
 
 namespace osteomill::study {
 

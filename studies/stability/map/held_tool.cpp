@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "devices/simulated/arm_model.h"
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 
 namespace osteomill::study {
 namespace {

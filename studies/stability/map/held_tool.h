@@ -3,7 +3,7 @@
 //
 //     m dv/dt = u + push + clamp(K (target - x), max_push) + B (v_target - v) - b v - friction
 //
-// mm, s, N. The target moves evenly. The hand is hand_model.h's without its slow correction by eye, and
+// mm, s, N. The target moves evenly. The hand is hand_and_arm.h's without its slow correction by eye, and
 // without anyone who waits for the tool: it is valid for a few tenths of a second.
 #pragma once
 
@@ -29,7 +29,8 @@ struct HeldTool {
     bool is_guided_in_height = false;
 };
 
-/// The arm of arm_model.h, without its Coulomb friction, in that grip. A bare arm has 0.5 N s/m and no hand.
+/// The arm of hand_and_arm.h, without its Coulomb friction, in that grip. A bare arm has 0.5 N s/m and no
+/// hand.
 HeldTool held_tool(MapGrip grip);
 
 /// Intended motion of the hand that holds the tool.

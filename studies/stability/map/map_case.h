@@ -14,8 +14,8 @@ enum class MapScene {
 /// The grip on the arm, from none to a firm hand.
 enum class MapGrip {
     bare_arm,  ///< 0.5 N s/m and a steady push, no hand; cutting, it slides on a plane
-    light,     ///< hand_model.h
-    firm       ///< hand_model.h
+    light,     ///< hand_and_arm.h
+    firm       ///< hand_and_arm.h
 };
 
 struct MapCase {

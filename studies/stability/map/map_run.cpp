@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "simulation/loop/milling_session.h"
 #include "studies/stability/map/bench_device.h"
 #include "studies/stability/map/scene_cache.h"

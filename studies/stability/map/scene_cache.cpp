@@ -7,7 +7,7 @@
 
 #include "common/bone/bone_builder.h"
 #include "common/bone/brick_change.h"
-#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "simulation/force_models/milling_model.h"
 
 namespace osteomill::study {

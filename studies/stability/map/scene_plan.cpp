@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "simulation/coupling/coupling_spring.h"
 #include "simulation/cutting_force/reference_force.h"
 

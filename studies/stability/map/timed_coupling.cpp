@@ -3,7 +3,7 @@
 #include <chrono>
 #include <memory>
 
-#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "simulation/coupling/couplings.h"
 #include "simulation/force_models/milling_model.h"
 #include "studies/force/bone_block.h"

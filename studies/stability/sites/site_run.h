@@ -9,7 +9,7 @@
 
 #include "common/bone/bone.h"
 #include "common/session/tool_state.h"
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "studies/stability/sites/site.h"
 
 namespace osteomill::study {

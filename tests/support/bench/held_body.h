@@ -5,8 +5,7 @@
 // SI units throughout the bench (m, kg, s, N), since the known results are stated in N/m and N s/m.
 #pragma once
 
-#include "devices/simulated/arm_model.h"
-#include "devices/simulated/hand_model.h"
+#include "devices/simulated/hand_and_arm.h"
 
 namespace osteomill::testing {
 

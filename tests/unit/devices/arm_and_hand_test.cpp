@@ -1,5 +1,3 @@
-#include "devices/simulated/arm_and_hand.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <vector>
+
+#include "devices/simulated/held_arm.h"
 
 namespace osteomill::arm_and_hand_test {
 namespace {

@@ -1,11 +1,11 @@
-#include "devices/simulated/built_in_trajectories.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+
+#include "devices/simulated/trajectory.h"
 
 namespace osteomill::built_in_trajectories_test {
 namespace {

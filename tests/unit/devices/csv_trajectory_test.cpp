@@ -1,5 +1,3 @@
-#include "devices/simulated/csv_trajectory.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "devices/simulated/trajectory.h"
 #include "tests/support/message_of.h"
 
 namespace osteomill::csv_trajectory_test {

@@ -1,11 +1,11 @@
-#include "devices/client/target_limit.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <string>
+
+#include "devices/client/client_device.h"
 
 namespace osteomill::target_limit_test {
 namespace {

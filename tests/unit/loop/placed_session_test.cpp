@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_and_arm.h"
 #include "devices/simulated/prescribed_device.h"
-#include "devices/simulated/recorded_device.h"
 #include "simulation/loop/milling_session.h"
 #include "tests/support/block.h"
 #include "tests/support/kept_ticks.h"

@@ -5,7 +5,7 @@
 
 #include "devices/haply/inverse3_profile.h"
 #include "devices/hid/arm_kinematics.h"
-#include "devices/hid/profile_file.h"
+#include "devices/hid/arm_profile.h"
 #include "devices/simulated/simulated_device.h"
 #include "simulation/device/measured_spring.h"
 #include "tests/support/bench/fine_arm.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "common/scene/scene_file.h"
-#include "devices/hid/profile_file.h"
+#include "devices/hid/arm_profile.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "devices/simulated/arm_model.h"
+#include "devices/simulated/hand_and_arm.h"
 
 namespace osteomill {
 namespace {

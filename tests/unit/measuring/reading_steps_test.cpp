@@ -8,7 +8,7 @@
 #include <random>
 
 #include "devices/hid/arm_kinematics.h"
-#include "devices/hid/profile_file.h"
+#include "devices/hid/arm_profile.h"
 
 namespace osteomill {
 namespace {

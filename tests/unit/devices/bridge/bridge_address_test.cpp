@@ -1,9 +1,9 @@
-#include "devices/bridge/bridge_address.h"
-
 #include <gmock/gmock.h>
 
 #include <stdexcept>
 #include <string>
+
+#include "devices/bridge/datagram_socket.h"
 
 namespace osteomill {
 namespace {

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "devices/hid/arm_profile.h"
 #include "devices/hid/hid_arm.h"
-#include "devices/hid/profile_file.h"
 #include "tests/support/virtual_arm.h"
 
 namespace osteomill {

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "devices/hid/profile_file.h"
+#include "devices/hid/arm_profile.h"
 #include "tests/support/fake_hid.h"
 #include "tests/support/virtual_arm.h"
 

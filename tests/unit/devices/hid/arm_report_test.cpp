@@ -1,7 +1,7 @@
-#include "devices/hid/arm_report.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "devices/hid/arm_link.h"
 
 namespace osteomill {
 namespace {

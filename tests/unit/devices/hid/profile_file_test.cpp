@@ -1,11 +1,10 @@
-#include "devices/hid/profile_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "common/scene/scene_file.h"
+#include "devices/hid/arm_profile.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 

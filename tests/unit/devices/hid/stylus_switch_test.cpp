@@ -1,8 +1,7 @@
-#include "devices/hid/stylus_switch.h"
-
 #include <gtest/gtest.h>
 
-#include "devices/clutch.h"
+#include "devices/hid/arm_link.h"
+#include "devices/position_sensor.h"
 
 namespace osteomill {
 namespace {

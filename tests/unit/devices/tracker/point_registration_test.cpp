@@ -1,5 +1,3 @@
-#include "devices/tracker/point_registration.h"
-
 #include <gmock/gmock.h>
 
 #include <array>
@@ -7,6 +5,7 @@
 #include <random>
 
 #include "common/scene/device_mapping.h"
+#include "devices/tracker/tracker_file.h"
 
 namespace osteomill {
 namespace {

@@ -1,4 +1,4 @@
-#include "devices/hid/hidapi_transport.h"
+#include "devices/hid/hid_transport.h"
 
 #include <fmt/format.h>
 #include <hidapi.h>

@@ -1,4 +1,4 @@
-#include "devices/hid/profile_file.h"
+#include "devices/hid/arm_profile.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
