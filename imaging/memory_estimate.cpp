@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/bone/brick.h"
-#include "imaging/bone_file/nrrd_form.h"
+#include "imaging/bone_file/nrrd_writer.h"
 #include "imaging/resampling/near_bone.h"
 
 namespace osteomill {

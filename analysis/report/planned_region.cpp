@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "imaging/picture/voxel_share.h"
+#include "imaging/picture/smooth_border.h"
 
 namespace osteomill {
 

@@ -1,6 +1,8 @@
-// The bone that a bone file holds: made of its CT numbers, or the saved part of a carved one.
+// The content of a bone file: a bone, made of its CT numbers or the saved part of a carved one, and the CT
+// for display.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -10,10 +12,14 @@
 #include <string>
 
 #include "common/bone/bone.h"
+#include "common/bone/ct_volume.h"
 #include "common/scene/stiffness_relation.h"
 #include "imaging/bone_file/hu_file.h"
+#include "imaging/bone_from_hu.h"
 
 namespace osteomill {
+
+// The bone that a bone file holds: made of its CT numbers, or the saved part of a carved one.
 
 /// The threshold if neither scene nor file says from which HU on a voxel is bone: about the value that
 /// separates trabecular bone from soft tissue in CT.
@@ -41,5 +47,11 @@ BoneOfFile bone_of_file(const std::filesystem::path& path, std::optional<double>
                         const StiffnessRelation& relation,
                         std::optional<std::uint64_t> available_memory_bytes = std::nullopt,
                         const FillLabels& fill_labels = {});
+
+// The CT for display, made of CT numbers that come slice by slice.
+
+/// On the slices' own grid or, if that has more than `most_voxels`, on one as many times coarser as it must
+/// be: each voxel the mean of those that it holds. Reads all slices; takes memory for the result and a slice.
+CtVolume ct_overview(const HuSlices& slices, std::size_t most_voxels);
 
 }  // namespace osteomill

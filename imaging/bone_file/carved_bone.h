@@ -24,7 +24,6 @@
 #include "common/program/progress.h"
 #include "imaging/bone_file/hu_file.h"
 #include "imaging/bone_from_hu.h"
-#include "imaging/hu_slices.h"
 
 namespace osteomill {
 
@@ -40,7 +39,7 @@ void save_carved_bone(
     const std::map<std::string, std::string>& key_values = {}, const ReportProgress& report = [](double) {});
 
 /// The same for a bone that no CT numbers were made for, or whose source is gone: the voxels are a picture of
-/// it, on a grid of longer voxels if its own is large (bone_picture.h).
+/// it, on a grid of longer voxels if its own is large (picture_grid).
 void save_carved_bone(
     const std::filesystem::path& path, const Bone& bone, std::map<std::string, std::string> key_values = {},
     const ReportProgress& report = [](double) {});
@@ -58,5 +57,15 @@ bool is_carved(const BoneFile& file);
 /// file, the HU, too. Throws ImagingError in one line that names the channel if a digest is not the one
 /// saved, and for files of 0.1.
 RestoredBone restore_carved_bone(const BoneFile& file);
+
+// CT numbers that only show the remaining bone, for a bone without CT numbers, or whose source is gone.
+
+/// The grid of a bone's picture: the bone's own if that has up to 2^25 voxels; else one of voxels 2, 4, 8 or
+/// 16 times as long: more detail is of no use for display, and a head of 2048^3 would take most of a minute.
+Grid picture_grid(const Grid& bone);
+
+/// From -1000 where there is no bone to 1600 (the reference bone) where all of a voxel is left; a longer
+/// voxel holds the mean. For display only. `bone` must outlive it.
+HuSlices picture_of(const Bone& bone);
 
 }  // namespace osteomill

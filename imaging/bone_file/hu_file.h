@@ -15,8 +15,8 @@
 
 #include "imaging/bone_file/digest.h"
 #include "imaging/bone_file/nrrd_writer.h"
+#include "imaging/bone_from_hu.h"
 #include "imaging/formats/byte_source.h"
-#include "imaging/hu_slices.h"
 
 namespace osteomill {
 

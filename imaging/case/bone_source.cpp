@@ -10,7 +10,6 @@
 
 #include "imaging/bone_file/bone_of_file.h"
 #include "imaging/bone_file/carved_bone.h"
-#include "imaging/bone_file/ct_overview.h"
 #include "imaging/phantoms/phantom.h"
 
 namespace osteomill {

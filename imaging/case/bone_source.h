@@ -14,7 +14,7 @@
 #include "common/program/progress.h"
 #include "common/scene/scene.h"
 #include "imaging/bone_file/hu_file.h"
-#include "imaging/bone_file/removed_volumes.h"
+#include "imaging/bone_file/removed_bone.h"
 #include "imaging/bone_from_hu.h"
 #include "imaging/case/structures.h"
 

@@ -14,7 +14,6 @@
 #include <variant>
 
 #include "imaging/picture/bone_view.h"
-#include "imaging/picture/rgb_png.h"
 
 namespace osteomill {
 

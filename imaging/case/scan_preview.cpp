@@ -10,8 +10,8 @@
 
 #include "common/files/atomic_file.h"
 #include "imaging/bone_file/hu_file.h"
-#include "imaging/picture/rgb_png.h"
-#include "imaging/resampling/voxel_order.h"
+#include "imaging/formats/source_image.h"
+#include "imaging/picture/bone_view.h"
 #include "imaging/segmentation/segment_structure.h"
 
 namespace osteomill {

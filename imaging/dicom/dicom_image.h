@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "imaging/formats/opened_image.h"
+#include "imaging/formats/source_image.h"
 
 namespace osteomill {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "imaging/formats/opened_image.h"
+#include "imaging/formats/source_image.h"
 
 namespace osteomill {
 

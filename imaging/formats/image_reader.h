@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "imaging/formats/opened_image.h"
+#include "imaging/formats/image_file.h"
+#include "imaging/formats/source_image.h"
+#include "imaging/formats/voxel_data.h"
 
 namespace osteomill {
 
@@ -38,5 +40,12 @@ std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& p
 /// Opens a label map as open_image does an image: in any of the formats, with layers or colours, or as a
 /// DICOM segmentation.
 OpenedImage open_labels(const std::filesystem::path& path, const ImageChoice& choice = {});
+
+// The values of an image from the bytes of its files, slice by slice: no more than a slice is held.
+
+/// Reads `data` and hands on the slices of an image of that size, as they come. Throws ImagingError as
+/// read_voxel_data does, and for text that holds something else than numbers, or too few.
+void read_value_slices(const VoxelData& data, const VoxelLayout& layout, const glm::ivec3& size_voxels,
+                       const TakeSlice& take, const ReportProgress& report);
 
 }  // namespace osteomill

@@ -14,7 +14,6 @@
 
 #include "common/files/input_file.h"
 #include "common/text/words.h"
-#include "imaging/formats/length_unit.h"
 #include "imaging/formats/plausible_geometry.h"
 #include "imaging/formats/voxel_data.h"
 #include "imaging/imaging_error.h"

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "common/text/words.h"
-#include "imaging/formats/length_unit.h"
 #include "imaging/formats/plausible_geometry.h"
 #include "imaging/imaging_error.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/formats/opened_image.h"
+#include "imaging/formats/source_image.h"
 
 struct tiff;  // libtiff's
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/formats/opened_image.h"
+#include "imaging/formats/source_image.h"
 
 namespace osteomill {
 
@@ -30,5 +30,16 @@ bool is_picture_folder(const std::filesystem::path& folder, bool has_spacing);
 /// numbers have a gap.
 OpenedImage open_picture_stack(const std::filesystem::path& path, const std::optional<glm::dvec3>& spacing_mm,
                                ImagePurpose purpose = ImagePurpose::scan);
+
+// Order of the pictures of a stack, by the numbers in their names.
+
+/// Numbers within names count by their value: "2" before "10", "z0.25" before "z0.5", and "_-1" before "_0".
+/// A hyphen behind a letter or digit is a minus where other names have none there ("s-1", "s0"); points are
+/// of decimals unless they count ("1.9", "1.10"). Capitals count as small letters.
+void sort_by_numbers(std::vector<std::filesystem::path>& files);
+
+/// One line on the first place where files, in this order, are not numbered in steps as most of them are: a
+/// slice may be missing, or one is too many. Empty if there is none, or most are not numbered at all.
+std::string doubt_of_order(const std::vector<std::filesystem::path>& files);
 
 }  // namespace osteomill

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -53,5 +54,17 @@ void settle_geometry(SourceImage& image, const std::filesystem::path& path);
 void note_guessed_orientation(SourceImage& image, const std::filesystem::path& path,
                               const std::string& why = "its header says nothing of orientation",
                               const char* taken_as = "left-posterior-superior (LPS)");
+
+// The units in which image files state lengths, by the names that programs write.
+
+/// Millimetres of one "mm", "um", "µm", "microns", "Centimeters", "m" and so on; nothing for a name that is
+/// none of a length.
+std::optional<double> mm_of_unit(const std::string& name);
+
+/// Whether a file says of its unit that it is not known: "", "?", "none", "unknown".
+bool is_unknown_unit(const std::string& name);
+
+/// The units that are right, for messages.
+inline constexpr const char* known_units = "mm, cm, m, um (microns) and nm are read";
 
 }  // namespace osteomill

@@ -10,7 +10,7 @@
 //     PlaceInAnatomy at(const glm::dvec3& p, const Near& near) const;
 //
 // In the slices HU pass the threshold on the surface. The filling of a voxel there follows from the distance
-// itself, the measure over its slope, so that there are no stairs (hu_slices.h).
+// itself, the measure over its slope, so that there are no stairs (bone_from_hu.h).
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "imaging/hu_slices.h"
+#include "imaging/bone_from_hu.h"
 #include "imaging/in_parallel.h"
 #include "imaging/phantoms/phantom.h"
 

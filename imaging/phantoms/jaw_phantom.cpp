@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "imaging/phantoms/anatomy_slices.h"
-#include "imaging/phantoms/dental_hu.h"
 #include "imaging/phantoms/distance_fields.h"
 #include "imaging/phantoms/noise.h"
 #include "imaging/phantoms/phantom.h"

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "imaging/phantoms/air_cells.h"
 #include "imaging/phantoms/anatomy_slices.h"
 #include "imaging/phantoms/distance_fields.h"
 #include "imaging/phantoms/noise.h"

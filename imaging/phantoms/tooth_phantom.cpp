@@ -5,10 +5,10 @@
 #include <span>
 
 #include "imaging/phantoms/anatomy_slices.h"
-#include "imaging/phantoms/dental_hu.h"
 #include "imaging/phantoms/distance_fields.h"
 #include "imaging/phantoms/noise.h"
 #include "imaging/phantoms/phantom.h"
+#include "imaging/phantoms/tooth_shape.h"
 
 namespace osteomill {
 

@@ -1,18 +1,21 @@
 #include "imaging/picture/bone_view.h"
 
+#include <fmt/format.h>
+#include <png.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "common/bone/bone_ray.h"
+#include "imaging/formats/source_image.h"
 #include "imaging/picture/smooth_border.h"
-#include "imaging/picture/voxel_share.h"
-#include "imaging/resampling/voxel_order.h"
 
 namespace osteomill {
 
@@ -330,6 +333,19 @@ RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const B
     if (view.is_section && (marks.is_outlined || marks.is_outlined_voxel))
         draw_outline(picture, view, right, outlined(bone.grid(), view, marks));
     return picture;
+}
+
+void write_rgb_png(std::span<const std::uint8_t> rgb, const glm::ivec2& size_px,
+                   const std::filesystem::path& path, Link link) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.format = PNG_FORMAT_RGB;
+    image.width = static_cast<png_uint_32>(size_px.x);
+    image.height = static_cast<png_uint_32>(size_px.y);
+    AtomicFile file(path, link);
+    if (!png_image_write_to_file(&image, file.part().c_str(), 0, rgb.data(), 0, nullptr))
+        throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), image.message));
+    file.commit();
 }
 
 }  // namespace osteomill

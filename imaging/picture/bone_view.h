@@ -9,13 +9,16 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
 #include "common/bone/bone.h"
 #include "common/bone/structure_mask.h"
+#include "common/files/atomic_file.h"
 #include "common/scene/scene.h"
 
 namespace osteomill {
@@ -46,5 +49,12 @@ struct SectionMarks {
 
 RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, int size_px,
                       const SectionMarks& marks = {});
+
+// A picture of 8-bit RGB as a PNG file (libpng).
+
+/// `rgb`: three bytes a pixel, rows from above. Replaces the file as a whole. Throws std::runtime_error, in
+/// one line naming the file, if it cannot be written.
+void write_rgb_png(std::span<const std::uint8_t> rgb, const glm::ivec2& size_px,
+                   const std::filesystem::path& path, Link link = Link::follow);
 
 }  // namespace osteomill

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "imaging/bone_from_hu.h"
+#include "imaging/formats/source_image.h"
 #include "imaging/resampling/refine.h"
-#include "imaging/resampling/voxel_order.h"
 
 namespace osteomill {
 

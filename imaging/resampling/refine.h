@@ -16,7 +16,7 @@ namespace osteomill {
 /// eight leave 3e-5.
 inline constexpr int refine_margin_voxels = 8;
 
-/// Samples a part of a scan (as image_part.h leaves it) at the centres of the grid's voxels by its cubic
+/// Samples a part of a scan (as region.h leaves it) at the centres of the grid's voxels by its cubic
 /// B-spline, smoothed first along axes where the grid is coarser. Results are clamped to the range of the
 /// part's own values: a spline overshoots beside steep edges, and HU that no voxel had would be bone that is
 /// not there. Outside the part (corners of a turned scan) there is air. Rounded to whole HU. If slices are

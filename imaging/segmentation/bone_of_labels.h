@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "imaging/formats/opened_image.h"
+#include "imaging/formats/source_image.h"
 #include "imaging/segmentation/segmentation.h"
 
 namespace osteomill {

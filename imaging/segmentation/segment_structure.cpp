@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "imaging/in_parallel.h"
-#include "imaging/resampling/image_part.h"
 #include "imaging/resampling/refine.h"
 #include "imaging/resampling/region.h"
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "imaging/formats/opened_image.h"
-#include "imaging/resampling/image_part.h"
+#include "imaging/formats/source_image.h"
+#include "imaging/resampling/region.h"
 
 namespace osteomill {
 

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "common/bone/bone_builder.h"
-#include "imaging/bone_file/bone_picture.h"
 #include "imaging/formats/image_reader.h"
 #include "imaging/imaging_error.h"
 #include "tests/support/dense_bone_file.h"

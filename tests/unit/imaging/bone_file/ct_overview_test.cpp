@@ -1,8 +1,8 @@
-#include "imaging/bone_file/ct_overview.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "imaging/bone_file/bone_of_file.h"
 
 namespace osteomill {
 namespace {

@@ -1,7 +1,6 @@
-#include "imaging/bone_file/removed_volumes.h"
-
 #include <gmock/gmock.h>
 
+#include "imaging/bone_file/removed_bone.h"
 #include "imaging/imaging_error.h"
 #include "tests/support/dense_bone_file.h"
 #include "tests/support/temporary_folder.h"

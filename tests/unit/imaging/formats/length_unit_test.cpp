@@ -1,6 +1,6 @@
-#include "imaging/formats/length_unit.h"
-
 #include <gtest/gtest.h>
+
+#include "imaging/formats/plausible_geometry.h"
 
 namespace osteomill {
 namespace {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "imaging/formats/picture_file.h"
-#include "imaging/formats/picture_order.h"
 #include "imaging/imaging_error.h"
 #include "imaging/segmentation/segmentation.h"
 #include "tests/support/message_of.h"

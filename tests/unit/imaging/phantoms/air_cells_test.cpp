@@ -1,11 +1,11 @@
-#include "imaging/phantoms/air_cells.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
+
+#include "imaging/phantoms/temporal_bone.h"
 
 namespace osteomill::air_cells_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "imaging/resampling/image_part.h"
+#include "imaging/resampling/region.h"
 #include "tests/support/hu_volume.h"
 #include "tests/support/whole_image.h"
 

@@ -8,9 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "imaging/bone_file/nrrd_form.h"
+#include "imaging/bone_file/nrrd_writer.h"
 #include "imaging/in_parallel.h"
-#include "imaging/resampling/image_part.h"
 #include "imaging/resampling/refine.h"
 #include "imaging/resampling/region.h"
 #include "tests/support/scanned_body.h"
