@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/hdf5/hdf5_file.h"
+#include "common/bone/bone.h"
 #include "common/recording/playhead.h"
 
 namespace osteomill {
@@ -42,5 +43,11 @@ class AllOfRecording {
     bool has_torque_ = false;
     bool has_input_ = false;
 };
+
+// A bone in an HDF5 file, as arrays indexed [i, j, k]. Chunks are bricks; those without bone take no space.
+
+/// Writes group/fraction, and group/stiffness and group/tissue if the bone has them, bytes as in the bone,
+/// and the grid as attributes of the group. Throws as Hdf5File does.
+void write_bone(Hdf5File& file, const std::string& group, const Bone& bone);
 
 }  // namespace osteomill

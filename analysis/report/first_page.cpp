@@ -5,12 +5,11 @@
 #include <algorithm>
 
 #include "analysis/report/headlines.h"
-#include "analysis/report/html_text.h"
 #include "analysis/report/metric_tables.h"
+#include "analysis/report/motion_metrics.h"
 #include "analysis/report/page_style.h"
 #include "analysis/report/rating_html.h"
-#include "analysis/report/smoothness.h"
-#include "analysis/report/verdict.h"
+#include "analysis/report/session_metrics.h"
 #include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/start_conditions.h"
+#include "analysis/report/reference_sessions.h"
 #include "common/text/csv.h"
 
 namespace osteomill {

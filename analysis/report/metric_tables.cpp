@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <span>
 
-#include "analysis/report/html_text.h"
 #include "analysis/report/page_style.h"
 #include "common/words/decimal_sign.h"
 #include "common/words/translation.h"

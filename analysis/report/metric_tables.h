@@ -1,4 +1,4 @@
-// The metrics of a session as tables of HTML, group by group.
+// The metrics of a session as tables of HTML, group by group, and its rating.
 #pragma once
 
 #include <string>
@@ -8,6 +8,8 @@
 #include "common/wire/session_info.h"
 
 namespace osteomill {
+
+// The metrics of a session as tables of HTML, group by group.
 
 /// Metrics of the session in two columns; below them the metrics that exist for each tissue, burr or
 /// structure, a line each.

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ctime>
+#include <nlohmann/json.hpp>
 
 #include "analysis/report/headlines.h"
 #include "analysis/report/metric_files.h"
@@ -79,6 +81,36 @@ std::string local_time_text(std::int64_t unix_ns) {
     std::array<char, 64> text{};
     if (localtime_r(&unix_s, &local) == nullptr) return {};
     return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M %Z", &local)};
+}
+
+namespace {
+
+struct Escape {
+    char letter;
+    const char* written;
+};
+constexpr std::array escapes{Escape{'&', "&amp;"}, Escape{'<', "&lt;"}, Escape{'>', "&gt;"},
+                             Escape{'"', "&quot;"}, Escape{'\'', "&#39;"}};
+
+/// By the library that checks every byte of it anyway.
+std::string valid_utf8(std::string_view text) {
+    const nlohmann::json quoted(std::string{text});
+    return nlohmann::json::parse(quoted.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
+        .get<std::string>();
+}
+
+}  // namespace
+
+std::string html_text(std::string_view text) {
+    std::string escaped;
+    for (const char letter : valid_utf8(text)) {
+        const auto mark = std::ranges::find(escapes, letter, &Escape::letter);
+        if (mark != escapes.end())
+            escaped += mark->written;
+        else
+            escaped += static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f ? ' ' : letter;
+    }
+    return escaped;
 }
 
 }  // namespace osteomill

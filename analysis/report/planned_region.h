@@ -1,7 +1,6 @@
 // The region of a plan: which voxels of a bone are in it, and how far others are from it.
 #pragma once
 
-#include "analysis/report/nearest_place.h"
 #include "analysis/report/voxel_set.h"
 #include "common/bone/bone.h"
 #include "common/scene/plan.h"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "analysis/report/condition_text.h"
-#include "analysis/report/html_text.h"
 #include "analysis/report/page_style.h"
 #include "common/words/translation.h"
 

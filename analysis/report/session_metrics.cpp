@@ -6,8 +6,6 @@
 #include <array>
 #include <utility>
 
-#include "analysis/report/verdict.h"
-
 namespace osteomill {
 
 namespace {
@@ -245,6 +243,19 @@ std::optional<double> sum_of(std::span<const MetricRow> rows, std::string_view k
     for (const MetricRow& row : rows)
         if (row.key == key && row.value) sum = sum.value_or(0.0) + *row.value;
     return sum;
+}
+
+std::vector<JudgedMark> judged_marks(const PassMarks& marks, std::span<const MetricRow> rows) {
+    std::vector<JudgedMark> judged;
+    for (const PassMarkKind& kind : pass_mark_kinds)
+        if (const auto mark = marks.find(kind.metric); mark != marks.end())
+            judged.push_back({&kind, mark->second, sum_of(rows, kind.metric)});
+    return judged;
+}
+
+std::optional<bool> has_passed(std::span<const JudgedMark> marks) {
+    if (marks.empty()) return std::nullopt;
+    return std::ranges::all_of(marks, &JudgedMark::is_reached);
 }
 
 }  // namespace osteomill

@@ -7,15 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/report/exposure_metrics.h"
-#include "analysis/report/force_metrics.h"
+#include "analysis/report/cutting_metrics.h"
 #include "analysis/report/motion_metrics.h"
-#include "analysis/report/nearness_metrics.h"
 #include "analysis/report/plan_metrics.h"
 #include "analysis/report/plunge_watch.h"
 #include "analysis/report/rating_result.h"
-#include "analysis/report/removal_metrics.h"
 #include "analysis/report/structure_metrics.h"
+#include "common/scene/rating.h"
 
 namespace osteomill {
 
@@ -49,5 +47,21 @@ std::vector<MetricRow> metric_rows(const SessionMetrics& metrics);
 
 /// The sum of the metric with this key over tissues, burrs or structures; nothing if none has a value.
 std::optional<double> sum_of(std::span<const MetricRow> rows, std::string_view key);
+
+/// Verdict on a session: its metrics against the pass marks of its scene.
+struct JudgedMark {
+    const PassMarkKind* kind = nullptr;
+    double mark = 0.0;
+    std::optional<double> value{};  ///< of the metric, added up over structures; nothing: not measured
+
+    /// A metric that was not measured reaches no mark.
+    bool is_reached() const { return value && (kind->is_least ? *value >= mark : *value <= mark); }
+};
+
+/// In the order of pass_mark_kinds.
+std::vector<JudgedMark> judged_marks(const PassMarks& marks, std::span<const MetricRow> rows);
+
+/// Nothing if there are no marks.
+std::optional<bool> has_passed(std::span<const JudgedMark> marks);
 
 }  // namespace osteomill

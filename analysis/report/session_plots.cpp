@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "analysis/report/removal_metrics.h"
+#include "analysis/report/cutting_metrics.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

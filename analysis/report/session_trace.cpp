@@ -5,11 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
+#include <numbers>
 #include <numeric>
 
-#include "analysis/report/burr_in_view.h"
-#include "analysis/report/surface_normal.h"
+#include "common/bone/bone_ray.h"
 #include "common/bone/structure_mask.h"
 #include "common/recording/packet_reader.h"
 #include "common/recording/playhead.h"
@@ -193,6 +194,56 @@ SessionTrace read_trace(const std::filesystem::path& file, const ReportProgress&
     trace.breakthroughs = watches->plunges.breakthroughs();
     trace.bone_checksum = playhead.bone_checksum();
     return trace;
+}
+
+std::optional<glm::dvec3> normal_about(const Bone& bone, const glm::dvec3& centre_mm, double radius_mm) {
+    constexpr int directions = 256;
+    constexpr double golden_angle = std::numbers::pi * (3.0 - 2.2360679774997896);
+    constexpr double least_slope = 0.02;  // of the mean direction's length, 0.25 over a half space
+    BoneSampler sampler(bone);
+    glm::dvec3 sum(0.0);
+    for (int i = 0; i < directions; ++i) {
+        const double z = 1.0 - (2.0 * i + 1.0) / directions;
+        const double across = std::sqrt(1.0 - z * z);
+        const glm::dvec3 direction(across * std::cos(golden_angle * i), across * std::sin(golden_angle * i),
+                                   z);
+        const glm::dvec3 place = to_voxel_coordinates(bone.grid(), centre_mm + radius_mm * direction);
+        sum -= sampler.between(place) / 255.0 * direction;
+    }
+    const double length = glm::length(sum);
+    return length > least_slope * directions ? std::optional(sum / length) : std::nullopt;
+}
+
+namespace {
+
+constexpr double least_hiding_opacity = 0.5;
+
+bool is_in_picture(const Viewpoint& view, const glm::dvec3& apart_mm) {
+    const glm::dvec3 seen = glm::conjugate(view.rotation) * apart_mm;  // right, down, forward
+    const double half_height = std::tan(0.5 * view.field_of_view_rad);
+    return seen.z > 0.0 && std::abs(seen.y) <= half_height * seen.z &&
+           std::abs(seen.x) <= taken_picture_width * half_height * seen.z;
+}
+
+}  // namespace
+
+bool is_burr_in_view(const Bone& bone, const std::vector<Tissue>& tissues, const Viewpoint& view,
+                     const glm::dvec3& burr_mm) {
+    const glm::dvec3 apart_mm = burr_mm - view.eye_mm;
+    const double distance_mm = glm::length(apart_mm);
+    if (!(distance_mm > 0.0)) return true;
+    if (!std::isfinite(distance_mm) || !is_in_picture(view, apart_mm)) return false;
+    const Grid& grid = bone.grid();
+    const BoneRay ray{to_voxel_coordinates(grid, view.eye_mm), apart_mm / distance_mm};
+    RaySpan span = span_within(ray, grid);
+    span = {std::max(0.0, span.from), std::min(distance_mm / grid.spacing_mm, span.to)};
+    if (span.is_empty()) return true;
+    const auto hides = [&](double t) {
+        const std::uint8_t label = bone.tissue_at(glm::ivec3(glm::floor(ray.at(t) + 0.5)));
+        const auto tissue = std::ranges::find(tissues, label, &Tissue::label);
+        return tissue == tissues.end() || tissue->opacity >= least_hiding_opacity;
+    };
+    return !BoneSampler(bone).first_surface(ray, span, hides);
 }
 
 }  // namespace osteomill

@@ -16,8 +16,10 @@
 #include "common/bone/bone.h"
 #include "common/bone/structure_mask.h"
 #include "common/program/progress.h"
+#include "common/scene/scene.h"
 #include "common/session/session_control.h"
 #include "common/session/structure_watch.h"
+#include "common/session/viewpoint.h"
 #include "common/wire/session_info.h"
 
 namespace osteomill {
@@ -90,5 +92,27 @@ struct SessionTrace {
 /// Reads a recording through; `on_frame` is called before each frame. Throws RecordingError if it holds no
 /// bone; `error` says what is wrong later.
 SessionTrace read_trace(const std::filesystem::path& file, const ReportProgress& on_frame);
+
+// Normal of a bone's surface at a burr: it points away from the bone on a sphere round the burr.
+//
+// It is minus the mean of those of 256 evenly spread directions (Fibonacci's lattice) that meet bone on the
+// sphere. At a plane it is the plane's own normal, whatever crater the burr made under itself; in a hole it
+// leads out.
+
+/// Unit, patient LPS. Nothing if the sphere meets no bone, or as much on every side.
+std::optional<glm::dvec3> normal_about(const Bone& bone, const glm::dvec3& centre_mm, double radius_mm);
+
+// Test whether the burr is in view: its centre lies in the picture, and no bone hides it.
+//
+// No bone hides it if the straight line from the eye to the burr's centre meets no bone surface, which is
+// where half a voxel is left (bone_ray.h). A tissue drawn with less than half of its colour (opacity) hides
+// nothing. Neither does the handpiece, which is not recorded. The picture's height is the viewpoint's field
+// of view; its width is not recorded and is assumed to be 16 / 9 of the height.
+
+inline constexpr double taken_picture_width = 16.0 / 9.0;  ///< of its height
+
+/// `burr_mm`: its centre, patient LPS. An eye at the very place of the burr sees it.
+bool is_burr_in_view(const Bone& bone, const std::vector<Tissue>& tissues, const Viewpoint& view,
+                     const glm::dvec3& burr_mm);
 
 }  // namespace osteomill

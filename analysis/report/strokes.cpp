@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "analysis/report/smoothness.h"
+#include "analysis/report/motion_metrics.h"
 #include "common/session/stroke_span.h"
 #include "common/statistics/percentile.h"
 

@@ -39,7 +39,7 @@ struct StrokeMetrics {
     double mean_length_mm = 0.0;
     double longest_s = 0.0;
     std::optional<double> median_smoothness{};     ///< of the hand in strokes of half a second and more
-    std::optional<double> median_reaches_per_s{};  ///< of the same strokes (smoothness.h)
+    std::optional<double> median_reaches_per_s{};  ///< of the same strokes (motion_metrics.h)
     /// Standard deviation over mean, of the strokes' lengths and mean forces: nearer to 0 is more consistent.
     /// Nothing for fewer than three strokes, or if all are zero.
     std::optional<double> length_variation{};

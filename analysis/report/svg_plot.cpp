@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/report/html_text.h"
+#include "analysis/report/page_style.h"
 #include "common/words/decimal_sign.h"
 
 namespace osteomill {

@@ -2,6 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "common/bone/bone.h"
@@ -54,5 +58,22 @@ inline constexpr std::uint8_t half_a_voxel = 128;
 /// The cavity: the voxels that were half bone or more and lost more than half of themselves. `before`, which
 /// outlives it, and `after` are of the same bricks.
 VoxelSet cavity_of(const Bone& before, const Bone& after);
+
+/// The nearest of many places (Boost.Geometry's R-tree).
+class NearestPlace {
+  public:
+    explicit NearestPlace(std::span<const glm::dvec3> places_mm);
+    ~NearestPlace();
+    NearestPlace(NearestPlace&&) noexcept;
+    NearestPlace& operator=(NearestPlace&&) noexcept;
+
+    /// Nothing if there is no place.
+    std::optional<glm::dvec3> nearest_mm(const glm::dvec3& from_mm) const;
+    std::optional<double> distance_mm(const glm::dvec3& from_mm) const;
+
+  private:
+    struct Tree;
+    std::unique_ptr<Tree> tree_;
+};
 
 }  // namespace osteomill

@@ -120,4 +120,13 @@ Playhead::Step Playhead::take(RecordedEvent event) {
     return Step::nothing_due;
 }
 
+RecordedBones bones_of(const std::filesystem::path& file, const ReportProgress& on_frame) {
+    Playhead playhead(file);
+    Bone at_start = playhead.bone();
+    std::string error = play_to_end(playhead, on_frame, [&](Playhead::Step step) {
+        if (step == Playhead::Step::new_bone) at_start = playhead.bone();
+    });
+    return {.at_start = std::move(at_start), .at_end = playhead.bone(), .error = std::move(error)};
+}
+
 }  // namespace osteomill

@@ -12,7 +12,6 @@
 #include <system_error>
 #include <thread>
 
-#include "analysis/replay/recorded_bones.h"
 #include "analysis/replay/recording_csv.h"
 #include "analysis/replay/recording_sound.h"
 #include "analysis/replay/recording_summary.h"
@@ -22,6 +21,7 @@
 #include "common/files/atomic_file.h"
 #include "common/program/progress.h"
 #include "common/program/run_program.h"
+#include "common/recording/playhead.h"
 #include "common/words/translation.h"
 #include "haptic_server/replay/recorded_session.h"
 #include "haptic_server/streaming/streaming_server.h"

@@ -14,10 +14,9 @@
 
 #include "analysis/report/headlines.h"
 #include "analysis/report/page_style.h"
+#include "analysis/report/reference_sessions.h"
 #include "analysis/report/session_metrics.h"
 #include "analysis/report/session_trace.h"
-#include "analysis/report/start_conditions.h"
-#include "analysis/report/trainee_groups.h"
 #include "common/files/input_file.h"
 #include "common/recording/packet_reader.h"
 #include "common/text/foreign_text.h"

@@ -1,9 +1,8 @@
-#include "analysis/replay/recorded_bones.h"
-
 #include <gmock/gmock.h>
 
 #include <stdexcept>
 
+#include "common/recording/playhead.h"
 #include "tests/support/made_recording.h"
 #include "tests/support/temporary_folder.h"
 

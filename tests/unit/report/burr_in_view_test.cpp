@@ -1,5 +1,3 @@
-#include "analysis/report/burr_in_view.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "analysis/report/motion_metrics.h"
+#include "analysis/report/session_trace.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"
 

@@ -1,9 +1,8 @@
-#include "analysis/report/exposure_metrics.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "analysis/report/structure_metrics.h"
 #include "tests/support/ball_structure.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"

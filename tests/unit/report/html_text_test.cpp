@@ -1,6 +1,6 @@
-#include "analysis/report/html_text.h"
-
 #include <gmock/gmock.h>
+
+#include "analysis/report/page_style.h"
 
 namespace osteomill {
 namespace {

@@ -1,11 +1,10 @@
-#include "analysis/report/nearness_metrics.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "analysis/report/structure_metrics.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"
 

@@ -1,5 +1,3 @@
-#include "analysis/report/picture_views.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -7,7 +5,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "analysis/report/picture_overlay.h"
-#include "analysis/report/surface_normal.h"
+#include "analysis/report/session_pictures.h"
+#include "analysis/report/session_trace.h"
 #include "tests/support/ball_structure.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"

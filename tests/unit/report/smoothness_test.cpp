@@ -1,11 +1,11 @@
-#include "analysis/report/smoothness.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <vector>
+
+#include "analysis/report/motion_metrics.h"
 
 namespace osteomill {
 namespace {

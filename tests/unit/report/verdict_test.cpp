@@ -1,12 +1,11 @@
-#include "analysis/report/verdict.h"
-
 #include <gmock/gmock.h>
 
 #include <fstream>
 
 #include "analysis/report/metric_files.h"
+#include "analysis/report/reference_sessions.h"
 #include "analysis/report/report_html.h"
-#include "analysis/report/trainee_groups.h"
+#include "analysis/report/session_metrics.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"

@@ -18,8 +18,8 @@
 
 #include "analysis/report/condition_text.h"
 #include "analysis/report/headlines.h"
+#include "analysis/report/motion_metrics.h"
 #include "analysis/report/session_metrics.h"
-#include "analysis/report/smoothness.h"
 #include "common/scene/burr.h"
 #include "common/scene/rating_quantities.h"
 #include "common/scene/scene_file.h"
@@ -305,7 +305,7 @@ TEST(Translation, LeaveNoWordsOfTheReportAside) {
     const std::set<std::string> of_no_page{"reached", "missed", "two", "first"};  // classes of the style
     const auto sources = sources_in("analysis/report");
     std::size_t literals = 0;
-    for (const char* file : {"first_page.cpp", "metric_tables.cpp", "picture_views.cpp", "rating_html.cpp",
+    for (const char* file : {"first_page.cpp", "metric_tables.cpp", "session_pictures.cpp", "rating_html.cpp",
                              "report_html.cpp", "session_plots.cpp"}) {
         const std::string& source = sources.at(file);
         for (std::size_t at = source.find('"'); at != std::string::npos; at = source.find('"', at)) {
