@@ -13,11 +13,10 @@
 #include "python/module/arrays.h"
 #include "python/studies_module/bindings.h"
 #include "studies/stability/map/map_run.h"
-#include "studies/stability/map/timed_coupling.h"
 #include "studies/stability/onset/onset_run.h"
 #include "studies/stability/rails/motion_on_rails.h"
 #include "studies/stability/sites/named_sites.h"
-#include "studies/stability/sites/random_walk.h"
+#include "studies/stability/sites/site.h"
 #include "studies/stability/sites/site_run.h"
 #include "studies/stability/sites/site_verdict.h"
 

@@ -1,7 +1,7 @@
 // A run of a model through a steady motion, with its results.
 #pragma once
 
-#include "studies/force/force_series.h"
+#include "studies/force/path_run.h"
 #include "studies/force/steady_case.h"
 #include "studies/force/studied_model.h"
 

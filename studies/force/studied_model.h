@@ -28,7 +28,7 @@ class StudiedModel {
 using MakeModel = std::function<std::unique_ptr<StudiedModel>(Bone bone, const Burr& burr)>;
 
 /// The program's own model; by default as haptic_server uses it, but without the engagement that a coupling
-/// may ask for beside the force: a step's time is that of the force. In voxel_model.cpp.
+/// may ask for beside the force: a step's time is that of the force.
 MakeModel voxel_model(const MillingSettings& settings = {});
 
 /// The same with the engagement, as the implicit coupling wants it.

@@ -13,7 +13,7 @@
 #include "render_client/volume/shaders/lighting.h"
 #include "studies/render/made_bone.h"
 #include "studies/render/picture_difference.h"
-#include "studies/render/reference_volume.h"
+#include "studies/render/reference_image.h"
 
 namespace osteomill::study {
 

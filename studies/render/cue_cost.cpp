@@ -15,7 +15,7 @@
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/tool/tool_renderer.h"
-#include "studies/render/full_rate/finished_frames.h"
+#include "studies/render/picture_trial.h"
 
 namespace osteomill::study {
 

@@ -2,14 +2,17 @@
 // distance from the reference image of the same appearance.
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "common/bone/bone.h"
 #include "render_client/volume/bone_colours.h"
 #include "render_client/volume/camera.h"
+#include "render_client/volume/gl/draw_timer.h"
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/passes/bone_renderer.h"
@@ -95,5 +98,29 @@ class PictureTrial {
 /// with 0 that of the first. In a context of its own. Throws as the constructor of PictureTrial.
 Cost frame_cost(const Bone& bone, std::span<const TissueColour> tissues, const ShadingSettings& look,
                 const glm::ivec2& size_px, const DrawingWay& way, int times);
+
+// Times of frames that were finished: each drawn to its last pixel before the next began, as showing it
+// needs.
+
+/// By frame, in order.
+struct FrameMilliseconds {
+    std::vector<double> wall{};  ///< until the picture was there
+    std::vector<double>
+        gpu{};  ///< the driver's own work (GL_TIME_ELAPSED); for a software rasteriser, wall time
+    std::vector<double> cpu{};  ///< all threads of the process
+};
+
+class FrameStopwatch {
+  public:
+    /// Needs a current OpenGL context, in which nothing else measures GL_TIME_ELAPSED.
+    FrameStopwatch() = default;
+    /// `work` draws one frame and returns when its pixels are there.
+    void time(const std::function<void()>& work);
+    const FrameMilliseconds& frames() const { return frames_; }
+
+  private:
+    gl::DrawTimer timer_;
+    FrameMilliseconds frames_;
+};
 
 }  // namespace osteomill::study

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "studies/force/bone_block.h"
-#include "studies/force/force_series.h"
+#include "studies/force/path_run.h"
 #include "studies/force/studied_model.h"
 
 namespace osteomill::study {

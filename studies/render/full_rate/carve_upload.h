@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render_client/volume/textures/texture_plan.h"
-#include "studies/render/full_rate/finished_frames.h"
+#include "studies/render/picture_trial.h"
 
 namespace osteomill::study {
 

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <string>
 
-#include "studies/render/full_rate/finished_frames.h"
+#include "studies/render/picture_trial.h"
 
 namespace osteomill::study {
 

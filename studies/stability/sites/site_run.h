@@ -1,5 +1,5 @@
-// A run of the program's own loops at a site, in a simulated hand on the virtual clock, and the milling
-// model's force beside it.
+// A run of the program's own loops at a site, in a simulated hand on the virtual clock, with the milling
+// model's force beside it; and the verdict on it.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,9 @@
 #include "studies/stability/sites/site.h"
 
 namespace osteomill::study {
+
+// A run of the program's own loops at a site, in a simulated hand on the virtual clock, and the milling
+// model's force beside it.
 
 /// How a site is worked on.
 struct SiteHand {

@@ -1,8 +1,8 @@
-#include "studies/force/force_series.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "studies/force/path_run.h"
 
 namespace osteomill::study {
 namespace {

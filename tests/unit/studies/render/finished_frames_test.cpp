@@ -1,6 +1,5 @@
-#include "studies/render/full_rate/finished_frames.h"
-
 #include "render_client/volume/gl/framebuffer.h"
+#include "studies/render/picture_trial.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::study {

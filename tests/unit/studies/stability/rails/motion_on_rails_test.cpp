@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/statistics/percentile.h"
-#include "studies/force/force_series.h"
+#include "studies/force/path_run.h"
 
 namespace osteomill::study::motion_on_rails_test {
 namespace {

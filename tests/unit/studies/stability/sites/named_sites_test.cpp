@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "studies/stability/sites/random_walk.h"
+#include "studies/stability/sites/site.h"
 
 namespace osteomill::study::named_sites_test {
 namespace {

@@ -1,6 +1,6 @@
-#include <utility>
-
 #include "studies/force/studied_model.h"
+
+#include <utility>
 
 namespace osteomill::study {
 
