@@ -18,7 +18,6 @@
 #include "python/module/bone_view.h"
 #include "python/module/released_lock.h"
 #include "python/module/session_motion.h"
-#include "python/module/sessions_together.h"
 
 namespace osteomill::python {
 

@@ -11,6 +11,7 @@
 #include "common/files/atomic_file.h"
 #include "common/files/distinct_files.h"
 #include "common/files/input_file.h"
+#include "common/text/address_text.h"
 #include "common/text/csv.h"
 #include "common/text/foreign_json.h"
 #include "common/text/foreign_text.h"
@@ -72,6 +73,31 @@ void bind_files(py::module_& module) {
                py::arg("names"),
                "Refuses where one of the files that options name is one that is written into the folder of "
                "--out, under one of these names (fnmatch).");
+}
+
+// Checks and display of texts from elsewhere, as in all programs. They come as bytes, since they may not be
+// UTF-8.
+
+void bind_texts(pybind11::module_& module) {
+    namespace py = pybind11;
+    module.def(
+        "why_not_plain", [](const std::string& text) { return why_not_plain(text); }, py::arg("text"),
+        "Why a text is no UTF-8 without control characters; None where it is.");
+    module.def(
+        "printable", [](const std::string& text) { return printable(text); }, py::arg("text"),
+        "The text, each byte of a control character and each that is no UTF-8 as \\xNN.");
+    module.def(
+        "one_line", [](const std::string& text) { return one_line(text); }, py::arg("text"),
+        "The same of its first 200 bytes.");
+    module.def(
+        "csv_cell", [](const std::string& text) { return csv_cell(text); }, py::arg("text"),
+        "A text as a cell of CSV, which a spreadsheet does not compute.");
+    module.def(
+        "without_passwords", [](const std::string& text) { return without_passwords(printable(text)); },
+        py::arg("text"), "The text, printable, with *** for each password of an address.");
+    module.def(
+        "holds_password", [](const std::string& address) { return holds_password(address); },
+        py::arg("address"), "Whether an address of libpq has a password.");
 }
 
 }  // namespace osteomill::python

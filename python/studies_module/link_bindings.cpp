@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "python/module/arrays.h"
 #include "python/module/loaded_case.h"
 #include "python/studies_module/bindings.h"
+#include "render_client/link/bone_link.h"
+#include "simulation/loop/real_time.h"
 #include "studies/link/link_run.h"
 
 namespace osteomill::python {
@@ -56,6 +59,19 @@ void bind_links(py::module_& module) {
                "A burr mills a case's bone along positions, each a tick after the one before, and a client "
                "follows: the program's own messages over a simulated link, which takes so many bytes a "
                "second. content: changes, bricks, poses.");
+}
+
+// Real time: a client that keeps up with a session, and the priority of the haptic loop.
+
+namespace py = pybind11;
+
+void bind_real_time(py::module_& module) {
+    module.attr("HAPTIC_PRIORITY") = haptic_priority;
+    py::class_<BoneLink>(module, "Client", "A client of a server, which follows the bone and draws nothing.")
+        .def(py::init<std::string, std::uint16_t>(), py::arg("host"), py::arg("port"))
+        .def(
+            "frames", [](BoneLink& link) { return link.poll().frames; },
+            py::call_guard<py::gil_scoped_release>(), "Applies what has come: how many frames there were.");
 }
 
 }  // namespace osteomill::python
