@@ -1,10 +1,10 @@
-#include "slicer/image_schedule.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 #include <vector>
+
+#include "slicer/slicer_session.h"
 
 namespace osteomill {
 namespace {
