@@ -28,7 +28,7 @@ struct CheckedMachine {
     std::function<double()> measure_clock_ns;  ///< the time that one reading of the clock takes
 };
 
-/// This one. Measuring takes half a second. In this_machine.cpp.
+/// This one. Measuring takes half a second.
 CheckedMachine this_machine();
 
 /// Real-time priority and its share, page locking, wake-ups, preemption, frequency and idle states, the clock

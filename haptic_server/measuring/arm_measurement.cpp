@@ -8,8 +8,8 @@
 #include <cmath>
 #include <future>
 
+#include "haptic_server/measuring/arm_estimates.h"
 #include "haptic_server/measuring/arm_shake.h"
-#include "haptic_server/measuring/reading_steps.h"
 #include "haptic_server/measuring/stiffness_ramp.h"
 #include "simulation/device/measured_spring.h"
 #include "simulation/loop/clock.h"

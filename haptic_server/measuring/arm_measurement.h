@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "haptic_server/measuring/arm_estimates.h"
 #include "haptic_server/measuring/measuring_guard.h"
-#include "haptic_server/measuring/pushed_motion.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/device/measured_arm.h"
 

@@ -16,10 +16,9 @@
 #include "devices/hid/hid_transport.h"
 #include "haptic_server/check/machine_check.h"
 #include "haptic_server/check/session_check.h"
-#include "haptic_server/monitoring/metrics_page.h"
-#include "haptic_server/monitoring/metrics_text.h"
+#include "haptic_server/monitoring/metrics_server.h"
+#include "haptic_server/monitoring/prometheus_text.h"
 #include "haptic_server/program/measure_arm.h"
-#include "haptic_server/program/report_folder.h"
 #include "haptic_server/program/session_json.h"
 #include "haptic_server/program/session_outputs.h"
 #include "haptic_server/program/status_line.h"
@@ -195,12 +194,12 @@ void run_server(const ServerOptions& options, const std::string& version, StopFl
                               .logs = options.logs,
                               .more_ticks = options.metrics ? &meter : nullptr,
                               .shown = std::move(shown)});
-    std::optional<MetricsPage> metrics;
+    std::optional<MetricsServer> metrics;
     if (options.metrics) {
         const auto text = [&meter, &assembly, &version] {
-            return metrics_text(meter.read(),
-                                assembly.shown() ? assembly.shown()->server().traffic() : StreamingTraffic{},
-                                version);
+            return prometheus_text(
+                meter.read(), assembly.shown() ? assembly.shown()->server().traffic() : StreamingTraffic{},
+                version);
         };
         metrics.emplace(*options.metrics, text, options.metrics_hosts);
         output.out->write(

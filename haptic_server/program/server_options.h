@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,12 +15,37 @@
 #include "common/files/distinct_files.h"
 #include "common/program/command_line.h"
 #include "devices/simulated/hand_and_arm.h"
-#include "haptic_server/program/device_options.h"
 #include "haptic_server/program/session_outputs.h"
+#include "haptic_server/session/device_table.h"
 #include "haptic_server/streaming/access_options.h"
 #include "simulation/loop/milling_session.h"
 
+namespace CLI {
+class App;
+}  // namespace CLI
+
 namespace osteomill {
+
+/// Options of haptic_server for the device that moves the tool.
+struct DeviceChoice {
+    const DeviceEntry* entry = &devices().front();
+    PrepareDevice prepare = entry->checked(TypedOptions());
+    std::vector<NamedFile> files_read{};  ///< by the typed option
+    bool lists_devices = false;           ///< and does nothing else
+};
+
+class DeviceOptions {
+  public:
+    /// Adds the options. Outlives the parsing.
+    void declare(CLI::App& app);
+    /// After parsing. Throws std::invalid_argument with one line for options that do not go together.
+    DeviceChoice checked() const;
+
+  private:
+    std::string device_ = devices().front().name;
+    std::map<std::string, std::string> texts_;  // by flag; empty: not typed
+    bool lists_devices_ = false;
+};
 
 struct ServerOptions {
     SceneChoice scene;

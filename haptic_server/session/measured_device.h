@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "devices/measured/measured_profile.h"
-#include "haptic_server/session/device_entry.h"
+#include "haptic_server/session/device_table.h"
 
 namespace osteomill {
 

@@ -8,18 +8,43 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 
-#include "haptic_server/session/device_entry.h"
-#include "haptic_server/session/session_logs.h"
+#include "analysis/logs/csv_log.h"
+#include "haptic_server/session/device_table.h"
 #include "haptic_server/session/session_scene.h"
 #include "haptic_server/session/shown_session.h"
 #include "simulation/exchange/sample_log.h"
 #include "simulation/loop/milling_session.h"
 
 namespace osteomill {
+
+/// The logs of a session's ticks and milling steps, as far as they are requested.
+struct LogFiles {
+    std::optional<std::filesystem::path> force{};    ///< a line a tick
+    std::optional<std::filesystem::path> milling{};  ///< a line a milling step
+};
+
+class SessionLogs {
+  public:
+    /// Begins the files. Throws std::runtime_error in one line if one cannot be.
+    SessionLogs(const LogFiles& files, bool has_shank);
+
+    /// Null if none is requested.
+    ForceLog* force() { return force_ ? &*force_ : nullptr; }
+    MillingLog* milling() { return milling_ ? &*milling_ : nullptr; }
+
+    /// Once nothing is written any more. Throws std::runtime_error in one line where lines are missing.
+    void close_force();
+    void close_milling();
+
+  private:
+    std::optional<ForceLog> force_;
+    std::optional<MillingLog> milling_;
+};
 
 struct SessionOptions {
     /// The other parts decide whether it can be controlled, whether changes are consumed, and the volume

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "haptic_server/session/device_entry.h"
+#include "haptic_server/session/device_table.h"
 #include "simulation/coupling/couplings.h"
 
 namespace osteomill {

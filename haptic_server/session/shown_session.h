@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/files/output_place.h"
-#include "haptic_server/session/device_entry.h"
+#include "haptic_server/session/device_table.h"
 #include "haptic_server/session/save_and_finish.h"
 #include "haptic_server/session/session_scene.h"
 #include "haptic_server/streaming/live_session.h"

@@ -11,7 +11,7 @@
 #include "common/log/rate_limit.h"
 #include "common/net/stream.h"
 #include "common/wire/frame.h"
-#include "haptic_server/streaming/answered_states.h"
+#include "haptic_server/streaming/client_message.h"
 #include "haptic_server/streaming/outgoing_frames.h"
 
 namespace osteomill {

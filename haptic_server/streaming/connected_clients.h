@@ -22,10 +22,8 @@
 #include "common/wire/frame.h"
 #include "haptic_server/streaming/client_connection.h"
 #include "haptic_server/streaming/connection_quota.h"
-#include "haptic_server/streaming/control_lease.h"
-#include "haptic_server/streaming/lease_history.h"
+#include "haptic_server/streaming/leases.h"
 #include "haptic_server/streaming/streaming_options.h"
-#include "haptic_server/streaming/tool_lease.h"
 
 namespace osteomill {
 

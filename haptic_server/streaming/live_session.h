@@ -2,22 +2,53 @@
 // tool once a frame.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <future>
 #include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/scene/scene.h"
+#include "common/session/structure_distance.h"
 #include "common/session/structure_watch.h"
 #include "common/session/tool_state.h"
 #include "common/wire/session_info.h"
 #include "haptic_server/streaming/control_script.h"
 #include "haptic_server/streaming/session_controls.h"
 #include "haptic_server/streaming/stream_source.h"
-#include "haptic_server/streaming/structure_log.h"
 #include "simulation/exchange/change_queue.h"
 #include "simulation/exchange/triple_buffer.h"
 
 namespace osteomill {
+
+/// Log lines about protected structures: a line when the burr comes within the structure's warning distance,
+/// and a line when it begins to touch it.
+///
+/// A burr that hovers at the limit is logged once: before the next warning it must move away to one and a
+/// half times the distance. Bounded: at most most_lines, however long the session.
+class StructureLog {
+  public:
+    static constexpr std::size_t most_lines = 200;
+
+    /// `tissues`: those that distances name by their index.
+    explicit StructureLog(std::vector<Tissue> tissues)
+        : tissues_(std::move(tissues)), is_warned_of_(tissues_.size()), touches_logged_(tissues_.size()) {}
+
+    /// The lines due now, mostly none.
+    std::vector<std::string> lines(std::span<const StructureDistance> distances, double time_s);
+
+  private:
+    void say(std::vector<std::string>& lines, std::string line);
+
+    std::vector<Tissue> tissues_;
+    std::vector<bool> is_warned_of_;             // by tissue
+    std::vector<std::uint32_t> touches_logged_;  // by tissue
+    std::size_t said_ = 0;
+};
 
 /// The session info about a scene that clients are sent.
 SessionInfo session_info(const Scene& scene, bool accepts_operator, double force_limit_n,

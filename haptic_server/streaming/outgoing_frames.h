@@ -7,7 +7,10 @@
 // PendingChanges.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,11 +26,76 @@
 #include "common/wire/packed_changes.h"
 #include "common/wire/packed_ticks.h"
 #include "common/wire/snapshot.h"
-#include "haptic_server/streaming/frame_pace.h"
-#include "haptic_server/streaming/pending_changes.h"
 #include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
+
+/// Changes of the bone that a client has yet to be sent, brick by brick, each in its turn.
+///
+/// The turn goes round the grid: after a brick comes the next above it that is waiting, and after the last
+/// the first. So a brick waits for each other one at most once, even if bricks before it keep changing
+/// faster than the client reads.
+///
+/// Bounded: one entry of about 60 bytes for each stored brick that is waiting, and a mask of 512 bytes for
+/// the first `most_masks` of them. Beyond these a brick is sent whole.
+class PendingChanges {
+  public:
+    /// 2 MiB of masks: far more bricks than a burr touches while a network hiccups.
+    static constexpr std::size_t most_masks = 4096;
+
+    /// Once part of a brick was restored, all of it that waits goes as restored: the client may know older
+    /// values than those from which milling went on.
+    void add(const BrickChange& change);
+    void add_whole(BrickIndex brick);
+
+    bool empty() const { return waiting_.empty(); }
+    std::size_t bricks() const { return waiting_.size(); }
+    std::size_t masks() const { return masks_; }
+
+    /// Whose turn it is; not to be called on an empty set.
+    BrickChange next() const;
+    /// The brick of next() has been sent: the turn goes on.
+    void sent();
+
+  private:
+    struct Waiting {
+        std::unique_ptr<VoxelMask> voxels{};  ///< null: the whole brick
+        ChangeKind kind = ChangeKind::milled;
+    };
+    std::map<BrickIndex, Waiting>::const_iterator turn() const;
+
+    std::map<BrickIndex, Waiting> waiting_;
+    std::size_t masks_ = 0;
+    BrickIndex turn_ = 0;  // bricks from here on come first
+};
+
+/// Budget of a state frame for one client, so that its link has taken it after a quarter of a second:
+/// over a slow one the tool is sent often, and the bone piece by piece, rather than all of it late.
+class FramePace {
+  public:
+    /// A larger frame keeps the next ones waiting: this is a second of a link of 256 kbit/s.
+    static constexpr std::size_t most = 32 * 1024;
+    /// Less would be mostly the tool.
+    static constexpr std::size_t least = 2 * 1024;
+    static constexpr double longest_s = 0.25;
+
+    std::size_t most_bytes() const { return most_bytes_; }
+
+    /// Reports that the link took `took_s` for a frame of `bytes`. If that was too long, the next frame is
+    /// shorter in proportion. If the frame used half of its length or more and took less than half of the
+    /// time, the next may be twice as long.
+    void wrote(std::size_t bytes, double took_s) {
+        if (took_s > longest_s) {
+            const double fits = static_cast<double>(bytes) * longest_s / took_s;
+            most_bytes_ = std::clamp(static_cast<std::size_t>(fits), least, most_bytes_);
+        } else if (2 * bytes >= most_bytes_ && took_s < 0.5 * longest_s) {
+            most_bytes_ = std::min(2 * most_bytes_, most);
+        }
+    }
+
+  private:
+    std::size_t most_bytes_ = most;
+};
 
 /// Buffers to compress in, which all OutgoingFrames of a thread share.
 struct FramePackers {

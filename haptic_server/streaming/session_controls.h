@@ -11,7 +11,7 @@
 //
 //     asks    the window (render_client/ui/input/commands.h; its panels leave SessionRequests there), another
 //             client, or a script (control_script.h): each a SessionControl (session_control.h).
-//             control_lease.h and tool_lease.h decide which client may
+//             leases.h and leases.h decide which client may
 //     acts    SessionControls, here; the loops through SessionGate (simulation/exchange/session_gate.h) and
 //             the queue of restored changes
 //     writes  SaveAndFinish (haptic_server/session/save_and_finish.h) the saved bone, and it ends the session

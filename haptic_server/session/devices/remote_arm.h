@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/net/listen_address.h"
-#include "haptic_server/session/device_entry.h"
+#include "haptic_server/session/device_table.h"
 
 namespace osteomill {
 

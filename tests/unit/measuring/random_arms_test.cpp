@@ -7,9 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "haptic_server/measuring/arm_estimates.h"
 #include "haptic_server/measuring/arm_shake.h"
-#include "haptic_server/measuring/pushed_motion.h"
-#include "haptic_server/measuring/reading_steps.h"
 #include "haptic_server/measuring/stiffness_ramp.h"
 #include "simulation/device/arm_spring.h"
 #include "simulation/device/measured_spring.h"

@@ -1,5 +1,3 @@
-#include "haptic_server/measuring/reading_steps.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "devices/hid/arm_kinematics.h"
 #include "devices/hid/arm_profile.h"
+#include "haptic_server/measuring/arm_estimates.h"
 
 namespace osteomill {
 namespace {

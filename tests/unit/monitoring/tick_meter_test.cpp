@@ -1,8 +1,8 @@
-#include "haptic_server/monitoring/tick_meter.h"
-
 #include <gtest/gtest.h>
 
 #include <numeric>
+
+#include "haptic_server/monitoring/prometheus_text.h"
 
 namespace osteomill {
 namespace {

@@ -1,6 +1,6 @@
-#include "haptic_server/streaming/answered_states.h"
-
 #include <gtest/gtest.h>
+
+#include "haptic_server/streaming/client_message.h"
 
 namespace osteomill {
 namespace {

@@ -1,6 +1,6 @@
-#include "haptic_server/streaming/control_lease.h"
-
 #include <gtest/gtest.h>
+
+#include "haptic_server/streaming/leases.h"
 
 namespace osteomill {
 namespace {

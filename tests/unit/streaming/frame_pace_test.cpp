@@ -1,6 +1,6 @@
-#include "haptic_server/streaming/frame_pace.h"
-
 #include <gtest/gtest.h>
+
+#include "haptic_server/streaming/outgoing_frames.h"
 
 namespace osteomill {
 namespace {

@@ -1,6 +1,6 @@
-#include "haptic_server/streaming/lease_history.h"
-
 #include <gmock/gmock.h>
+
+#include "haptic_server/streaming/leases.h"
 
 namespace osteomill {
 namespace {

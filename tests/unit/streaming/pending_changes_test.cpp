@@ -1,6 +1,6 @@
-#include "haptic_server/streaming/pending_changes.h"
-
 #include <gtest/gtest.h>
+
+#include "haptic_server/streaming/outgoing_frames.h"
 
 namespace osteomill {
 namespace {

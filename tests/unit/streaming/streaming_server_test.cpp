@@ -13,7 +13,7 @@
 #include "common/recording/recording_reader.h"
 #include "common/wire/frame.h"
 #include "common/wire/scene_messages.h"
-#include "haptic_server/streaming/answered_states.h"
+#include "haptic_server/streaming/client_message.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/message_of.h"
 #include "tests/support/replica.h"

@@ -1,7 +1,7 @@
-#include "haptic_server/streaming/structure_log.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "haptic_server/streaming/live_session.h"
 
 namespace osteomill {
 namespace {

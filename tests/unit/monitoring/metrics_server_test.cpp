@@ -1,4 +1,4 @@
-#include "haptic_server/monitoring/metrics_page.h"
+#include "haptic_server/monitoring/metrics_server.h"
 
 #include <gmock/gmock.h>
 
@@ -37,15 +37,15 @@ class Visitor {
     tcp::socket socket_{io_};
 };
 
-std::string answer_to(const MetricsPage& page, const std::string& request_line) {
+std::string answer_to(const MetricsServer& page, const std::string& request_line) {
     Visitor visitor(page.port());
     visitor.say(request_line + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
     return visitor.hear();
 }
 
-TEST(MetricsPage, GivesItsTextAtEachVisit) {
+TEST(MetricsServer, GivesItsTextAtEachVisit) {
     int visits = 0;
-    const MetricsPage page({.port = 0}, [&visits] { return "visit " + std::to_string(++visits) + "\n"; });
+    const MetricsServer page({.port = 0}, [&visits] { return "visit " + std::to_string(++visits) + "\n"; });
     for (const char* visit : {"visit 1\n", "visit 2\n"}) {
         const std::string answer = answer_to(page, "GET /metrics");
         EXPECT_THAT(answer, StartsWith("HTTP/1.1 200 OK\r\n"));
@@ -54,21 +54,21 @@ TEST(MetricsPage, GivesItsTextAtEachVisit) {
     }
 }
 
-TEST(MetricsPage, HasNothingElseAndTakesNothing) {
-    const MetricsPage page({.port = 0}, [] { return "text\n"; });
+TEST(MetricsServer, HasNothingElseAndTakesNothing) {
+    const MetricsServer page({.port = 0}, [] { return "text\n"; });
     EXPECT_THAT(answer_to(page, "GET /"), StartsWith("HTTP/1.1 404 "));
     EXPECT_THAT(answer_to(page, "GET /metrics/../etc"), StartsWith("HTTP/1.1 404 "));
     EXPECT_THAT(answer_to(page, "DELETE /metrics"), StartsWith("HTTP/1.1 405 "));
 }
 
-TEST(MetricsPage, TellsNothingUnderANameThatIsNotItsOwn) {
+TEST(MetricsServer, TellsNothingUnderANameThatIsNotItsOwn) {
     bool was_asked = false;
-    const MetricsPage page({.port = 0},
-                           [&was_asked] {
-                               was_asked = true;
-                               return "text\n";
-                           },
-                           {"monitor.lab"});
+    const MetricsServer page({.port = 0},
+                             [&was_asked] {
+                                 was_asked = true;
+                                 return "text\n";
+                             },
+                             {"monitor.lab"});
     const auto asked_as = [&](const std::string& fields) {
         Visitor visitor(page.port());
         visitor.say("GET /metrics HTTP/1.1\r\n" + fields + "\r\n");
@@ -91,8 +91,8 @@ TEST(MetricsPage, TellsNothingUnderANameThatIsNotItsOwn) {
         EXPECT_THAT(asked_as(fields), StartsWith("HTTP/1.1 200 OK\r\n")) << fields;
 }
 
-TEST(MetricsPage, OutlivesVisitorsThatSayNonsenseTooMuchOrNothing) {
-    const MetricsPage page({.port = 0}, [] { return "text\n"; });
+TEST(MetricsServer, OutlivesVisitorsThatSayNonsenseTooMuchOrNothing) {
+    const MetricsServer page({.port = 0}, [] { return "text\n"; });
     Visitor(page.port()).say("\x16\x03\x01 nonsense\r\n\r\n");
     {
         Visitor talker(page.port());
@@ -105,8 +105,8 @@ TEST(MetricsPage, OutlivesVisitorsThatSayNonsenseTooMuchOrNothing) {
     EXPECT_THAT(answer_to(page, "GET /metrics"), HasSubstr("text\n"));
 }
 
-TEST(MetricsPage, IsKeptFromNobodyByVisitorsThatAskForHalfOfIt) {
-    const MetricsPage page({.port = 0}, [] { return "text\n"; });
+TEST(MetricsServer, IsKeptFromNobodyByVisitorsThatAskForHalfOfIt) {
+    const MetricsServer page({.port = 0}, [] { return "text\n"; });
     // More than it bears at a time: were each waited for, a minute and a half.
     std::vector<std::unique_ptr<Visitor>> visitors;
     for (int i = 0; i < 40; ++i) {
@@ -117,10 +117,10 @@ TEST(MetricsPage, IsKeptFromNobodyByVisitorsThatAskForHalfOfIt) {
     EXPECT_EQ(visitors.front()->hear(), "");
 }
 
-TEST(MetricsPage, SaysWhereItCannotBe) {
-    const MetricsPage page({.port = 0}, [] { return std::string(); });
+TEST(MetricsServer, SaysWhereItCannotBe) {
+    const MetricsServer page({.port = 0}, [] { return std::string(); });
     try {
-        const MetricsPage other({.port = page.port()}, [] { return std::string(); });
+        const MetricsServer other({.port = page.port()}, [] { return std::string(); });
         FAIL() << "two pages at one address";
     } catch (const std::runtime_error& error) {
         EXPECT_EQ(error.what(),

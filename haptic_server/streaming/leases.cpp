@@ -1,4 +1,4 @@
-#include "haptic_server/streaming/tool_lease.h"
+#include "haptic_server/streaming/leases.h"
 
 namespace osteomill {
 

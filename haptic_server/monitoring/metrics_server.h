@@ -14,16 +14,16 @@
 
 namespace osteomill {
 
-class MetricsPage {
+class MetricsServer {
   public:
     /// Listens. `text` is called on the page's thread, at each visit, until the page is destroyed. `names`:
     /// by which it may be asked for, beside localhost and addresses. Throws std::runtime_error, in one line,
     /// if the address cannot be had.
-    MetricsPage(const ListenAddress& where, std::function<std::string()> text,
-                std::vector<std::string> names = {});
-    ~MetricsPage();
-    MetricsPage(const MetricsPage&) = delete;
-    MetricsPage& operator=(const MetricsPage&) = delete;
+    MetricsServer(const ListenAddress& where, std::function<std::string()> text,
+                  std::vector<std::string> names = {});
+    ~MetricsServer();
+    MetricsServer(const MetricsServer&) = delete;
+    MetricsServer& operator=(const MetricsServer&) = delete;
 
     std::uint16_t port() const;
 

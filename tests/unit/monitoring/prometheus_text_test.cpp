@@ -1,4 +1,4 @@
-#include "haptic_server/monitoring/metrics_text.h"
+#include "haptic_server/monitoring/prometheus_text.h"
 
 #include <gmock/gmock.h>
 
@@ -31,7 +31,7 @@ TEST(MetricsText, SaysWhatWasCounted) {
     loop.faults[static_cast<std::size_t>(Fault::overrun)] = 5;
     loop.fault = Fault::overrun;
     loop.spindle_on = true;
-    const std::string text = metrics_text(loop, {.clients = 2, .sent_bytes = 12'345'678'901}, "9.8.7");
+    const std::string text = prometheus_text(loop, {.clients = 2, .sent_bytes = 12'345'678'901}, "9.8.7");
     for (const char* line :
          {"osteomill_session_seconds 2.5\n", "osteomill_ticks_total 7\n",
           "osteomill_missed_deadlines_total 3\n", "osteomill_tick_latency_seconds_bucket{le=\"5e-06\"} 4\n",
@@ -48,7 +48,7 @@ TEST(MetricsText, SaysWhatWasCounted) {
 
 // The grammar of the format: each family is a HELP and a TYPE before its samples, and comes once.
 TEST(MetricsText, IsInPrometheusFormat) {
-    std::istringstream lines("\n" + metrics_text({}, {}, "9.8.7"));
+    std::istringstream lines("\n" + prometheus_text({}, {}, "9.8.7"));
     const std::regex help("# HELP (osteomill_[a-z_]+) [^\\\\]+");
     const std::regex type("# TYPE (osteomill_[a-z_]+) (counter|gauge|histogram)");
     const std::regex sample("(osteomill_[a-z_]+)(\\{[a-z]+=\"[^\"\\\\]+\"\\})? [-+0-9.e]+");
@@ -78,7 +78,7 @@ TEST(MetricsText, IsInPrometheusFormat) {
 }
 
 TEST(MetricsText, IsWhatTheDocumentAndTheDashboardName) {
-    const std::string text = metrics_text({}, {}, "9.8.7");
+    const std::string text = prometheus_text({}, {}, "9.8.7");
     const std::string document = text_of(DOCUMENTS "/operating.md");
     const std::regex family("# TYPE (osteomill_[a-z_]+)");
     for (std::sregex_iterator at(text.begin(), text.end(), family), end; at != end; ++at)

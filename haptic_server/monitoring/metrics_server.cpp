@@ -1,4 +1,4 @@
-#include "haptic_server/monitoring/metrics_page.h"
+#include "haptic_server/monitoring/metrics_server.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -106,7 +106,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
 
 }  // namespace
 
-class MetricsPage::Impl {
+class MetricsServer::Impl {
   public:
     Impl(const ListenAddress& where, std::function<std::string()> text, std::vector<std::string> names)
         : text_(std::move(text)), names_(std::move(names)), acceptor_(listening(io_, where)) {
@@ -157,11 +157,11 @@ class MetricsPage::Impl {
     std::thread thread_;
 };
 
-MetricsPage::MetricsPage(const ListenAddress& where, std::function<std::string()> text,
-                         std::vector<std::string> names)
+MetricsServer::MetricsServer(const ListenAddress& where, std::function<std::string()> text,
+                             std::vector<std::string> names)
     : impl_(std::make_unique<Impl>(where, std::move(text), std::move(names))) {}
-MetricsPage::~MetricsPage() = default;
-std::uint16_t MetricsPage::port() const {
+MetricsServer::~MetricsServer() = default;
+std::uint16_t MetricsServer::port() const {
     return impl_->port();
 }
 

@@ -1,7 +1,5 @@
-// Timing of the haptic loop while it runs: counted from the ticks that the loop hands to its logs, so that
-// the loop itself knows nothing of it.
-//
-// The loop's thread pushes, one other reads.
+// A running session's figures in Prometheus' text format 0.0.4
+// (https://prometheus.io/docs/instrumenting/exposition_formats/). Names and units: docs/operating.md.
 #pragma once
 
 #include <array>
@@ -9,14 +7,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "common/session/tick_sample.h"
+#include "haptic_server/streaming/streaming_server.h"
 #include "simulation/exchange/sample_log.h"
 #include "simulation/exchange/triple_buffer.h"
 #include "simulation/safety/fault.h"
 
 namespace osteomill {
 
+/// Timing of the haptic loop while it runs: counted from the ticks that the loop hands to its logs, so that
+/// the loop itself knows nothing of it.
+///
+/// The loop's thread pushes, one other reads.
 class TickMeter final : public SampleLog<TickSample> {
   public:
     /// Upper bounds, s; the last bucket has none. A tick is late for the hand from 1 ms on.
@@ -57,5 +61,8 @@ class TickMeter final : public SampleLog<TickSample> {
     TripleBuffer<Reading> readings_;
     std::optional<std::chrono::steady_clock::time_point> began_{};  // time zero; none on the virtual clock
 };
+
+std::string prometheus_text(const TickMeter::Reading& loop, const StreamingTraffic& traffic,
+                            const std::string& version);
 
 }  // namespace osteomill

@@ -1,4 +1,4 @@
-#include "haptic_server/measuring/pushed_motion.h"
+#include "haptic_server/measuring/arm_estimates.h"
 
 #include <gtest/gtest.h>
 
