@@ -12,8 +12,8 @@
 #include "common/files/session_file.h"
 #include "common/log/background_writer.h"
 #include "common/session/tick_sample.h"
-#include "simulation/exchange/sample_queue.h"
-#include "simulation/loop/milling_sample.h"
+#include "simulation/exchange/sample_log.h"
+#include "simulation/loop/milling_loop.h"
 
 namespace osteomill {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "simulation/device/measured_spring.h"
+#include "simulation/device/measured_arm.h"
 
 namespace osteomill {
 

@@ -1,4 +1,4 @@
-// A device with the spring that a measurement of it allows (measured_spring.h).
+// A device with the spring that a measurement of it allows (measured_arm.h).
 #pragma once
 
 #include <functional>

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "simulation/device/device_limits.h"
+#include "simulation/device/haptic_device.h"
 
 namespace osteomill {
 

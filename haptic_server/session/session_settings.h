@@ -10,7 +10,7 @@
 
 #include "devices/simulated/hand_and_arm.h"
 #include "haptic_server/session/session_scene.h"
-#include "simulation/device/device_limits.h"
+#include "simulation/device/haptic_device.h"
 #include "simulation/loop/milling_session.h"
 
 namespace osteomill {

@@ -14,7 +14,7 @@
 #include "common/wire/frame.h"
 #include "haptic_server/session/tool_place.h"
 #include "imaging/case/structures.h"
-#include "simulation/loop/burr_hull.h"
+#include "simulation/loop/clearance.h"
 
 namespace osteomill {
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "simulation/force_models/bone_in_ball.h"
+#include "simulation/force_models/ball_rows.h"
 
 namespace osteomill {
 

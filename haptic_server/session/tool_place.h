@@ -8,7 +8,7 @@
 
 #include "common/bone/bone.h"
 #include "common/scene/scene.h"
-#include "simulation/loop/burr_hull.h"
+#include "simulation/loop/clearance.h"
 
 namespace osteomill {
 

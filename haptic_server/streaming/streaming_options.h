@@ -15,7 +15,7 @@
 #include "common/session/tick_sample.h"
 #include "haptic_server/streaming/connection_quota.h"
 #include "haptic_server/streaming/operator_list.h"
-#include "simulation/exchange/sample_queue.h"
+#include "simulation/exchange/sample_log.h"
 
 namespace osteomill {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "imaging/phantoms/phantom.h"
-#include "simulation/force_models/bone_in_ball.h"
+#include "simulation/force_models/ball_rows.h"
 
 namespace osteomill {
 

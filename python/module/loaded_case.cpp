@@ -8,7 +8,7 @@
 
 #include "common/session/structure_distance.h"
 #include "haptic_server/streaming/live_session.h"
-#include "simulation/device/device_limits.h"
+#include "simulation/device/haptic_device.h"
 
 namespace osteomill::python {
 

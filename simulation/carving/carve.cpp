@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "simulation/carving/brick_layer.h"
 #include "simulation/carving/carve_kernel.h"
 #include "simulation/carving/crescent_rows.h"
 

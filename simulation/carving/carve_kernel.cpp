@@ -4,8 +4,7 @@
 #include <bit>
 #include <utility>
 
-#include "simulation/carving/crescent_rows_simd.h"
-#include "simulation/carving/voxel_coverage_simd.h"
+#include "simulation/carving/carve_simd.h"
 
 namespace osteomill {
 

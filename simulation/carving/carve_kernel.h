@@ -8,7 +8,6 @@
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
-#include "simulation/carving/brick_layer.h"
 #include "simulation/carving/carve.h"
 #include "simulation/carving/crescent_rows.h"
 #include "simulation/carving/removed_voxels.h"

@@ -67,7 +67,7 @@
 #include "common/session/tool_state.h"
 #include "simulation/coupling/contact_solve.h"
 #include "simulation/coupling/force_correction.h"
-#include "simulation/device/device_limits.h"
+#include "simulation/device/haptic_device.h"
 #include "simulation/exchange/milling_step.h"
 
 namespace osteomill {

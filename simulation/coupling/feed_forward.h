@@ -31,7 +31,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "simulation/device/device_limits.h"
+#include "simulation/device/haptic_device.h"
 
 namespace osteomill {
 

@@ -8,7 +8,6 @@
 #include "common/scene/burr.h"
 #include "simulation/carving/simd.h"
 #include "simulation/cutting_force/axis_singularity_kernel.h"
-#include "simulation/cutting_force/edge_advance.h"
 #include "simulation/cutting_force/head_force.h"
 
 namespace osteomill {

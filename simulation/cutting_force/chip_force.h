@@ -23,7 +23,7 @@
 // for each mm of it, however thin the chip. So this force belongs to the face that is cut, not to the bone
 // that a step removes: at a slow feed, that is only single levels of a voxel's 255. It is summed over the
 // voxels that the burr would cut if it advanced by d, a voxel or more; each has V / (n . d) of the face
-// (edge_advance.h):
+// (edge_advance):
 //
 //     f = s V / (n . d) N_phi (-sigma K_te e_psi - K_re n - K_ae e_kappa) / (2 pi r)
 //
@@ -87,5 +87,29 @@ void chip_forces(const CuttingStep& step, const RemovedVoxels& removed, std::spa
 /// Sum of the same forces; burr axes, in units of CuttingStep::newton_per_unit. Real-time safe.
 glm::dvec3 sum_of_chip_forces(const CuttingStep& step, const RemovedVoxels& removed,
                               std::span<const float> weights, InstructionSet instructions) noexcept;
+
+// Advance of the burr into the face of a removed voxel, as a share of the burr's path in the step: the
+// voxel's volume divided by it is the area on which edges rub.
+//
+// The share is n . d / |d|, with the voxel's normal n from the burr's centre half-way. But the normal turns
+// by 2 w while the burr passes, w = |d| / 2 over the distance, and on a face nearly along the path, bone is
+// cut during only a part of the step. With x = n . d / |d| at half-way, n . d / |d| runs from x - w to x + w;
+// where both signs occur, bone is cut during (x + w) / 2 w of the step with a mean advance of (x + w)^2 / 4
+// w, and their ratio is the area that rubs:
+//
+//     volume / |d| = area x,                    x > w
+//     volume / |d| = area (x + w) / 2,         |x| < w
+
+/// Least w: fractions of 255 levels resolve no smaller one. It leaves out a strip of a third of a degree.
+inline constexpr float least_turn = 0.006f;
+
+/// The larger of x and (x + w) / 2, and never below w / 4. `Real` is a number or the lanes of a vector.
+template <typename Real>
+[[gnu::always_inline]] inline Real edge_advance(Real x, Real w) {
+    const Real partly = (x + w) * 0.5f;
+    const Real advance = x > partly ? x : partly;
+    const Real least = w * 0.25f;
+    return advance > least ? advance : least;
+}
 
 }  // namespace osteomill

@@ -19,7 +19,7 @@
 
 #include <optional>
 
-#include "simulation/device/device_limits.h"
+#include "simulation/device/haptic_device.h"
 
 namespace osteomill {
 

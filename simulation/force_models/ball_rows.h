@@ -93,4 +93,10 @@ void visit_immersed(const Bone& bone, const Ball& ball, Visit&& visit) {
     });
 }
 
+// Check for bone in a ball, the present burr or one that is to replace it.
+
+/// Whether a voxel that is at least half there lies in the ball, all of it. Real-time safe; free air and
+/// empty rows of voxels cost little.
+bool has_bone_in(const Bone& bone, const Ball& ball) noexcept;
+
 }  // namespace osteomill

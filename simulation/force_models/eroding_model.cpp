@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "simulation/force_models/ball_rows.h"
-#include "simulation/force_models/bone_in_ball.h"
-#include "simulation/force_models/restore_bone.h"
-#include "simulation/force_models/usable_burr.h"
+#include "simulation/force_models/force_model.h"
+#include "simulation/force_models/removal_account.h"
 
 namespace osteomill {
 

@@ -23,7 +23,7 @@ namespace osteomill {
 class ErodingModel final : public ForceModel {
   public:
     /// `burrs` and `tissues` as in the scene. Throws std::invalid_argument for an empty burr set or a burr
-    /// that require_valid() (usable_burr.h) refuses.
+    /// that require_valid() (force_model.h) refuses.
     ErodingModel(Bone bone, std::vector<Burr> burrs, const std::vector<Tissue>& tissues,
                  std::unique_ptr<ContactLaw> law);
 

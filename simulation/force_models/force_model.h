@@ -3,10 +3,12 @@
 // models are others. force_models.h makes them by name.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "common/bone/bone.h"
 #include "common/bone/brick_change.h"
+#include "common/scene/burr.h"
 #include "simulation/exchange/milling_step.h"
 
 namespace osteomill {
@@ -23,7 +25,7 @@ class ForceModel {
     virtual void step(const BurrCommand& command, double time_s, ChangeSink& changes,
                       MillingResult& result) noexcept = 0;
 
-    /// Between steps: undoes milling of these voxels, or redoes it (restore_bone.h). Real-time safe.
+    /// Between steps: undoes milling of these voxels, or redoes it (removal_account.h). Real-time safe.
     virtual void restore(const BrickChange& change, BrickFractions fractions,
                          ChangeSink& changes) noexcept = 0;
 
@@ -36,5 +38,23 @@ class ForceModel {
     /// The same of one tissue, with a label below 256.
     virtual double removed_mm3(std::size_t label) const = 0;
 };
+
+// Checks of a burr and of a command that every force model makes.
+
+/// Most voxels across a burr, so that the values a model keeps for each row fit.
+inline constexpr double most_voxels_across_burr = 500.0;
+
+/// Throws std::invalid_argument, naming the burr, unless diameter, edges and spindle speed are above zero,
+/// the cutting coefficients finite and not negative, the burr no more than 500 voxels across or long, and its
+/// head and shank as burr.h and shank.h have them.
+void require_valid(const Burr& burr, double spacing_mm);
+
+/// For models that know the ball alone: throws std::invalid_argument, naming burr and `model`, for any other
+/// head.
+void require_ball(const Burr& burr, const char* model);
+
+/// Whether a command is finite, has a duration, and names one of `burr_count` burrs; its axis must be of unit
+/// length. Real-time safe.
+bool is_usable(const BurrCommand& command, std::size_t burr_count) noexcept;
 
 }  // namespace osteomill

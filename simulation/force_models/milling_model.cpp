@@ -9,9 +9,8 @@
 #include "simulation/carving/carve_head.h"
 #include "simulation/carving/crescent_rows.h"
 #include "simulation/cutting_force/mean_force.h"
-#include "simulation/cutting_force/stiffness_weights.h"
-#include "simulation/force_models/restore_bone.h"
-#include "simulation/force_models/usable_burr.h"
+#include "simulation/force_models/force_model.h"
+#include "simulation/force_models/removal_account.h"
 
 namespace osteomill {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
 #include "common/scene/scene.h"
 #include "simulation/exchange/milling_step.h"
 
@@ -78,5 +79,12 @@ class RemovalAccount {
     double step_levels_ = 0.0;
     bool step_touches_protected_ = false;
 };
+
+// Undo and redo in the milling loop's bone: milled bone is given back, or taken again.
+
+/// Gives the voxels of the change their values in `fractions`, enters the difference into the account and
+/// pushes the change as restored. A change that does not fit the bone has no effect. Real-time safe.
+void restore_bone(const BrickChange& change, BrickFractions fractions, Bone& bone, RemovalAccount& account,
+                  ChangeSink& changes) noexcept;
 
 }  // namespace osteomill

@@ -2,12 +2,23 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <memory>
 #include <utility>
 
-#include "simulation/force_models/bone_in_ball.h"
+#include "simulation/force_models/ball_rows.h"
 
 namespace osteomill {
+
+std::string MillingSample::header_line() {
+    return "t_s,burr_x_mm,burr_y_mm,burr_z_mm,force_x_n,force_y_n,force_z_n,removed_mm3,spindle\n";
+}
+
+void MillingSample::append_to(fmt::memory_buffer& text) const {
+    fmt::format_to(std::back_inserter(text), "{:.5f},{:.5f},{:.5f},{:.5f},{:.6f},{:.6f},{:.6f},{:.8f},{:d}\n",
+                   time_s, burr_mm.x, burr_mm.y, burr_mm.z, force_n.x, force_n.y, force_n.z, removed_mm3,
+                   spindle_on ? 1 : 0);
+}
 
 namespace {
 

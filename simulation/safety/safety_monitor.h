@@ -47,7 +47,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "simulation/safety/fault_set.h"
+#include "simulation/safety/fault.h"
 #include "simulation/safety/force_guard.h"
 #include "simulation/safety/pedal_latch.h"
 #include "simulation/safety/watchdog.h"

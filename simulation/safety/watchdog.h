@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/device/haptic_device.h"
-#include "simulation/safety/fault_set.h"
+#include "simulation/safety/fault.h"
 
 namespace osteomill {
 

@@ -14,7 +14,7 @@
 #include "common/scene/burr.h"
 #include "common/sound/burr_sound.h"
 #include "simulation/coupling/handpiece_vibration.h"
-#include "simulation/device/device_limits.h"
+#include "simulation/device/haptic_device.h"
 #include "simulation/engagement/engagement.h"
 #include "simulation/force_models/milling_model.h"
 #include "simulation/loop/cut_report.h"

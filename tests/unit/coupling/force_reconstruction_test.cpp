@@ -1,8 +1,8 @@
-#include "simulation/coupling/force_reconstruction.h"
-
 #include <gtest/gtest.h>
 
 #include <vector>
+
+#include "simulation/coupling/direct_coupling.h"
 
 namespace osteomill::force_reconstruction_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "simulation/cutting_force/edge_advance.h"
+#include "simulation/cutting_force/chip_force.h"
 #include "simulation/cutting_force/edge_look.h"
 #include "simulation/cutting_force/reference_force.h"
 #include "studies/force/random_motions.h"

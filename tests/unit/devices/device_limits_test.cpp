@@ -1,6 +1,6 @@
-#include "simulation/device/device_limits.h"
-
 #include <gtest/gtest.h>
+
+#include "simulation/device/haptic_device.h"
 
 namespace osteomill {
 namespace {

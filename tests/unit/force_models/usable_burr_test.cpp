@@ -1,9 +1,9 @@
-#include "simulation/force_models/usable_burr.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <stdexcept>
+
+#include "simulation/force_models/force_model.h"
 
 namespace osteomill::usable_burr_test {
 namespace {

@@ -1,11 +1,10 @@
-#include "simulation/loop/burr_hull.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/scene/burr_profile.h"
+#include "simulation/loop/clearance.h"
 
 namespace osteomill {
 namespace {

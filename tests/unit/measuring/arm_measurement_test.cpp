@@ -7,7 +7,7 @@
 #include "devices/hid/arm_kinematics.h"
 #include "devices/hid/arm_profile.h"
 #include "devices/simulated/simulated_device.h"
-#include "simulation/device/measured_spring.h"
+#include "simulation/device/measured_arm.h"
 #include "tests/support/bench/fine_arm.h"
 
 namespace osteomill::testing {

@@ -11,7 +11,7 @@
 #include "haptic_server/measuring/arm_shake.h"
 #include "haptic_server/measuring/stiffness_ramp.h"
 #include "simulation/device/arm_spring.h"
-#include "simulation/device/measured_spring.h"
+#include "simulation/device/measured_arm.h"
 #include "tests/support/bench/fine_arm.h"
 
 namespace osteomill::testing {

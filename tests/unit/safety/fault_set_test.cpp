@@ -1,8 +1,8 @@
-#include "simulation/safety/fault_set.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+
+#include "simulation/safety/fault.h"
 
 namespace osteomill::fault_set_test {
 namespace {

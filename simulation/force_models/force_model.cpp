@@ -1,4 +1,4 @@
-#include "simulation/force_models/usable_burr.h"
+#include "simulation/force_models/force_model.h"
 
 #include <algorithm>
 #include <cmath>

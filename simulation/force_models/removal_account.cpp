@@ -1,4 +1,4 @@
-#include "simulation/force_models/restore_bone.h"
+#include "simulation/force_models/removal_account.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "simulation/device/measured_spring.h"
+#include "simulation/device/measured_arm.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "simulation/force_models/bone_in_ball.h"
+#include "simulation/force_models/ball_rows.h"
 
 #include <glm/geometric.hpp>
 
