@@ -14,7 +14,7 @@
 #include "common/words/translation.h"
 #include "render_client/link/bone_link.h"
 #include "render_client/link/recording_player.h"
-#include "render_client/sound/quiet_sound_libraries.h"
+#include "render_client/sound/speaker.h"
 #include "render_client/ui/dataset_run.h"
 #include "render_client/ui/film_run.h"
 #include "render_client/ui/offscreen_run.h"

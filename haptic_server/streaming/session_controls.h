@@ -16,7 +16,7 @@
 //             the queue of restored changes
 //     writes  SaveAndFinish (haptic_server/session/save_and_finish.h) the saved bone, and it ends the session
 //     told    ControlEvents, to every client and the recording; the window words them by ControlNotices
-//             (render_client/ui/input/control_notices.h)
+//             (render_client/ui/input/commands.h)
 #pragma once
 
 #include <deque>

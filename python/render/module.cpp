@@ -19,7 +19,6 @@
 #include "python/render/rendering.h"
 #include "render_client/dataset/dataset_index.h"
 #include "render_client/dataset/image_files.h"
-#include "render_client/dataset/npy_file.h"
 
 namespace osteomill::python {
 

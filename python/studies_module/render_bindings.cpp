@@ -17,7 +17,6 @@
 #include "python/module/arrays.h"
 #include "python/module/loaded_case.h"
 #include "python/studies_module/bindings.h"
-#include "render_client/volume/gl/graphics_devices.h"
 #include "render_client/volume/gl/offscreen_context.h"
 #include "studies/render/carved_sphere.h"
 #include "studies/render/full_rate/carve_upload.h"

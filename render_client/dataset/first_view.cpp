@@ -8,7 +8,7 @@
 #include <limits>
 #include <variant>
 
-#include "render_client/volume/surface_pick.h"
+#include "render_client/volume/surface_points.h"
 
 namespace osteomill {
 

@@ -8,7 +8,7 @@
 #include "common/wire/ct_pieces.h"
 #include "common/wire/scene_messages.h"
 #include "common/words/translation.h"
-#include "render_client/link/rate_meter.h"
+#include "render_client/link/link_meters.h"
 #include "render_client/link/server_connection.h"
 #include "render_client/link/verified_replica.h"
 

@@ -13,7 +13,7 @@
 #include "common/recording/playhead.h"
 #include "common/recording/recording_reader.h"
 #include "render_client/link/key_frames.h"
-#include "render_client/link/rate_meter.h"
+#include "render_client/link/link_meters.h"
 #include "render_client/link/session_source.h"
 
 namespace osteomill {

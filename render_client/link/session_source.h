@@ -19,7 +19,7 @@
 #include "common/session/tool_state.h"
 #include "common/session/viewpoint.h"
 #include "common/wire/session_info.h"
-#include "render_client/link/delay_meter.h"
+#include "render_client/link/link_meters.h"
 
 namespace osteomill {
 

@@ -1,8 +1,11 @@
 #include "render_client/sound/speaker.h"
 
+#include <alsa/asoundlib.h>
+
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <utility>
 
 // ALC_EXT_disconnect; the name is missing from OpenAL's own header.
@@ -119,6 +122,17 @@ void Speaker::play() {
         alSourceStop(source_);
         alSourcei(source_, AL_BUFFER, 0);
     }
+}
+
+namespace {
+
+void say_nothing(const char*, int, const char*, int, const char*, ...) {}
+
+}  // namespace
+
+void quiet_sound_libraries() {
+    setenv("ALSOFT_LOGLEVEL", "0", 0);
+    snd_lib_error_set_handler(say_nothing);
 }
 
 }  // namespace osteomill

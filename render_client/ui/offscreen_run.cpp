@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "render_client/sound/session_sound.h"
+#include "render_client/ui/view/picture_export.h"
 #include "render_client/ui/view/picture_options.h"
 #include "render_client/ui/view/recording_camera.h"
 #include "render_client/ui/view/redraw.h"
-#include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
 #include "render_client/volume/gl/offscreen_context.h"
 

@@ -20,7 +20,7 @@
 #include "common/text/words.h"
 #include "common/words/translation.h"
 #include "render_client/link/recording_player.h"
-#include "render_client/volume/magnification.h"
+#include "render_client/volume/camera.h"
 
 namespace osteomill {
 

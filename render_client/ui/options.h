@@ -12,7 +12,7 @@
 #include "render_client/ui/panels/theme.h"
 #include "render_client/ui/view/cut_settings.h"
 #include "render_client/ui/view/inset_view.h"
-#include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/shading_settings.h"
 #include "render_client/volume/stereo.h"
 #include "render_client/volume/textures/texture_plan.h"

@@ -27,14 +27,14 @@
 #include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/view/drawing_thread.h"
 #include "render_client/ui/view/kept_settings.h"
+#include "render_client/ui/view/picture_export.h"
 #include "render_client/ui/view/picture_options.h"
 #include "render_client/ui/view/recording_camera.h"
 #include "render_client/ui/view/redraw.h"
-#include "render_client/ui/view/screenshots.h"
 #include "render_client/ui/view/session_picture.h"
 #include "render_client/ui/view/transfer_file.h"
 #include "render_client/ui/view/window.h"
-#include "render_client/volume/bone_ahead.h"
+#include "render_client/volume/surface_points.h"
 
 namespace osteomill {
 

@@ -1,6 +1,7 @@
 // The camera: orbits a target, upright unless it is rolled (patient z is up in the picture), perspective.
 #pragma once
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -62,5 +63,17 @@ glm::dvec3 direction_through(const Camera& camera, const glm::dvec2& pixel, cons
 
 /// Pixel (y down, from the picture's upper left corner) at which a point is seen; the point must be in front.
 glm::dvec2 pixel_of(const Camera& camera, const glm::dvec3& position_mm, const glm::ivec2& size_px);
+
+// Magnification of the view, in the steps of an operating microscope's changer. The eye stays where it is;
+// the angle that it sees becomes narrower or wider.
+
+/// 1 is Camera's own angle.
+inline constexpr std::array magnification_steps{0.4, 0.6, 1.0, 1.6, 2.5};
+
+double magnification(const Camera& camera);
+/// Must be positive.
+void set_magnification(Camera& camera, double factor);
+/// To the next larger or smaller step, if there is one.
+void magnify_by_step(Camera& camera, bool larger);
 
 }  // namespace osteomill

@@ -39,7 +39,7 @@ struct SceneAppearance {
     /// Highlights of the lamps on the bone, as on wet bone: 0 matt, 1 as bright as the lamps. Not on surface
     /// voxels.
     float specular = 0.0f;
-    bool grain = false;               ///< of bone (bone_grain.h). Not on surface voxels
+    bool grain = false;               ///< of bone (shading_settings.h). Not on surface voxels
     bool neutral_sawn_faces = false;  ///< where the piece is sawn off (sawn_faces.h). Not on surface voxels
     bool light_field = false;         ///< only a microscope's round field is lit
 

@@ -17,7 +17,6 @@
 #include "render_client/volume/gl/offscreen_context.h"
 #include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/passes/raycast_renderer.h"
-#include "render_client/volume/passes/renderer_choice.h"
 #include "studies/render/cue_cost.h"
 
 namespace osteomill::study {

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "render_client/volume/png_file.h"
+#include "render_client/volume/picture.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 

@@ -11,7 +11,7 @@
 #include <functional>
 #include <thread>
 
-#include "render_client/volume/png_file.h"
+#include "render_client/volume/picture.h"
 #include "tests/support/picture_difference.h"
 #include "tests/support/wayland_display.h"
 

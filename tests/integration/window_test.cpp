@@ -17,7 +17,7 @@
 #include <thread>
 
 #include "common/recording/playhead.h"
-#include "render_client/volume/png_file.h"
+#include "render_client/volume/picture.h"
 #include "tests/support/block_file.h"
 #include "tests/support/logged_removal.h"
 #include "tests/support/picture_difference.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "render_client/ui/input/control_notices.h"
+#include "common/session/session_control.h"
 #include "render_client/ui/input/hand_input.h"
 #include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/view/bone_clutch.h"
@@ -12,6 +12,19 @@
 #include "render_client/ui/view/session_picture.h"
 
 namespace osteomill {
+
+/// The lines of a window on the outcome of requests to the session, in its language.
+class ControlNotices {
+  public:
+    /// The line for an event that the window hears of at `now_s`; empty for a pause, which is said for as
+    /// long as it lasts. A burr that stood in the bone that undo
+    /// gave back is lifted out of it, which is an event, too: its line begins with how much came back.
+    std::string notice_of(const ControlEvent& event, double now_s);
+
+  private:
+    std::string came_back_;
+    double came_back_s_ = 0.0;
+};
 
 class Commands {
   public:

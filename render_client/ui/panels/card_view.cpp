@@ -11,8 +11,8 @@
 
 #include "common/words/translation.h"
 #include "render_client/ui/panels/panel_painter.h"
-#include "render_client/ui/start/case_pictures.h"
-#include "render_client/volume/png_file.h"
+#include "render_client/ui/start/case_library.h"
+#include "render_client/volume/picture.h"
 
 namespace osteomill {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "render_client/ui/start/start_page.h"
-#include "render_client/volume/gl/texture2d.h"
+#include "render_client/volume/gl/texture.h"
 
 namespace osteomill {
 

@@ -4,12 +4,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "common/words/translation.h"
-#include "render_client/ui/panels/plot_lines.h"
+#include "render_client/ui/panels/round_number.h"
 
 namespace osteomill {
+
+void ToolHistory::add(const ToolState& tool) {
+    if (!samples_.empty() && tool.time_s < samples_.back().time_s) samples_.clear();
+    if (!samples_.empty() && tool.time_s == samples_.back().time_s) return;
+    samples_.push_back({tool.time_s, tool.force_n, tool.depth_mm, tool.removed_mm3});
+    while (samples_.front().time_s < tool.time_s - kept_s) samples_.pop_front();
+}
 
 namespace {
 
@@ -202,6 +210,44 @@ void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, con
     }
     column.write_times();
     if (detail == PlotDetail::all && shows_solve) column.write(solve_line(tool));
+}
+
+PlotRange plot_range(double least, double most, double smallest_span) {
+    PlotRange range{std::min(least, 0.0), std::max(most, 0.0)};
+    if (range.high > 0.0) range.high = round_number_from(range.high);
+    if (range.low < 0.0) range.low = -round_number_from(-range.low);
+    if (range.high - range.low >= smallest_span) return range;
+    if (range.low < 0.0 && range.high > 0.0) {
+        const double half = round_number_from(0.5 * smallest_span);
+        return {std::min(range.low, -half), std::max(range.high, half)};
+    }
+    return range.low < 0.0 ? PlotRange{-smallest_span, 0.0} : PlotRange{0.0, smallest_span};
+}
+
+std::vector<glm::vec2> plot_points(std::span<const PlotSample> samples, double span_s, const PlotRange& range,
+                                   const glm::vec2& size) {
+    const auto place = [&](const PlotSample& sample) {
+        const double part = (sample.value - range.low) / (range.high - range.low);
+        return glm::vec2(size.x * static_cast<float>(1.0 - sample.age_s / span_s),
+                         size.y * static_cast<float>(1.0 - std::clamp(part, 0.0, 1.0)));
+    };
+    std::vector<glm::vec2> points;
+    for (std::size_t first = 0; first < samples.size();) {
+        if (samples[first].age_s > span_s) {
+            ++first;
+            continue;
+        }
+        const float column = std::floor(place(samples[first]).x);
+        std::size_t least = first, greatest = first, next = first + 1;
+        for (; next < samples.size() && std::floor(place(samples[next]).x) == column; ++next) {
+            if (samples[next].value < samples[least].value) least = next;
+            if (samples[next].value > samples[greatest].value) greatest = next;
+        }
+        points.push_back(place(samples[std::min(least, greatest)]));
+        if (least != greatest) points.push_back(place(samples[std::max(least, greatest)]));
+        first = next;
+    }
+    return points;
 }
 
 }  // namespace osteomill

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "render_client/ui/panels/panel_painter.h"
 #include "render_client/volume/camera.h"
 
 namespace osteomill {
@@ -29,5 +30,10 @@ std::optional<CubeFace> face_at(const Camera& camera, const glm::dvec2& point);
 
 /// Turns the camera until it looks straight at the side of the patient that `outward` names.
 void look_at_side(Camera& camera, const glm::dvec3& outward);
+
+// The orientation cube over the picture; a click on a face turns the view to it.
+
+glm::vec2 cube_size(const PanelPainter& painter);
+void draw_cube(const PanelPainter& painter, Camera& camera, const PanelPlace& place);
 
 }  // namespace osteomill

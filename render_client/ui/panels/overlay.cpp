@@ -4,21 +4,20 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "render_client/ui/panels/cube_panel.h"
 #include "render_client/ui/panels/cuts_panel.h"
-#include "render_client/ui/panels/fixture_marks.h"
 #include "render_client/ui/panels/fixture_panel.h"
 #include "render_client/ui/panels/help_panel.h"
 #include "render_client/ui/panels/inset_panel.h"
 #include "render_client/ui/panels/live_plot.h"
+#include "render_client/ui/panels/orientation_cube.h"
 #include "render_client/ui/panels/panel_painter.h"
+#include "render_client/ui/panels/panel_text.h"
 #include "render_client/ui/panels/picture_marks.h"
 #include "render_client/ui/panels/playback_panel.h"
 #include "render_client/ui/panels/session_dialog.h"
 #include "render_client/ui/panels/sight_panel.h"
 #include "render_client/ui/panels/slices_panel.h"
 #include "render_client/ui/panels/start_panel.h"
-#include "render_client/ui/panels/structure_text.h"
 #include "render_client/ui/panels/tissue_legend.h"
 #include "render_client/ui/panels/tool_bar.h"
 #include "render_client/ui/panels/transfer_panel.h"

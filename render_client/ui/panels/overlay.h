@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
-#include "render_client/ui/input/session_requests.h"
+#include "render_client/ui/panels/live_plot.h"
 #include "render_client/ui/panels/panel_text.h"
 #include "render_client/ui/panels/seen_session.h"
-#include "render_client/ui/panels/tool_history.h"
 #include "render_client/ui/view/slices_view.h"
 #include "render_client/ui/view/view_settings.h"
 #include "render_client/volume/camera.h"

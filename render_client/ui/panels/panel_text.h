@@ -45,4 +45,12 @@ bool is_alarm(const SeenSession& session);
 /// Pedal, and the client that has the tool, of a session with an operator_command.
 PanelText operator_text(const SeenSession& session);
 
+// Texts about protected structures: the distance of the nearest, and the touched ones.
+
+/// The nearest by name with its distance, and every structure that was touched, for as long as the session
+/// lasts; empty if the session protects nothing.
+PanelText structure_text(const SeenSession& session);
+/// Those that the burr touches or is within the warning distance of; mostly none.
+PanelText structure_warnings(const SeenSession& session);
+
 }  // namespace osteomill

@@ -10,10 +10,18 @@
 #include <numbers>
 #include <utility>
 
-#include "render_client/volume/bone_ahead.h"
+#include "render_client/ui/panels/round_number.h"
+#include "render_client/volume/surface_points.h"
 #include "render_client/volume/tool/tool_renderer.h"
 
 namespace osteomill {
+
+ScaleBar scale_bar(double mm_per_px, double longest_px) {
+    const double length_mm = round_number_up_to(mm_per_px * longest_px);
+    const std::string label =
+        length_mm < 0.999 ? fmt::format("{:g} um", 1e3 * length_mm) : fmt::format("{:g} mm", length_mm);
+    return {length_mm, length_mm / mm_per_px, label};
+}
 
 ScaleBar scale_bar_of(const Camera& camera, const glm::ivec2& size_px) {
     return scale_bar(mm_per_px_at(camera, camera.target_mm, size_px), std::max(0.2 * size_px.x, 1.0));

@@ -1,10 +1,22 @@
 // Marks that belong to the picture: a scale bar, and the force in newtons at the head of its arrow.
 #pragma once
 
+#include <string>
+
 #include "render_client/ui/panels/panel_painter.h"
-#include "render_client/ui/panels/scale_bar.h"
 
 namespace osteomill {
+
+/// A bar of a round length that is right at the depth of the camera's target.
+struct ScaleBar {
+    double length_mm = 0.0;
+    double length_px = 0.0;
+    std::string label;  ///< "5 mm", "200 um"
+};
+
+/// The longest of 1, 2 and 5 times a power of ten that spans at most `longest_px` if a pixel spans
+/// `mm_per_px`, both above zero.
+ScaleBar scale_bar(double mm_per_px, double longest_px);
 
 /// Right at the depth of the camera's target, at most a fifth of the picture wide.
 ScaleBar scale_bar_of(const Camera& camera, const glm::ivec2& size_px);

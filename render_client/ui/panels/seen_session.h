@@ -1,13 +1,18 @@
-// The session as the panels show it.
+// The session as the panels show it, and what a person asks of it with their buttons.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
+#include "common/session/session_control.h"
 #include "render_client/link/session_source.h"
+#include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/view/session_sight.h"
 
 namespace osteomill {
 
+/// The session as the panels show it.
 struct SeenSession {
     LinkUpdate link{};
     const SessionInfo* info = nullptr;                  ///< null until a server has said hello
@@ -23,6 +28,15 @@ struct SeenSession {
     bool takes_controls() const {
         return !is_recording && info != nullptr && info->accepts_controls && elements_of(sight).controls;
     }
+};
+
+/// Requests that a person made with buttons on the panels, for the window to pass on once a frame is drawn.
+struct SessionRequests {
+    std::vector<Action> actions;           ///< as keys would request them
+    std::vector<SessionControl> controls;  ///< for the server
+    std::optional<std::size_t> burr;
+    bool switches_pedal = false;
+    bool ends_program = false;
 };
 
 }  // namespace osteomill

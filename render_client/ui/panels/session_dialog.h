@@ -2,8 +2,8 @@
 // Drawn with Dear ImGui; needs an ImGui frame to be open.
 #pragma once
 
-#include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/layout.h"
+#include "render_client/ui/panels/seen_session.h"
 #include "render_client/ui/view/view_settings.h"
 
 namespace osteomill {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/layout.h"
 #include "render_client/ui/panels/seen_session.h"
 #include "render_client/ui/start/start_page.h"

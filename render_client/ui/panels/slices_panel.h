@@ -6,7 +6,6 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/panel_painter.h"
 #include "render_client/ui/panels/seen_session.h"
 #include "render_client/ui/view/slices_view.h"

@@ -9,7 +9,7 @@
 #include "render_client/ui/panels/layout.h"
 #include "render_client/ui/panels/panel_painter.h"
 #include "render_client/ui/start/start_page.h"
-#include "render_client/volume/gl/texture2d.h"
+#include "render_client/volume/gl/texture.h"
 
 namespace osteomill {
 
@@ -49,5 +49,11 @@ struct StartScreen {
 glm::vec2 start_panel_size(const StartPage& page, const glm::vec2& available);
 
 void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place);
+
+// The tour of the start page: three cards over it that explain it.
+
+/// Draws the card that the page has reached, if any. Its buttons, Return and the arrow keys turn the cards.
+/// Needs an ImGui window to be open.
+void draw_tour(StartPage& page);
 
 }  // namespace osteomill

@@ -5,7 +5,6 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "render_client/ui/input/session_requests.h"
 #include "render_client/ui/panels/layout.h"
 #include "render_client/ui/panels/seen_session.h"
 #include "render_client/ui/view/view_settings.h"

@@ -1,12 +1,24 @@
 // The cases that can be started on this machine: those built in, and the folders that a person has imported.
 #pragma once
 
+#include <cstdint>
 #include <ctime>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace osteomill {
+
+/// Pictures of the built-in cases for their cards on the start page, as PNG files in the program.
+struct CasePicture {
+    std::string_view name;  ///< the case's
+    std::span<const std::uint8_t> png;
+};
+
+/// Those in the folder case_pictures.
+std::span<const CasePicture> case_pictures();
 
 struct ShelvedCase {
     std::string name;

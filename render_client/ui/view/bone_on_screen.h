@@ -12,7 +12,7 @@
 
 #include "common/bone/brick_change.h"
 #include "render_client/volume/passes/detail_control.h"
-#include "render_client/volume/textures/texture_build.h"
+#include "render_client/volume/textures/bone_textures.h"
 
 namespace osteomill {
 

@@ -9,7 +9,7 @@
 
 #include "common/bone/structure_mask.h"
 #include "render_client/volume/bone_colours.h"
-#include "render_client/volume/structures/region_about.h"
+#include "render_client/volume/structures/structure_surface.h"
 
 namespace osteomill {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/passes/scene_picture.h"
 
 namespace osteomill {

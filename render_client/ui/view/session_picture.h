@@ -17,7 +17,7 @@
 #include "render_client/ui/view/session_sight.h"
 #include "render_client/ui/view/shown_tool.h"
 #include "render_client/volume/gl/offscreen_context.h"
-#include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/passes/stereo_picture.h"
 
 namespace osteomill {

@@ -12,7 +12,7 @@
 #include "common/bone/ct_volume.h"
 #include "common/scene/scene.h"
 #include "render_client/volume/ct_slice.h"
-#include "render_client/volume/gl/texture2d.h"
+#include "render_client/volume/gl/texture.h"
 
 namespace osteomill {
 

@@ -5,9 +5,26 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "render_client/volume/gl/name.h"
-#include "render_client/volume/gl/stopwatch.h"
+
+namespace osteomill {
+
+/// A stopwatch for drawing. An interface, so that tests can make time up.
+class Stopwatch {
+  public:
+    virtual ~Stopwatch() = default;
+    /// Begins a measurement of drawing, on whatever device draws.
+    virtual void start() = 0;
+    /// Ends it.
+    virtual void stop() = 0;
+    /// Seconds of the last measurement, once, as soon as they are known; waits for nothing. Until they have
+    /// been taken, start and stop must not be called.
+    virtual std::optional<double> take_s() = 0;
+};
+
+}  // namespace osteomill
 
 namespace osteomill::gl {
 

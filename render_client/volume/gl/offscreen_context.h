@@ -7,8 +7,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "render_client/volume/gl/second_context.h"
+#include "render_client/volume/gl/storage_thread.h"
 
 namespace osteomill::gl {
 
@@ -45,5 +47,24 @@ std::string renderer_name();
 
 /// Throws NoOpenGl unless the current context offers at least OpenGL 3.3.
 void require_opengl_3_3();
+
+/// Graphics devices that EGL draws on without a display (EGL_EXT_platform_device).
+///
+/// Without a chosen device, EGL takes the first driver that answers. On a machine whose GPU has a driver of
+/// its own that may be Mesa's software rasteriser. So the GPUs are tried one by one.
+struct GraphicsDevice {
+    void* egl_device = nullptr;
+    std::string extensions{};  ///< EGL_EXTENSIONS of the device
+};
+
+/// All devices that EGL lists, the software rasteriser included, in EGL's order; empty if EGL cannot list
+/// them.
+std::vector<GraphicsDevice> graphics_devices();
+
+/// The hardware devices among them, in the same order.
+std::vector<GraphicsDevice> gpus_among(const std::vector<GraphicsDevice>& devices);
+
+/// Whether GL_RENDERER names a software rasteriser, as on a device that can only show pictures.
+bool is_software_renderer(std::string_view renderer);
 
 }  // namespace osteomill::gl

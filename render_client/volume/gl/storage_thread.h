@@ -11,10 +11,17 @@
 #include <mutex>
 #include <thread>
 
-#include "render_client/volume/gl/second_context.h"
-#include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/gl/texture.h"
 
 namespace osteomill::gl {
+
+/// An OpenGL context that shares its textures with another one and is for a second thread.
+class SecondContext {
+  public:
+    virtual ~SecondContext() = default;
+    virtual void make_current() = 0;  ///< on the calling thread
+    virtual void release() = 0;
+};
 
 class StorageThread {
   public:

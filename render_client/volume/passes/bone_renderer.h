@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <glm/vec2.hpp>
+#include <memory>
 #include <span>
 
 #include "render_client/volume/camera.h"
@@ -37,5 +38,13 @@ class BoneRenderer {
   private:
     SceneAppearance look_;
 };
+
+/// The ways of drawing the bone, by name.
+enum class RendererChoice {
+    raycast,  ///< the default: fast, because it skips empty space
+    slices    ///< as published: every slice through the 3D texture
+};
+
+std::unique_ptr<BoneRenderer> make_renderer(RendererChoice choice);
 
 }  // namespace osteomill

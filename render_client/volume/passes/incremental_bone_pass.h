@@ -14,15 +14,28 @@
 #include <span>
 #include <vector>
 
+#include "render_client/volume/gl/draw_timer.h"
 #include "render_client/volume/gl/framebuffer.h"
-#include "render_client/volume/gl/stopwatch.h"
+#include "render_client/volume/gl/program.h"
 #include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/passes/detail_control.h"
 #include "render_client/volume/passes/tile_mask.h"
-#include "render_client/volume/passes/upscaler.h"
 #include "render_client/volume/picture.h"
 
 namespace osteomill {
+
+/// A coarse picture upscaled into a finer one: colour interpolated, depth not, so that bone still hides the
+/// parts of later drawings behind it.
+class Upscaler {
+  public:
+    Upscaler();
+    /// Fills these boxes of `fine` with those of `coarse`; both show the same view.
+    void draw(const gl::Framebuffer& coarse, const gl::Framebuffer& fine,
+              std::span<const PixelBox> boxes) const;
+
+  private:
+    gl::Program program_;
+};
 
 /// The tiles of a picture that can show changes of these voxels of the bone's grid(), if shading reads
 /// `reach_voxels` around a voxel (bone_program.h).

@@ -6,10 +6,12 @@
 // most. The surface in its pixels is found by bisecting the step before it, so that slices leave no rings.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <optional>
+#include <vector>
 
-#include "render_client/volume/gl/light_layer.h"
-#include "render_client/volume/gl/triangle_stream.h"
+#include "render_client/volume/gl/framebuffer.h"
+#include "render_client/volume/gl/mesh.h"
 #include "render_client/volume/passes/background.h"
 #include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/shaders/bone_program.h"
@@ -39,5 +41,14 @@ class SliceRenderer final : public BoneRenderer {
     gl::TriangleStream slices_;
     std::optional<gl::LightLayer> light_;  ///< of the size that was last drawn translucent
 };
+
+// Slices through a box, parallel to the picture: the proxy geometry of volume rendering by 3D textures
+// (Cabral, Cam, Foran 1994).
+
+/// Triangles, three corners each, of the planes that cut the box `low` to `high` at whole multiples of
+/// `spacing` along `forward` (unit) from the eye, as far as they are in front of it; front to back. All
+/// lengths are in the same unit. Throws std::invalid_argument unless the spacing is positive.
+std::vector<glm::vec3> view_slices(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& eye,
+                                   const glm::dvec3& forward, double spacing);
 
 }  // namespace osteomill

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "render_client/volume/bone_grain.h"
+#include "render_client/volume/shading_settings.h"
 
 namespace osteomill {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "render_client/volume/gl/program.h"
-#include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/gl/texture.h"
 #include "render_client/volume/scene_appearance.h"
-#include "render_client/volume/shaders/shader_programs.h"
+#include "render_client/volume/shaders/shader_files.h"
 #include "render_client/volume/textures/bone_textures.h"
 
 namespace osteomill {

@@ -1,4 +1,4 @@
-// Grain of bone: its colour varies from place to place, finely in cortical bone and coarsely in trabecular bone (bone_grain.h);
+// Grain of bone: its colour varies from place to place, finely in cortical bone and coarsely in trabecular bone (shading_settings.h);
 // follows bone_sampling.glsl. The pattern is value noise of hashed lattice points in patient space: it stays with the bone, is the
 // same in every run, and needs no file.
 //

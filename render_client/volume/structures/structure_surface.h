@@ -13,6 +13,12 @@
 
 namespace osteomill {
 
+// The region about a structure that a virtual fixture begins with, for the picture of its border.
+
+/// The places within `distance_mm` of the structure, on a grid of their own: as fine as the structure's, or
+/// coarser if that would be more than some million voxels. Empty for an empty structure. Allocates.
+StructureMask region_about(const StructureMask& structure, double distance_mm);
+
 /// The voxels of a structure that, as far as the bone shows, were never bone: they hold none now and, if the
 /// bone has a stiffness for each voxel, have no stiffness.
 StructureMask soft_part(const StructureMask& structure, const Bone& bone);

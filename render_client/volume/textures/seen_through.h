@@ -20,7 +20,7 @@
 
 #include "common/bone/brick_change.h"
 #include "common/bone/structure_mask.h"
-#include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/gl/texture.h"
 #include "render_client/volume/steps.h"
 #include "render_client/volume/textures/voxel_box.h"
 #include "render_client/volume/thin_bone.h"

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "render_client/volume/gl/texture3d.h"
+#include "render_client/volume/gl/texture.h"
 #include "render_client/volume/shading_settings.h"
 #include "render_client/volume/steps.h"
 #include "render_client/volume/textures/atlas_layout.h"

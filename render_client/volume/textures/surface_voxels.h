@@ -17,15 +17,38 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/ext/vector_uint4_sized.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
+#include "render_client/volume/gl/texture.h"
 #include "render_client/volume/shading_settings.h"
-#include "render_client/volume/textures/light_table.h"
+#include "render_client/volume/steps.h"
+#include "render_client/volume/textures/atlas_layout.h"
 #include "render_client/volume/textures/smoothed_fraction.h"
 
 namespace osteomill {
+
+/// Table of the light on a white surface of any direction, from the lights of lighting.h, to shade thousands
+/// of voxels on the CPU between two frames. Directions are in an octahedral map (Cigolle et al., "A survey of
+/// efficient representations for independent unit vectors", 2014), so near each other that a byte of the
+/// picture is off by seven at most, by less than one in the mean.
+class LightTable {
+  public:
+    LightTable();
+
+    /// Display RGB of an open white surface; it exceeds 1 if a white surface is overexposed. `outward` need
+    /// not be unit but must not be zero. Since the display's curve is a power, that of a colour is the
+    /// product of this and display(colour).
+    glm::vec3 towards(const glm::ivec3& outward) const;
+
+  private:
+    static constexpr int edge = 128;
+    std::vector<glm::u8vec4> lights_;  ///< bytes, so that they stay in the cache; four, to be aligned
+};
 
 /// A texel: display RGB times alpha, and alpha, which is 255 for a surface voxel and 0 for any other. So
 /// interpolated colour over interpolated alpha is the mean colour of the surface voxels nearby.
@@ -63,6 +86,30 @@ class SurfaceShader {
     /// Offsets in smoothed_ to 13 neighbours, one of each opposite pair.
     std::array<std::ptrdiff_t, 13> offsets_{};
     std::vector<SurfaceTexel> texels_;
+};
+
+/// The texture of shaded surface voxels over a bone's box, kept up to date round carved voxels.
+class SurfaceTexture {
+  public:
+    /// Shades all of the bone. Throws gl::NoTextureMemory if the driver has no memory for four bytes a voxel.
+    SurfaceTexture(const Bone& bone, const TransferTable& table, const AtlasLayout& places);
+    /// Takes a texture of the size that the places have, of VoxelFormat::interpolated_rgba; see fill.
+    SurfaceTexture(const TransferTable& table, gl::Texture3D texture)
+        : shader_(table), texture_(std::move(texture)) {}
+
+    /// Shades all of the bone. Pass changes made meanwhile to update afterwards.
+    Steps fill(const Bone& bone, const AtlasLayout& places);
+
+    /// Shades again the changed voxels and those near them. `places` are those of the constructor.
+    void update(const Bone& bone, AtlasLayout& places, std::span<const VoxelBox> changed);
+
+    const gl::Texture3D& texture() const { return texture_; }
+
+  private:
+    void shade(const Bone& bone, const PlacedVoxels& placed);
+
+    SurfaceShader shader_;
+    gl::Texture3D texture_;
 };
 
 }  // namespace osteomill

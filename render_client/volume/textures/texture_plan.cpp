@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "render_client/volume/textures/block_summary.h"
 #include "render_client/volume/textures/coarse_bone.h"
+#include "render_client/volume/textures/empty_space.h"
 #include "render_client/volume/textures/seen_through.h"
 
 namespace osteomill {

@@ -3,8 +3,10 @@
 
 #include <glm/vec3.hpp>
 #include <span>
+#include <vector>
 
 #include "common/bone/bone.h"
+#include "common/bone/brick_change.h"
 
 namespace osteomill {
 
@@ -32,5 +34,12 @@ std::span<const std::uint8_t, brick_voxel_count> channel_of_slot(const Bone& bon
 /// Copies a channel within `box` (which may reach past the grid) into `voxels`, x fastest; zero if no brick
 /// is stored. The bone must have the channel.
 void copy_channel(const Bone& bone, BoneChannel channel, const VoxelBox& box, std::span<std::uint8_t> voxels);
+
+// Boxes round the changed voxels of each brick: uploading, shading and drawing a whole brick for the few
+// voxels changed by a burr would cost more.
+
+/// The smallest box round each change, in voxels of the grid, along x in whole groups of four; in the order
+/// of the changes. A brick that is not stored has none, nor has a change of no voxel.
+std::vector<VoxelBox> changed_boxes(const BoneContent& content, std::span<const BrickChange> changes);
 
 }  // namespace osteomill

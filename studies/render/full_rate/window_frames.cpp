@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "render_client/ui/view/session_picture.h"
-#include "render_client/volume/png_file.h"
+#include "render_client/volume/picture.h"
 #include "studies/render/phantom_session.h"
 
 namespace osteomill::study {

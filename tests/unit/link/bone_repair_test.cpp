@@ -1,7 +1,5 @@
 // A client whose copy of the bone came to differ, over real sockets: it requests the differing parts and no
 // more.
-#include "render_client/link/bone_repair.h"
-
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -9,6 +7,7 @@
 #include <set>
 
 #include "render_client/link/bone_link.h"
+#include "render_client/link/verified_replica.h"
 #include "tests/support/frame_proxy.h"
 #include "tests/support/packed.h"
 #include "tests/support/served_bone.h"

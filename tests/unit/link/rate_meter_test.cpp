@@ -1,6 +1,6 @@
-#include "render_client/link/rate_meter.h"
-
 #include <gtest/gtest.h>
+
+#include "render_client/link/link_meters.h"
 
 namespace osteomill {
 namespace {

@@ -1,6 +1,6 @@
-#include "render_client/ui/input/control_notices.h"
-
 #include <gtest/gtest.h>
+
+#include "render_client/ui/input/commands.h"
 
 namespace osteomill {
 namespace {

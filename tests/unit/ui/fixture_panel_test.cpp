@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "render_client/ui/panels/fixture_marks.h"
-
 namespace osteomill::fixture_panel_test {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "render_client/ui/input/key_meaning.h"
+#include "render_client/ui/input/keyboard.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "render_client/volume/png_file.h"
+#include "render_client/volume/picture.h"
 #include "tests/unit/ui/scripted_session.h"
 #include "tests/unit/volume/offscreen_test.h"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "render_client/volume/png_file.h"
+#include "render_client/volume/picture.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill::picture_export_test {

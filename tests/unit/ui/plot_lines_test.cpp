@@ -1,9 +1,9 @@
-#include "render_client/ui/panels/plot_lines.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "render_client/ui/panels/live_plot.h"
 
 namespace osteomill::plot_lines_test {
 namespace {

@@ -1,6 +1,6 @@
-#include "render_client/ui/panels/scale_bar.h"
-
 #include <gtest/gtest.h>
+
+#include "render_client/ui/panels/picture_marks.h"
 
 namespace osteomill::scale_bar_test {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "render_client/ui/panels/panel_text.h"
 #include "render_client/ui/panels/sight_panel.h"
-#include "render_client/ui/panels/structure_text.h"
 
 namespace osteomill::session_sight_test {
 namespace {

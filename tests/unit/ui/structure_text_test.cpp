@@ -1,6 +1,6 @@
-#include "render_client/ui/panels/structure_text.h"
-
 #include <gmock/gmock.h>
+
+#include "render_client/ui/panels/panel_text.h"
 
 namespace osteomill::structure_text_test {
 namespace {

@@ -1,6 +1,6 @@
-#include "render_client/ui/panels/tool_history.h"
-
 #include <gtest/gtest.h>
+
+#include "render_client/ui/panels/live_plot.h"
 
 namespace osteomill::tool_history_test {
 namespace {

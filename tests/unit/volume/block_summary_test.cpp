@@ -1,8 +1,8 @@
-#include "render_client/volume/textures/block_summary.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
+
+#include "render_client/volume/textures/empty_space.h"
 
 namespace osteomill::block_summary_test {
 namespace {

@@ -1,9 +1,8 @@
-#include "render_client/volume/bone_ahead.h"
-
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
+#include "render_client/volume/surface_points.h"
 #include "studies/render/made_bone.h"
 
 namespace osteomill::bone_ahead_test {

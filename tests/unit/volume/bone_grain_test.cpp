@@ -1,9 +1,8 @@
-#include "render_client/volume/bone_grain.h"
-
 #include <cmath>
 
 #include "render_client/volume/gl/framebuffer.h"
-#include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/passes/bone_renderer.h"
+#include "render_client/volume/shading_settings.h"
 #include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 

@@ -1,7 +1,6 @@
-#include "render_client/volume/textures/changed_boxes.h"
-
 #include <gtest/gtest.h>
 
+#include "render_client/volume/textures/voxel_box.h"
 #include "studies/render/made_bone.h"
 
 namespace osteomill {

@@ -1,7 +1,6 @@
-#include "render_client/volume/gl/graphics_devices.h"
-
 #include <gtest/gtest.h>
 
+#include "render_client/volume/gl/offscreen_context.h"
 #include "tests/unit/volume/offscreen_test.h"
 
 namespace osteomill::graphics_devices_test {

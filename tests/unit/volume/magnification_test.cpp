@@ -1,8 +1,8 @@
-#include "render_client/volume/magnification.h"
-
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+
+#include "render_client/volume/camera.h"
 
 namespace osteomill::magnification_test {
 namespace {

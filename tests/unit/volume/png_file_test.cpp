@@ -1,10 +1,9 @@
-#include "render_client/volume/png_file.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <stdexcept>
 
+#include "render_client/volume/picture.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,10 +1,9 @@
-#include "render_client/volume/structures/region_about.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render_client/volume/structures/structure_surface.h"
 #include "tests/support/ball_structure.h"
 
 namespace osteomill::region_about_test {
@@ -18,7 +17,8 @@ TEST(RegionAboutAStructure, HasWhatIsWithinTheDistanceAlsoBeyondItsGrid) {
     for (const double distance_mm : {0.0, 0.5, 2.0}) {
         const StructureMask region = region_about(ball, distance_mm);
         const double radius_mm = 0.8 + distance_mm;
-        // Half a voxel of 0.2 mm for the structure's, a quarter for those of the region, which are within or not.
+        // Half a voxel of 0.2 mm for the structure's, a quarter for those of the region, which are within or
+        // not.
         EXPECT_NEAR(std::cbrt(region.volume_mm3() / 4.18879), radius_mm, 0.15) << distance_mm;
         const glm::ivec3 size = region.grid().size_voxels;
         for (int x = 0; x < size.x; ++x) {

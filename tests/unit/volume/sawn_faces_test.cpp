@@ -3,7 +3,7 @@
 #include <glm/exponential.hpp>
 
 #include "render_client/volume/gl/framebuffer.h"
-#include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/passes/bone_renderer.h"
 #include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 

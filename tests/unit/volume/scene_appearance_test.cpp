@@ -3,8 +3,8 @@
 #include <cmath>
 #include <memory>
 
+#include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/passes/raycast_renderer.h"
-#include "render_client/volume/passes/renderer_choice.h"
 #include "render_client/volume/passes/scene_picture.h"
 #include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/passes/pixel_box.h"
 #include "render_client/volume/passes/raycast_renderer.h"
-#include "render_client/volume/passes/renderer_choice.h"
 #include "render_client/volume/passes/slice_renderer.h"
 #include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"

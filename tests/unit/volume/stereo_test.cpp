@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "render_client/volume/magnification.h"
+#include "render_client/volume/camera.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/stereo_picture.h"
 #include "studies/render/made_bone.h"

@@ -4,8 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "render_client/volume/shaders/lighting.h"
-#include "render_client/volume/textures/changed_boxes.h"
-#include "render_client/volume/textures/surface_texture.h"
+#include "render_client/volume/textures/voxel_box.h"
 #include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 

@@ -1,11 +1,10 @@
-#include "render_client/volume/textures/texture_build.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 #include <numeric>
 
+#include "render_client/volume/textures/bone_textures.h"
 #include "studies/render/made_bone.h"
 #include "tests/unit/volume/offscreen_test.h"
 

@@ -1,5 +1,3 @@
-#include "render_client/volume/tissue_shades.h"
-
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,10 +1,10 @@
-#include "render_client/volume/passes/view_slices.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+
+#include "render_client/volume/passes/slice_renderer.h"
 
 namespace osteomill::view_slices_test {
 namespace {

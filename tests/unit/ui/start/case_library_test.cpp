@@ -6,8 +6,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "render_client/ui/start/case_pictures.h"
-#include "render_client/volume/png_file.h"
+#include "render_client/volume/picture.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {

@@ -1,4 +1,4 @@
-#include "render_client/ui/input/held_keys.h"
+#include "render_client/ui/input/keyboard.h"
 
 #include <gtest/gtest.h>
 

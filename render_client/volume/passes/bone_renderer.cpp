@@ -1,4 +1,4 @@
-#include "render_client/volume/passes/renderer_choice.h"
+#include "render_client/volume/passes/bone_renderer.h"
 
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/slice_renderer.h"

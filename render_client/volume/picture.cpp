@@ -1,4 +1,4 @@
-#include "render_client/volume/png_file.h"
+#include "render_client/volume/picture.h"
 
 #include <png.h>
 

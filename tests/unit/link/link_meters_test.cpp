@@ -1,4 +1,4 @@
-#include "render_client/link/delay_meter.h"
+#include "render_client/link/link_meters.h"
 
 #include <gtest/gtest.h>
 

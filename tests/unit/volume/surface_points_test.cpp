@@ -1,4 +1,4 @@
-#include "render_client/volume/surface_pick.h"
+#include "render_client/volume/surface_points.h"
 
 #include <gtest/gtest.h>
 
