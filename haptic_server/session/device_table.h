@@ -1,5 +1,5 @@
 // The devices that --device takes. To add one is a file and a row: the file has a function that gives the
-// row, as those here do.
+// row, as those of haptic_server/session/devices do.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@
 
 namespace osteomill {
 
-// A kind of device on the command line: a row of device_table.h.
+// A kind of device on the command line: a row of device_table.cpp.
 
 /// The device, and the sources that drive it.
 struct DeviceParts {

@@ -42,8 +42,6 @@ bool is_nifti_voxel_file(const std::filesystem::path& path);
 /// The other half of such a pair; any other path itself. Throws ImagingError if there are two.
 std::filesystem::path nifti_header_file(const std::filesystem::path& path);
 
-// Geometry of a NIfTI image: spacing, axes and origin from its sform, qform and pixdim.
-
 // Fields of the header of NIfTI-1 and NIfTI-2: the same statements, each version at its own offsets.
 
 inline constexpr std::int32_t nifti1_header_bytes = 348;

@@ -1,7 +1,7 @@
-// Between SessionControls (haptic_server/streaming/session_controls.h), which asks, and the two loops, which
-// answer: the spindle's speed, the fixtures that are on, whether to hold still; the changes restored and the
-// placement made so far.
-// While the session holds still there is neither force nor spindle, and only undo changes the bone.
+// Requests and answers between SessionControls (haptic_server/streaming/session_controls.h), which asks, and
+// the two loops, which answer: the spindle's speed, the fixtures that are on, whether to hold still; the
+// changes restored and the placement made so far. While the session holds still there is neither force nor
+// spindle, and only undo changes the bone.
 #pragma once
 
 #include <atomic>

@@ -46,7 +46,7 @@ inline constexpr double most_voxels_across_burr = 500.0;
 
 /// Throws std::invalid_argument, naming the burr, unless diameter, edges and spindle speed are above zero,
 /// the cutting coefficients finite and not negative, the burr no more than 500 voxels across or long, and its
-/// head and shank as burr.h and shank.h have them.
+/// head and shank as burr.h has them.
 void require_valid(const Burr& burr, double spacing_mm);
 
 /// For models that know the ball alone: throws std::invalid_argument, naming burr and `model`, for any other

@@ -13,8 +13,6 @@
 
 namespace osteomill::gl {
 
-// A 3D texture: a move-only value. Every call needs the OpenGL context in which it was made to be current.
-
 /// Storage of a texel and interpolation between texels. Outside the texture every read gives zero.
 enum class VoxelFormat {
     interpolated_byte,   ///< GL_R8, read as 0 to 1, trilinear

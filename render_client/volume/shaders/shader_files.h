@@ -11,8 +11,7 @@
 namespace osteomill {
 
 /// Table of the files that each shader program is made of. The renderers in render_client/volume/passes
-/// compile them: by BoneProgram (bone_program.h) where the bone is sampled, else by make_program
-/// (shader_files.h).
+/// compile them: by BoneProgram (bone_program.h) where the bone is sampled, else by make_program.
 struct ProgramFiles {
     std::string_view vertex;
     std::array<std::string_view, 6> fragment;  ///< one after another
