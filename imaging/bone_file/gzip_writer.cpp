@@ -16,7 +16,7 @@ namespace osteomill {
 namespace {
 
 /// zlib's fast end: on CT it costs a seventh more space than the default and a fifth of the time.
-constexpr int gzip_level = 1;
+constexpr int fastest_level = 1;
 constexpr int raw_deflate = -15;  // window bits without a header of zlib's own
 constexpr int memory_level = 8;   // zlib's default
 constexpr std::size_t piece_bytes = 1u << 20;
@@ -42,7 +42,7 @@ struct GzipWriter::UniformPiece {
 
 GzipWriter::Piece GzipWriter::deflated(std::span<const std::byte> bytes) {
     z_stream stream{};
-    if (deflateInit2(&stream, gzip_level, Z_DEFLATED, raw_deflate, memory_level, Z_DEFAULT_STRATEGY) != Z_OK)
+    if (deflateInit2(&stream, fastest_level, Z_DEFLATED, raw_deflate, memory_level, Z_DEFAULT_STRATEGY) != Z_OK)
         throw std::bad_alloc();
     Piece piece;
     try {

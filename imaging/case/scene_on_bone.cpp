@@ -15,8 +15,8 @@ namespace osteomill {
 
 namespace {
 
-constexpr int half_a_voxel = 128;
-constexpr double clearance_mm = 0.5;
+constexpr int half_voxel = 128;
+constexpr double air_mm = 0.5;
 
 /// Bricks that touch, as slots: pieces of bone, joined across gaps of less than a brick.
 std::vector<std::vector<std::int32_t>> pieces_of(const Bone& bone) {
@@ -61,7 +61,7 @@ struct Middle {
             brick_edge_voxels *
             brick_position(content.size_bricks, content.brick_of_slot[static_cast<std::size_t>(slot)]);
         for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
-            if (fractions[offset] < half_a_voxel || (label && content.tissue_in(slot, offset) != *label))
+            if (fractions[offset] < half_voxel || (label && content.tissue_in(slot, offset) != *label))
                 continue;
             sum_of_voxels += glm::dvec3(first + voxel_in_brick(offset));
             ++voxels;
@@ -113,7 +113,7 @@ WayOut way_out(const Bone& bone, const glm::dvec3& from, const glm::dvec3& direc
     for (double along = 0.0;; along += step) {
         const glm::dvec3 at = from + along * direction;
         if (!is_within(at, -0.5)) return way;
-        if (bone.fraction_at(glm::ivec3(glm::round(at))) < half_a_voxel) continue;
+        if (bone.fraction_at(glm::ivec3(glm::round(at))) < half_voxel) continue;
         way.last_bone = along;
         way.is_free = is_within(at, edge);
     }
@@ -172,8 +172,8 @@ void place_on_bone(Scene& scene, const Bone& bone) {
     };
     const double farthest_mm = grid.spacing_mm * glm::length(glm::dvec3(grid.size_voxels));
     while (above_mm < farthest_mm && has_bone_in(bone, {to_voxel_coordinates(grid, start_mm()),
-                                                        (burr_radius_mm + clearance_mm) / grid.spacing_mm}))
-        above_mm += clearance_mm;
+                                                        (burr_radius_mm + air_mm) / grid.spacing_mm}))
+        above_mm += air_mm;
     scene.start_pose = {rounded_mm(start_mm()), way.direction};
     scene.trajectory.start_mm = rounded_mm(start_mm() - (above_mm + burr_radius_mm) * way.direction);
 }

@@ -77,6 +77,40 @@ class IncludeArrows(unittest.TestCase):
         self.assertGreater(includes, 1000, "the modules were not found")
 
 
+CONSTANT = re.compile(r"^(?:inline |static )*(?:constexpr|const) [\w:<>, ]+?[ &*](\w+)(?: = |\{|\[)")
+
+
+def constants(text, is_anonymous):
+    """Each constant of a source's anonymous namespaces, or of its others, with the namespace around."""
+    namespace, inside = "", False
+    for line in text.splitlines():
+        if opened := re.match(r"namespace ([\w:]+) \{", line):
+            namespace = opened[1]
+        elif line == "namespace {":
+            inside = True
+        elif line == "}  // namespace":
+            inside = False
+        elif inside == is_anonymous and (found := CONSTANT.match(line)):
+            yield found[1], namespace
+
+
+class JoinedSources(unittest.TestCase):
+    """A library's sources are compiled as one (CMAKE_UNITY_BUILD). There a constant of one source's anonymous namespace hides a header's of the
+    same name from all sources behind it, without a word of the compiler."""
+
+    def test_have_no_constant_of_the_name_of_a_headers(self):
+        of_headers = {}
+        for file, text in sources():
+            if file.endswith(".h"):
+                for name, namespace in constants(text, False):
+                    of_headers.setdefault(name, []).append((file, namespace))
+        hidden = [f"{file} hides {name} of {header}" for file, text in sources() if file.endswith(".cpp")
+                  for name, namespace in constants(text, True)
+                  for header, outer in of_headers.get(name, ()) if namespace == outer or namespace.startswith(outer + "::")]
+        self.assertEqual(hidden, [])
+        self.assertGreater(len(of_headers), 200, "the constants were not found")
+
+
 class WrittenFiles(unittest.TestCase):
     def test_are_opened_in_the_places_that_are_listed(self):
         found = {file for file, text in sources() if OPENING.search(text)} - {"render_client/ui/view/picture_export.h"}

@@ -17,7 +17,7 @@ namespace osteomill {
 
 namespace {
 
-constexpr double most_voxels = 2e6;
+constexpr double most_mesh_voxels = 2e6;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ StructureMask region_about(const StructureMask& structure, double distance_mm) {
         grid.origin_mm = low_mm - margin_mm;
         const glm::dvec3 size = glm::ceil((across_mm + 2.0 * margin_mm) / grid.spacing_mm) + 1.0;
         grid.size_voxels = glm::ivec3(size);
-        if (size.x * size.y * size.z <= most_voxels) break;
+        if (size.x * size.y * size.z <= most_mesh_voxels) break;
     }
     const DistanceField field(structure, distance_mm + fine_mm);
     const glm::ivec3 size_bricks = size_in_bricks(grid);

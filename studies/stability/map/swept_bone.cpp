@@ -19,7 +19,7 @@ constexpr std::size_t fine_points = 12;
 constexpr std::size_t coarse_stride = 4;
 /// Each refresh checks the spheres of the past within this distance, which suffice while the burr goes on. It
 /// checks the others, which the burr meets again if it returns or goes deeper, once in five refreshes.
-constexpr double near_mm = 1.2;
+constexpr double near_reach_mm = 1.2;
 constexpr int refreshes_per_far_look = 5;
 /// The length of the slot that the burr begins in.
 constexpr double slot_mm = 3.0;
@@ -196,10 +196,10 @@ void SweptBone::look_at_path(double beyond_mm, double within_mm, std::vector<flo
 void SweptBone::refresh() {
     const std::size_t count = gap_mm_.size();
     std::fill(gap_mm_.begin(), gap_mm_.end(), 0.0f);
-    look_at_path(-1.0, near_mm, gap_mm_);
+    look_at_path(-1.0, near_reach_mm, gap_mm_);
     if (refreshes_++ % refreshes_per_far_look == 0) {
         std::fill(far_gap_mm_.begin(), far_gap_mm_.end(), 0.0f);
-        look_at_path(near_mm, burr_.diameter_mm, far_gap_mm_);
+        look_at_path(near_reach_mm, burr_.diameter_mm, far_gap_mm_);
         looked_far_from_mm_ = burr_mm_;
     }
     const glm::vec3 moved(burr_mm_ - looked_far_from_mm_);

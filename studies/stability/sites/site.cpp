@@ -17,7 +17,7 @@ namespace osteomill::study {
 
 namespace {
 
-constexpr double stiffness_per_code = 0.01;
+constexpr double stiffness_step = 0.01;
 
 std::uint8_t level(double value, double highest) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, highest)));
@@ -32,14 +32,14 @@ Bone site_bone(const SiteShape& shape) {
                     .spacing_mm = site_voxel_mm,
                     .origin_mm = (first + 0.5) * site_voxel_mm};
     const bool is_heterogeneous = static_cast<bool>(shape.relative_stiffness);
-    BoneBuilder builder = is_heterogeneous ? BoneBuilder::heterogeneous(grid, stiffness_per_code, false)
+    BoneBuilder builder = is_heterogeneous ? BoneBuilder::heterogeneous(grid, stiffness_step, false)
                                            : BoneBuilder::homogeneous(grid, 1.0, false);
     return filled(std::move(builder), grid, [&](const glm::ivec3& voxel) {
         const glm::dvec3 at_mm = grid.origin_mm + site_voxel_mm * glm::dvec3(voxel);
         VoxelValues values{.fraction =
                                level(255.0 * (0.5 - shape.distance_mm(at_mm) / site_voxel_mm), 255.0)};
         if (is_heterogeneous)
-            values.stiffness = level(shape.relative_stiffness(at_mm) / stiffness_per_code, 255.0);
+            values.stiffness = level(shape.relative_stiffness(at_mm) / stiffness_step, 255.0);
         return values;
     });
 }
@@ -47,7 +47,7 @@ Bone site_bone(const SiteShape& shape) {
 namespace {
 
 constexpr double waypoint_s = 0.005;
-constexpr double longest_reach_mm = 6.0;
+constexpr double longest_way_mm = 6.0;
 
 /// Distributions of the standard library differ between its makers; the generator does not.
 class Draw {
@@ -96,7 +96,7 @@ std::vector<glm::dvec3> walk(Draw& draw) {
         points.push_back(point);
     }
     const double scale =
-        std::min(draw.by_ratio(20.0, fastest_walk_mm_per_s) / fastest, longest_reach_mm / farthest);
+        std::min(draw.by_ratio(20.0, fastest_walk_mm_per_s) / fastest, longest_way_mm / farthest);
     for (glm::dvec3& point : points) point *= scale;
     return points;
 }
@@ -150,7 +150,7 @@ Site random_walk(std::uint64_t seed, int number) {
                           .pose = {points[i] + up_mm * up, up},
                           .pedal = true});
 
-    const double beside_mm = longest_reach_mm + burr.radius_mm() + 1.0;
+    const double beside_mm = longest_way_mm + burr.radius_mm() + 1.0;
     return {.kind = "random walk",
             .name = fmt::format("walk {} of seed {}, over {}", number, seed, where),
             .burr = burr,
