@@ -3,9 +3,9 @@
 // A thread of its own receives frames; poll() applies them, so the bone changes only inside poll(). Losing
 // the server is a status, never an exception: the link tries again after 0.2 s, then ever less often up to 2
 // s. Every checksum that the server states is checked. A mismatch or a gap in the sequence is counted, shown,
-// and answered by asking for the bricks that differ: see BoneRepair
-// (verified_replica.h). If that fails, if the server is older
-// than protocol 1.2, or if a frame makes no sense, the link connects afresh, which brings a fresh snapshot.
+// and answered by asking for the bricks that differ: see BoneRepair (verified_replica.h). If that fails, if
+// the server is older than protocol 1.2, or if a frame makes no sense, the link connects afresh, which brings
+// a fresh snapshot.
 #pragma once
 
 #include <cstdint>

@@ -21,9 +21,8 @@
 //
 // A cutting edge also rubs (Altintas's linear edge model; Lee and Altintas 1996): dF = (K_te, K_re, K_ae) ds
 // for each mm of it, however thin the chip. So this force belongs to the face that is cut, not to the bone
-// that a step removes: at a slow feed, a step takes only single levels
-// of a voxel's 255. It is summed over the
-// voxels that the burr would cut if it advanced by d, a voxel or more; each has V / (n . d) of the face
+// that a step removes: at a slow feed, a step takes only single levels of a voxel's 255. It is summed over
+// the voxels that the burr would cut if it advanced by d, a voxel or more; each has V / (n . d) of the face
 // (edge_advance):
 //
 //     f = s V / (n . d) N_phi (-sigma K_te e_psi - K_re n - K_ae e_kappa) / (2 pi r)
