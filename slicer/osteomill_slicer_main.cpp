@@ -11,7 +11,6 @@
 
 #include "common/net/listen_address.h"
 #include "common/net/tls_options.h"
-#include "common/program/command_line.h"
 #include "common/program/run_program.h"
 #include "slicer/slicer_session.h"
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "common/scene/rating_condition.h"
-#include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

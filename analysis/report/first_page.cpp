@@ -10,7 +10,6 @@
 #include "analysis/report/page_style.h"
 #include "analysis/report/rating_html.h"
 #include "analysis/report/session_metrics.h"
-#include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "analysis/report/page_style.h"
-#include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

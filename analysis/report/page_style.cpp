@@ -10,7 +10,7 @@
 
 #include "analysis/report/headlines.h"
 #include "analysis/report/metric_files.h"
-#include "common/words/decimal_sign.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 

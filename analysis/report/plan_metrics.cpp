@@ -9,7 +9,6 @@
 #include "analysis/report/planned_region.h"
 #include "analysis/report/voxel_set.h"
 #include "common/statistics/percentile.h"
-#include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

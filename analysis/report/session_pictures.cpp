@@ -20,7 +20,6 @@
 #include "analysis/report/page_style.h"
 #include "analysis/report/picture_overlay.h"
 #include "common/recording/playhead.h"
-#include "common/words/decimal_sign.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

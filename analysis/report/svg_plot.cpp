@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "analysis/report/page_style.h"
-#include "common/words/decimal_sign.h"
+#include "common/words/translation.h"
 
 namespace osteomill {
 

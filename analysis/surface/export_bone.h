@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "common/program/command_line.h"
 #include "common/program/progress.h"
+#include "common/program/run_program.h"
 
 namespace osteomill {
 

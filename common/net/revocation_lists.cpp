@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/files/input_file.h"
-#include "common/net/own_certificate.h"
+#include "common/net/tls_context.h"
 
 namespace osteomill {
 

@@ -1,8 +1,10 @@
-// One TCP connection, plain or under TLS, with the same calls for both.
+// One TCP connection, plain or under TLS, with the same calls for both; and why it failed, in words.
 //
 // A stream owns the bytes under way in both directions, so an owner that drops it need not wait for them. All
 // calls and handlers are on the thread of the socket's io_context; handlers keep the stream alive.
 #pragma once
+
+#include <openssl/ssl.h>
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/system/error_code.hpp>
@@ -14,6 +16,21 @@
 #include <string>
 
 namespace osteomill {
+
+// Reason why a TLS connection failed, as a sentence about the other end ("it shows no certificate").
+
+/// Why the handshake on `tls` ended with `error`.
+std::string describe_handshake_failure(const SSL* tls, const boost::system::error_code& error);
+
+/// Whether the other end sent a TLS alert: it is the one that refuses. With TLS 1.3 a client hears of that
+/// only in place of the first data.
+bool is_refusal(const boost::system::error_code& error);
+
+/// Whether it would end the same way again with the same certificates at both ends.
+bool is_about_certificates(const boost::system::error_code& error);
+
+/// A description of any error of a stream.
+std::string describe_stream_error(const boost::system::error_code& error);
 
 class TlsContext;
 

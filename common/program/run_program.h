@@ -9,12 +9,40 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "common/log/line_stream.h"
 #include "common/text/foreign_text.h"
 
+namespace CLI {
+class App;
+}  // namespace CLI
+
 namespace osteomill {
+
+/// Options to run with, or a text (help, version) to print and be done.
+template <typename Options>
+struct ParseResult {
+    std::optional<Options> options;
+    std::string text;
+};
+
+/// The value that `read` makes of an option. If it throws std::invalid_argument, the message names the
+/// option.
+template <typename Read>
+auto said_of_option(const char* option, Read&& read) {
+    try {
+        return read();
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(fmt::format("{}: {}", option, error.what()));
+    }
+}
+
+/// Fills in what `app` has declared; returns the text if help or the version is requested. Throws
+/// std::invalid_argument with one line for wrong usage.
+std::optional<std::string> parse_or_text(CLI::App& app, int argc, const char* const* argv);
 
 // The signals that end a program, as a flag, so that it can save its data first.
 
@@ -41,7 +69,7 @@ inline int exit_code_of_prints(const char* name) {
     return exit_failure;
 }
 
-/// Returns the exit code. `parse()` gives a ParseResult (command_line.h) and throws std::invalid_argument for
+/// Returns the exit code. `parse()` gives a ParseResult and throws std::invalid_argument for
 /// wrong usage; `run(options, output)` throws for a failure. Ends even if a terminal blocks its output, at
 /// most a moment later.
 template <typename Parse, typename Run>

@@ -1,6 +1,6 @@
-// Words of the window and of the report in a person's language, found by the English ones as gettext does.
-// English is in the sources; every other language is a file beside this one: LANGUAGE.toml, "English" =
-// "translated".
+// Words and numbers of the window and of the report in a person's language. Words are found by the English
+// ones, as gettext does. English is in the sources; every other language is a file beside this one:
+// LANGUAGE.toml, "English" = "translated".
 //
 // A server speaks English (faults, notices), with its values filled in already: tr_filled finds the
 // translation of the whole text.
@@ -47,5 +47,12 @@ template <typename... Values>
 std::string trf(const char* english, const Values&... values) {
     return fmt::format(fmt::runtime(tr(english)), values...);
 }
+
+// Numbers as a person's language writes them: German ones with a decimal comma. Only for what people read:
+// CSV, JSON and what a program reads again keep the point.
+
+/// Every number of a text with the decimal sign of the chosen language. Numbers with several points, such as
+/// versions, stay as they are.
+std::string with_decimal_sign(std::string text);
 
 }  // namespace osteomill

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "devices/haply/inverse3_profile.h"
 #include "simulation/device/arm_spring.h"
 
 namespace osteomill {

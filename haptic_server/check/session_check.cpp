@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "common/net/own_certificate.h"
 #include "common/net/tls_context.h"
 
 namespace osteomill {

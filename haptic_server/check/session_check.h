@@ -11,7 +11,7 @@
 
 #include "common/net/listen_address.h"
 #include "common/net/tls_options.h"
-#include "haptic_server/check/check_row.h"
+#include "haptic_server/check/machine_check.h"
 
 namespace osteomill {
 

@@ -14,7 +14,7 @@
 #include <array>
 #include <cstddef>
 
-#include "haptic_server/measuring/measured_tick.h"
+#include "haptic_server/measuring/arm_estimates.h"
 #include "haptic_server/measuring/measuring_guard.h"
 
 namespace osteomill {

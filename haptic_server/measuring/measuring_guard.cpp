@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "haptic_server/measuring/measured_tick.h"
+#include "haptic_server/measuring/arm_estimates.h"
 
 namespace osteomill {
 

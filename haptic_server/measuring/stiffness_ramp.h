@@ -27,7 +27,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 
-#include "haptic_server/measuring/measured_tick.h"
+#include "haptic_server/measuring/arm_estimates.h"
 #include "haptic_server/measuring/measuring_guard.h"
 #include "simulation/coupling/position_observer.h"
 

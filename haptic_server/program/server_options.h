@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/files/distinct_files.h"
-#include "common/program/command_line.h"
+#include "common/program/run_program.h"
 #include "devices/simulated/hand_and_arm.h"
 #include "haptic_server/program/session_outputs.h"
 #include "haptic_server/session/device_table.h"

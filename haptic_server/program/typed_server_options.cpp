@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/program/command_line.h"
 #include "common/program/option_checks.h"
+#include "common/program/run_program.h"
 #include "common/scene/scene.h"
 #include "common/session/session_control.h"
 #include "common/words/translation.h"

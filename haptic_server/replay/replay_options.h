@@ -6,7 +6,7 @@
 #include <string>
 
 #include "analysis/hdf5/recording_hdf5.h"
-#include "common/program/command_line.h"
+#include "common/program/run_program.h"
 #include "haptic_server/streaming/access_options.h"
 
 namespace osteomill {

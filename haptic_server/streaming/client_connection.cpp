@@ -8,7 +8,7 @@
 #include <boost/asio/error.hpp>
 #include <chrono>
 
-#include "common/net/tls_failure.h"
+#include "common/net/stream.h"
 #include "common/wire/frame.h"
 
 namespace osteomill {

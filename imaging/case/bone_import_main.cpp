@@ -18,7 +18,6 @@
 
 #include "common/files/distinct_files.h"
 #include "common/program/available_memory.h"
-#include "common/program/command_line.h"
 #include "common/program/option_checks.h"
 #include "common/program/run_program.h"
 #include "common/scene/tissue_tables.h"

@@ -7,21 +7,68 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/hdf5/recording_hdf5.h"
+#include "analysis/replay/recording_summary.h"
 #include "analysis/report/metric_files.h"
 #include "analysis/report/session_metrics.h"
+#include "common/recording/playhead.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
 #include "python/module/bone_view.h"
-#include "python/module/opened_recording.h"
 #include "python/module/released_lock.h"
 #include "python/module/repeated_session.h"
+#include "python/module/tick_columns.h"
 
 namespace osteomill::python {
+
+/// A value, or three, for each state.
+struct StateColumns {
+    std::vector<double> time_s, session_time_s;
+    std::vector<double> hand_mm, burr_mm, axis, force_n;
+    std::vector<double> depth_mm, removed_mm3;
+    std::vector<std::uint8_t> burr, spindle_on;
+};
+
+/// All ticks of a recording that can be read.
+std::vector<TickSample> ticks_of(const std::filesystem::path& file);
+
+class OpenedRecording {
+  public:
+    /// Throws RecordingError if it holds no bone.
+    explicit OpenedRecording(std::filesystem::path file)
+        : file_(std::move(file)), playhead_(std::in_place, file_) {}
+
+    const std::filesystem::path& file() const { return file_; }
+
+    // One thread at a time: the caller of these holds `busy`.
+    std::mutex& busy() { return busy_; }
+
+    /// Reads the recording through, the first time.
+    const StateColumns& columns() { return read(), columns_; }
+    const RecordingSummary& summary() { return read(), *summary_; }
+
+    /// The bone after the last frame that is no later than `time_s`, seconds since the recording began. Goes
+    /// on from the last requested time, or begins anew if that is later. Throws RecordingError for a fault
+    /// before that time.
+    const Bone& bone_at(double time_s);
+
+  private:
+    void read();
+
+    std::filesystem::path file_;
+    std::mutex busy_;
+    std::optional<Playhead> playhead_;
+    StateColumns columns_;
+    std::optional<RecordingSummary> summary_;
+};
 
 namespace {
 
@@ -226,6 +273,51 @@ patient LPS.)")
         .def("__repr__", [](const SharedRecording& recording) {
             return fmt::format("<Recording {}>", recording->file().string());
         });
+}
+
+namespace {
+
+void add(StateColumns& columns, const Playhead& playhead) {
+    const ToolState& tool = *playhead.tool();
+    columns.time_s.push_back(playhead.time_s());
+    columns.session_time_s.push_back(tool.time_s);
+    push(columns.hand_mm, tool.hand_position_mm);
+    push(columns.burr_mm, tool.burr_position_mm);
+    push(columns.axis, tool.spindle_axis);
+    push(columns.force_n, tool.force_n);
+    columns.depth_mm.push_back(tool.depth_mm.value_or(0.0));
+    columns.removed_mm3.push_back(tool.removed_mm3);
+    columns.burr.push_back(static_cast<std::uint8_t>(tool.burr));
+    columns.spindle_on.push_back(tool.spindle_on ? 1 : 0);
+}
+
+}  // namespace
+
+std::vector<TickSample> ticks_of(const std::filesystem::path& file) {
+    std::vector<TickSample> all;
+    Playhead playhead(file);
+    play_to_end(
+        playhead, [](double) {},
+        [&](Playhead::Step step) {
+            if (step != Playhead::Step::state) return;
+            all.insert(all.end(), playhead.ticks().begin(), playhead.ticks().end());
+        });
+    return all;
+}
+
+void OpenedRecording::read() {
+    if (summary_) return;
+    StateColumns columns;
+    summary_ = summarise(file_, [&](const Playhead& playhead) { add(columns, playhead); });
+    columns_ = std::move(columns);
+}
+
+const Bone& OpenedRecording::bone_at(double time_s) {
+    if (playhead_->time_s() > time_s) playhead_.emplace(file_);
+    for (;;) {
+        const Playhead::Step step = playhead_->step(time_s);
+        if (step == Playhead::Step::nothing_due || step == Playhead::Step::end) return playhead_->bone();
+    }
 }
 
 }  // namespace osteomill::python

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/files/session_file.h"
-#include "common/net/tls_failure.h"
+#include "common/net/stream.h"
 #include "common/text/foreign_text.h"
 #include "common/wire/control_messages.h"
 #include "common/wire/scene_messages.h"

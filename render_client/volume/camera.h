@@ -1,10 +1,13 @@
-// The camera: orbits a target, upright unless it is rolled (patient z is up in the picture), perspective.
+// The camera: orbits a target, upright unless it is rolled (patient z is up in the picture), perspective; and
+// the pixels that can show a box.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "render_client/volume/textures/voxel_box.h"
 
@@ -75,5 +78,19 @@ double magnification(const Camera& camera);
 void set_magnification(Camera& camera, double factor);
 /// To the next larger or smaller step, if there is one.
 void magnify_by_step(Camera& camera, bool larger);
+
+// The part of the picture that can show a box of patient space.
+
+/// Pixels (from the lower left corner, as glScissor counts) that can show a box of patient space; nothing if
+/// the box reaches behind the camera, so that any pixel could show it.
+struct PixelBox {
+    glm::ivec2 first{0};
+    glm::ivec2 size{0};
+
+    bool operator==(const PixelBox&) const = default;
+    std::int64_t count() const { return static_cast<std::int64_t>(size.x) * size.y; }
+};
+std::optional<PixelBox> pixels_of_box(const Camera& camera, const glm::dvec3& low_mm,
+                                      const glm::dvec3& high_mm, const glm::ivec2& size_px);
 
 }  // namespace osteomill

@@ -11,9 +11,43 @@
 #include "simulation/engagement/burr_patches.h"
 #include "simulation/engagement/engagement.h"
 #include "simulation/engagement/patch_crossings.h"
-#include "simulation/engagement/shank_probe.h"
 
 namespace osteomill {
+
+// Sampling of the bone around a burr's shank into the walls of an engagement map (engagement.h).
+
+/// Eight rings of eight samples about the spindle, each ring turned against the next by half a sample. Every
+/// cone of the profile has at least one ring; the others go where rings are far apart for their height, so
+/// that they are dense near the burr, where holes are deep. A rim between two rings is met late by at most
+/// the tilt times their distance. The part within the burr's ball has no sample. Allocates when constructed,
+/// nothing for a burr without a shank.
+class ShankProbe {
+  public:
+    explicit ShankProbe(const Burr& burr);
+
+    /// Fills the shank's part of `out` for a burr at `position_mm` with its spindle along `spindle_axis`
+    /// (unit). A sample with no brick of bone near is skipped. Real-time safe.
+    void sample(const Bone& bone, const glm::dvec3& position_mm, const glm::dvec3& spindle_axis,
+                Engagement& out) noexcept;
+
+    static constexpr int rings = 8;
+    static constexpr int samples_a_ring = 8;
+    static_assert(rings * samples_a_ring <= static_cast<int>(Engagement::max_shank_patches));
+
+  private:
+    struct Sample {
+        glm::dvec3 arm_mm;  ///< from the burr's centre, burr axes
+        glm::dvec3 normal;  ///< burr axes
+        double area_mm2;
+        double radius_mm;  ///< of the shank there
+    };
+
+    void add_cone(const ShankPoint& low, const ShankPoint& high, int ring_count, double burr_radius_mm);
+
+    std::vector<Sample> samples_;
+    BrickNeighbourhood bricks_;
+    bool next_is_turned_ = false;  // while constructing
+};
 
 /// Samples the bone around one burr and its shank, at the burr's patches (burr_patches.h). Allocates when
 /// constructed.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "devices/haply/inverse3_profile.h"
+#include "devices/haply/haply_arm.h"
 #include "devices/hid/arm_kinematics.h"
 #include "devices/hid/arm_profile.h"
 #include "devices/simulated/simulated_device.h"

@@ -27,7 +27,7 @@
 
 #include "common/statistics/percentile.h"
 #include "simulation/coupling/couplings.h"
-#include "simulation/engagement/shank_probe.h"
+#include "simulation/engagement/engagement_probe.h"
 #include "simulation/loop/milling_loop.h"
 #include "studies/force/bone_block.h"
 #include "studies/force/studied_model.h"

@@ -17,7 +17,7 @@
 #include "render_client/link/session_source.h"
 #include "render_client/ui/input/operator_hand.h"
 #include "render_client/ui/input/window_input.h"
-#include "render_client/volume/passes/pixel_box.h"
+#include "render_client/volume/camera.h"
 
 namespace osteomill {
 

@@ -13,8 +13,8 @@
 #include "render_client/ui/input/window_input.h"
 #include "render_client/ui/panels/imgui_input.h"
 #include "render_client/ui/panels/theme.h"
+#include "render_client/volume/camera.h"
 #include "render_client/volume/gl/framebuffer.h"
-#include "render_client/volume/passes/pixel_box.h"
 
 namespace osteomill {
 

@@ -13,8 +13,8 @@
 #include "common/scene/material.h"
 #include "common/scene/tissue_tables.h"
 #include "common/words/translation.h"
-#include "render_client/ui/panels/page_widgets.h"
 #include "render_client/ui/panels/panel_painter.h"
+#include "render_client/ui/panels/start_panel.h"
 
 namespace osteomill {
 

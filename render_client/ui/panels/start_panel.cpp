@@ -12,7 +12,6 @@
 #include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/panels/card_view.h"
 #include "render_client/ui/panels/import_panel.h"
-#include "render_client/ui/panels/page_widgets.h"
 #include "render_client/ui/panels/widget_panel.h"
 
 namespace osteomill {

@@ -7,13 +7,14 @@
 #include <string>
 #include <utility>
 
+#include "common/session/operator_command.h"
+#include "common/session/tool_state.h"
 #include "render_client/link/session_source.h"
 #include "render_client/ui/panels/imgui_context.h"
 #include "render_client/ui/panels/overlay.h"
 #include "render_client/ui/run_json.h"
 #include "render_client/ui/view/bone_on_screen.h"
 #include "render_client/ui/view/fixture_borders.h"
-#include "render_client/ui/view/session_news.h"
 #include "render_client/ui/view/session_sight.h"
 #include "render_client/ui/view/shown_tool.h"
 #include "render_client/volume/gl/offscreen_context.h"
@@ -21,6 +22,28 @@
 #include "render_client/volume/passes/stereo_picture.h"
 
 namespace osteomill {
+
+// Changes of a session since the last drawn frame.
+
+/// A session as the last frame showed it, beside its bone.
+struct DrawnSession {
+    LinkUpdate link{};
+    std::optional<ToolState> tool{};
+    std::optional<OperatorCommand> operator_command{};
+    std::optional<int> preparation_percent{};  ///< progress of a bone or an appearance; none: all is ready
+};
+
+enum class SessionNews {
+    none,
+    figures,  ///< only the time, the rates, the delay
+    change    ///< something that moves, appears or goes
+};
+
+/// Changes in a poll, against the session as it was drawn.
+SessionNews news_since(const DrawnSession& drawn, const LinkUpdate& link,
+                       const std::optional<ToolState>& tool,
+                       const std::optional<OperatorCommand>& operator_command,
+                       const std::optional<int>& preparation_percent);
 
 enum class FrameQuality {
     full,      ///< every frame at full quality, however long it takes

@@ -4,8 +4,8 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "render_client/volume/camera.h"
 #include "render_client/volume/gl/texture.h"
-#include "render_client/volume/passes/pixel_box.h"
 #include "render_client/volume/picture.h"
 
 namespace osteomill::gl {

@@ -1,4 +1,4 @@
-// Interface of a renderer of the bone.
+// Interface of a renderer of the bone, and the background that each draws first.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -8,7 +8,7 @@
 #include <span>
 
 #include "render_client/volume/camera.h"
-#include "render_client/volume/passes/pixel_box.h"
+#include "render_client/volume/gl/program.h"
 #include "render_client/volume/scene_appearance.h"
 #include "render_client/volume/textures/bone_textures.h"
 
@@ -46,5 +46,16 @@ enum class RendererChoice {
 };
 
 std::unique_ptr<BoneRenderer> make_renderer(RendererChoice choice);
+
+/// The background of a picture, drawn first over all of it: the renderer then skips pixels without bone.
+class Background {
+  public:
+    Background();
+    /// Colour, and depth 1, over the viewport of `size_px`, within glScissor's part.
+    void draw(const SceneAppearance& look, const glm::ivec2& size_px);
+
+  private:
+    gl::Program program_;
+};
 
 }  // namespace osteomill

@@ -1,6 +1,6 @@
 #include "render_client/volume/passes/contact_shadow.h"
 
-#include "render_client/volume/passes/pixel_box.h"
+#include "render_client/volume/camera.h"
 #include "render_client/volume/shaders/shader_files.h"
 
 namespace osteomill {

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 
-#include "render_client/volume/passes/background.h"
 #include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/passes/silhouettes.h"
 #include "render_client/volume/shaders/bone_program.h"

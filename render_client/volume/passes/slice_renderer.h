@@ -12,7 +12,6 @@
 
 #include "render_client/volume/gl/framebuffer.h"
 #include "render_client/volume/gl/mesh.h"
-#include "render_client/volume/passes/background.h"
 #include "render_client/volume/passes/bone_renderer.h"
 #include "render_client/volume/shaders/bone_program.h"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "render_client/volume/passes/pixel_box.h"
+#include "render_client/volume/camera.h"
 
 namespace osteomill {
 

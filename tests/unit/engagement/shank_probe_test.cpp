@@ -1,5 +1,3 @@
-#include "simulation/engagement/shank_probe.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "simulation/engagement/engagement_probe.h"
 #include "tests/support/block.h"
 
 namespace osteomill::shank_probe_test {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "devices/haply/inverse3_profile.h"
+#include "devices/haply/haply_arm.h"
 #include "devices/hid/arm_kinematics.h"
 #include "devices/hid/arm_profile.h"
 #include "devices/simulated/simulated_device.h"

@@ -1,9 +1,8 @@
-#include "common/net/own_certificate.h"
-
 #include <gmock/gmock.h>
 
 #include <stdexcept>
 
+#include "common/net/tls_context.h"
 #include "tests/support/lab_certificates.h"
 #include "tests/support/message_of.h"
 

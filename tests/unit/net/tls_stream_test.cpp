@@ -10,7 +10,6 @@
 
 #include "common/net/stream.h"
 #include "common/net/tls_context.h"
-#include "common/net/tls_failure.h"
 #include "tests/support/lab_certificates.h"
 #include "tests/support/messages.h"
 

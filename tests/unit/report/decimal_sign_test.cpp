@@ -1,5 +1,3 @@
-#include "common/words/decimal_sign.h"
-
 #include <gtest/gtest.h>
 
 #include "common/words/translation.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render_client/ui/panels/page_widgets.h"
+#include "render_client/ui/panels/start_panel.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/volume/offscreen_test.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "render_client/volume/camera.h"
 #include "render_client/volume/passes/bone_renderer.h"
-#include "render_client/volume/passes/pixel_box.h"
 #include "render_client/volume/passes/raycast_renderer.h"
 #include "render_client/volume/passes/slice_renderer.h"
 #include "studies/render/made_bone.h"

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "devices/haply/inverse3_profile.h"
 #include "simulation/device/arm_spring.h"
 #include "tests/support/eventually.h"
 #include "tests/support/haply_service.h"
