@@ -69,9 +69,13 @@ std::string number_text(double value) {
     return std::isfinite(value) ? with_decimal_sign(number_with_point(value)) : "–";
 }
 
+std::string shown_unit(std::string_view unit) {
+    return unit == "mm^3" ? "mm³" : unit == "deg" ? "°" : std::string(unit);
+}
+
 ShownValue shown_value(std::string_view key, double value, std::string_view unit) {
     if (const Headline* known = headline(key)) return {number_text(known->scale * value), known->unit};
-    return {number_text(value), unit == "mm^3" ? "mm³" : unit == "deg" ? "°" : std::string(unit)};
+    return {number_text(value), shown_unit(unit)};
 }
 
 std::string local_time_text(std::int64_t unix_ns) {

@@ -28,6 +28,9 @@ struct ShownValue {
 };
 ShownValue shown_value(std::string_view key, double value, std::string_view unit = {});
 
+/// A metric's unit as people read it: "mm³" for "mm^3", "°" for "deg".
+std::string shown_unit(std::string_view unit);
+
 /// By the clock of this machine: "2026-11-23 22:40 CET"; empty if the recording holds no time.
 std::string local_time_text(std::int64_t unix_ns);
 

@@ -182,7 +182,7 @@ void ConditionParser::run() {
 
 ConditionParser::Kind ConditionParser::any() {
     Kind kind = all();
-    while (take_word("or")) {
+    while (take_piece(Piece::word, "or")) {
         require(kind, Kind::truth, "'or'");
         require(all(), Kind::truth, "'or'");
         push(Op::either);
@@ -193,7 +193,7 @@ ConditionParser::Kind ConditionParser::any() {
 
 ConditionParser::Kind ConditionParser::all() {
     Kind kind = opposite();
-    while (take_word("and")) {
+    while (take_piece(Piece::word, "and")) {
         require(kind, Kind::truth, "'and'");
         require(opposite(), Kind::truth, "'and'");
         push(Op::both);
@@ -203,7 +203,7 @@ ConditionParser::Kind ConditionParser::all() {
 }
 
 ConditionParser::Kind ConditionParser::opposite() {
-    if (!take_word("not")) return comparison();
+    if (!take_piece(Piece::word, "not")) return comparison();
     const Depth depth(*this);
     require(opposite(), Kind::truth, "'not'");
     push(Op::opposite);
@@ -219,7 +219,8 @@ ConditionParser::Kind ConditionParser::comparison() {
                                                                       {"<", Op::less},
                                                                       {">", Op::more}}};
     const Kind kind = sum();
-    const auto sign = std::ranges::find_if(signs, [&](const auto& one) { return take(one.first); });
+    const auto sign = std::ranges::find_if(
+        signs, [&](const auto& one) { return take_piece(Piece::comparison, one.first); });
     if (sign == signs.end()) {
         if (take("=")) fail("has '='; a comparison is written ==, <, <=, >, >= or !=");
         return kind;
@@ -235,8 +236,8 @@ ConditionParser::Kind ConditionParser::comparison() {
 ConditionParser::Kind ConditionParser::sum() {
     Kind kind = product();
     for (;;) {
-        const bool adds = take("+");
-        if (!adds && !take("-")) return kind;
+        const bool adds = take_piece(Piece::operation, "+");
+        if (!adds && !take_piece(Piece::operation, "-")) return kind;
         require(kind, Kind::number, adds ? "+" : "-");
         require(product(), Kind::number, adds ? "+" : "-");
         push(adds ? Op::add : Op::subtract);
@@ -247,8 +248,8 @@ ConditionParser::Kind ConditionParser::sum() {
 ConditionParser::Kind ConditionParser::product() {
     Kind kind = factor();
     for (;;) {
-        const bool multiplies = take("*");
-        if (!multiplies && !take("/")) return kind;
+        const bool multiplies = take_piece(Piece::operation, "*");
+        if (!multiplies && !take_piece(Piece::operation, "/")) return kind;
         require(kind, Kind::number, multiplies ? "*" : "/");
         require(factor(), Kind::number, multiplies ? "*" : "/");
         push(multiplies ? Op::multiply : Op::divide);
@@ -258,14 +259,14 @@ ConditionParser::Kind ConditionParser::product() {
 
 ConditionParser::Kind ConditionParser::factor() {
     const Depth depth(*this);
-    if (take("-")) {
+    if (take_piece(Piece::operation, "-")) {
         require(factor(), Kind::number, "-");
         push(Op::negate);
         return Kind::number;
     }
-    if (take("(")) {
+    if (take_piece(Piece::parenthesis, "(")) {
         const Kind kind = any();
-        if (!take(")")) fail("misses a ')'");
+        if (!take_piece(Piece::parenthesis, ")")) fail("misses a ')'");
         return kind;
     }
     skip_blanks();
@@ -279,6 +280,7 @@ ConditionParser::Kind ConditionParser::factor() {
             fail("has no number that can be read, such as 0.5");
         at_ = next;
         condition_.steps_.push_back({.op = Op::number, .number = number});
+        condition_.pieces_.push_back({.kind = Piece::number, .number = number});
         return Kind::number;
     }
     const std::string_view key = word_here();
@@ -301,6 +303,7 @@ ConditionParser::Kind ConditionParser::quantity(std::string_view key) {
         asked.of = name();
         if (!take(")")) fail("misses a ')' behind a name");
     }
+    condition_.pieces_.push_back({.kind = Piece::quantity, .quantity = asked});
     auto known = std::ranges::find(condition_.quantities_, asked);
     if (known == condition_.quantities_.end()) known = condition_.quantities_.insert(known, std::move(asked));
     condition_.steps_.push_back(
@@ -334,6 +337,12 @@ bool ConditionParser::take_word(std::string_view word) {
     skip_blanks();
     if (word_here() != word) return false;
     at_ += word.size();
+    return true;
+}
+
+bool ConditionParser::take_piece(Piece kind, const char* text) {
+    if (!(kind == Piece::word ? take_word(text) : take(text))) return false;
+    condition_.pieces_.push_back({.kind = kind, .text = text});
     return true;
 }
 

@@ -47,6 +47,22 @@ struct AskedQuantity {
     bool operator==(const AskedQuantity&) const = default;
 };
 
+/// A sign, a word, a number or a quantity of a condition.
+struct ConditionPiece {
+    enum class Kind : std::uint8_t {
+        word,         ///< "and", "or", "not"
+        comparison,   ///< "<", "<=", ">", ">=", "==", "!="
+        operation,    ///< "+", "-", "*", "/"
+        parenthesis,  ///< "(", ")", but for those around a quantity's name
+        number,
+        quantity,
+    };
+    Kind kind;
+    std::string text{};  ///< of the first four
+    double number = 0.0;
+    AskedQuantity quantity{};
+};
+
 class RatingCondition {
   public:
     /// Parentheses, not and - within one another.
@@ -57,6 +73,9 @@ class RatingCondition {
 
     /// Each once, in the order in which they first come.
     const std::vector<AskedQuantity>& quantities() const { return quantities_; }
+
+    /// In the order of the text, for a display of the condition.
+    const std::vector<ConditionPiece>& pieces() const { return pieces_; }
 
     /// Whether it holds; nothing: unknown. `value_of` is asked once for each quantity.
     std::optional<bool> holds(const std::function<ValueRange(const AskedQuantity&)>& value_of) const;
@@ -89,6 +108,7 @@ class RatingCondition {
 
     std::vector<Step> steps_;  // a value, or an operation on those before it (reverse Polish)
     std::vector<AskedQuantity> quantities_;
+    std::vector<ConditionPiece> pieces_;
 };
 
 /// Parser of a rating's condition (rating_condition.h): recursive descent, as deep as
@@ -101,6 +121,7 @@ class ConditionParser {
 
   private:
     using Op = RatingCondition::Op;
+    using Piece = ConditionPiece::Kind;
     enum class Kind : std::uint8_t { number, truth };
     /// Counts one thing within another as long as it lives.
     struct Depth;
@@ -119,6 +140,8 @@ class ConditionParser {
     /// Takes a sign or a word, if it is the next.
     bool take(std::string_view sign);
     bool take_word(std::string_view word);
+    /// The same, and it is a piece of the condition.
+    bool take_piece(Piece kind, const char* text);
     std::string_view word_here() const;
     void push(Op op) { condition_.steps_.push_back({op}); }
     void require(Kind is, Kind wanted, const char* by) const;
