@@ -1,4 +1,4 @@
-# Flags that make a defect harder to exploit if it gets past the tests, since the programs read strangers' data. Every target has
+# Flags that make a defect harder to exploit if it gets past the tests, since the programs read untrusted data. Every target has
 # them, but those of the sanitizers, which find more and bring checks of their own.
 #
 # - a canary behind the arrays of a function: a write beyond one ends the program before the function returns

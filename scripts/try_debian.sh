@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Tries what is committed as a stranger would, in a bare Debian: a root file system by debootstrap, a clone, the commands, nothing else.
+# Tries what is committed as a new user would, in a bare Debian: a root file system by debootstrap, a clone, the commands, nothing else.
 #   scripts/try_debian.sh 12|13|testing [demo] [test] [packages]      the demo unless said otherwise
 # demo and test are ./demo.sh and ./test.sh; packages builds the Debian packages there, installs, upgrades and removes them. Each ends with
 # its minutes and its seconds of a core, and what it leaves in out/ is copied to out/try/SYSTEM. Needs root.
 #   OSTEOMILL_ROOTS   where bare roots are kept, made once each: /var/tmp/osteomill-roots
 #   OSTEOMILL_MIRROR  of Debian
 #   OSTEOMILL_SCANS   real scans for the tests, as in ./test.sh
-#   CCACHE_DIR        a compiler cache, for who comes again; the figures are not a stranger's then
+#   CCACHE_DIR        a compiler cache, for who comes again; the figures are not a new user's then
 # Exits with 3 where no bare root can be made, and says why.
 set -euo pipefail
 cd "$(dirname "$0")/.."

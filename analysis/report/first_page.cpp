@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "analysis/report/headlines.h"
-#include "analysis/report/metric_tables.h"
+#include "analysis/report/metrics_html.h"
 #include "analysis/report/motion_metrics.h"
 #include "analysis/report/page_style.h"
 #include "analysis/report/rating_html.h"

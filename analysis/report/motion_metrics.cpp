@@ -22,17 +22,17 @@ MotionMetrics motion_metrics(const SessionTrace& trace) {
     double looked_s = 0.0;
     // The sum of all placements, which the hand did not make. During one the hand is assumed to go on as
     // before: a stop and a new start would count as a jerk.
-    glm::dvec3 leaps_mm(0.0);
+    glm::dvec3 placed_mm(0.0);
     glm::dvec3 hand_mm_per_s(0.0);
     hand.reserve(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const TraceSample& now = samples[i];
         const double dt_s = trace.dt_s(i);
-        if (trace.leaps(i))
-            leaps_mm += now.hand_mm - samples[i - 1].hand_mm - dt_s * hand_mm_per_s;
+        if (trace.is_discontinuous(i))
+            placed_mm += now.hand_mm - samples[i - 1].hand_mm - dt_s * hand_mm_per_s;
         else if (dt_s > 0.0)
             hand_mm_per_s = (now.hand_mm - samples[i - 1].hand_mm) / dt_s;
-        if (!now.is_paused) hand.push_back({now.time_s, now.hand_mm - leaps_mm});
+        if (!now.is_paused) hand.push_back({now.time_s, now.hand_mm - placed_mm});
         for (const TraceMoment& moment : now.moments)
             if (moment.spindle_on) metrics.depth_mm = std::max(metrics.depth_mm, moment.depth_mm);
         if (i == 0 || dt_s <= 0.0) continue;
@@ -41,7 +41,8 @@ MotionMetrics motion_metrics(const SessionTrace& trace) {
             metrics.paused_s += dt_s;
             continue;
         }
-        const double hand_mm = trace.leaps(i) ? 0.0 : glm::length(now.hand_mm - samples[i - 1].hand_mm);
+        const double hand_mm =
+            trace.is_discontinuous(i) ? 0.0 : glm::length(now.hand_mm - samples[i - 1].hand_mm);
         metrics.path_mm += hand_mm;
         for (const TraceMoment& moment : now.moments)
             if (moment.spindle_on) metrics.spindle_s += moment.dt_s;

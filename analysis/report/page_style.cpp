@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/headlines.h"
-#include "analysis/report/metric_files.h"
+#include "analysis/report/metrics_csv_json.h"
 #include "common/words/translation.h"
 
 namespace osteomill {

@@ -34,7 +34,7 @@ std::string shown_unit(std::string_view unit);
 /// By the clock of this machine: "2026-11-23 22:40 CET"; empty if the recording holds no time.
 std::string local_time_text(std::int64_t unix_ns);
 
-// Text from strangers (names, notes) as HTML or SVG shows it and nothing else.
+// Untrusted text (names, notes) as HTML or SVG shows it and nothing else.
 
 /// Markup is escaped, control characters become spaces, and bytes that are no UTF-8 the replacement sign.
 std::string html_text(std::string_view text);

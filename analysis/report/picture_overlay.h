@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "imaging/picture/bone_view.h"
+#include "imaging/picture/bone_picture.h"
 
 namespace osteomill {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "analysis/report/headlines.h"
-#include "analysis/report/metric_files.h"
+#include "analysis/report/metrics_csv_json.h"
 #include "common/files/input_file.h"
 #include "common/statistics/percentile.h"
 #include "common/text/csv.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/first_page.h"
-#include "analysis/report/metric_tables.h"
+#include "analysis/report/metrics_html.h"
 #include "analysis/report/page_style.h"
 #include "analysis/report/rating_html.h"
 #include "analysis/report/session_plots.h"

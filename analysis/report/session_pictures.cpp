@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
-#include <png.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <future>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -189,21 +187,12 @@ constexpr int picture_px = 300;
 constexpr int first_picture_px = 640;
 constexpr std::size_t most_marks = 24;
 
-/// A picture as a PNG within a page: data:image/png;base64,... Throws std::runtime_error if libpng fails.
+/// A picture as a PNG within a page: data:image/png;base64,... Throws std::runtime_error.
 std::string png_data_uri(const RgbPicture& picture) {
-    png_image image;
-    std::memset(&image, 0, sizeof image);
-    image.version = PNG_IMAGE_VERSION;
-    image.format = PNG_FORMAT_RGB;
-    image.width = image.height = static_cast<png_uint_32>(picture.size_px);
-    png_alloc_size_t bytes = 0;
-    if (!png_image_write_to_memory(&image, nullptr, &bytes, 0, picture.rgb.data(), 0, nullptr))
-        throw std::runtime_error(std::string("cannot make a PNG picture: ") + image.message);
-    std::vector<unsigned char> png(bytes);
-    if (!png_image_write_to_memory(&image, png.data(), &bytes, 0, picture.rgb.data(), 0, nullptr))
-        throw std::runtime_error(std::string("cannot make a PNG picture: ") + image.message);
-    std::vector<unsigned char> text(4 * ((bytes + 2) / 3) + 1);
-    const int length = EVP_EncodeBlock(text.data(), png.data(), static_cast<int>(bytes));
+    const std::string png = lasting_png(picture.rgb, glm::ivec2(picture.size_px));
+    std::vector<unsigned char> text(4 * ((png.size() + 2) / 3) + 1);
+    const int length = EVP_EncodeBlock(text.data(), reinterpret_cast<const unsigned char*>(png.data()),
+                                       static_cast<int>(png.size()));
     return "data:image/png;base64," + std::string(text.begin(), text.begin() + length);
 }
 

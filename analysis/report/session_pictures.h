@@ -10,7 +10,7 @@
 #include "analysis/report/planned_region.h"
 #include "analysis/report/session_trace.h"
 #include "common/program/progress.h"
-#include "imaging/picture/bone_view.h"
+#include "imaging/picture/bone_picture.h"
 
 namespace osteomill {
 

@@ -77,7 +77,7 @@ std::vector<SvgPlot> session_plots(const SessionTrace& trace) {
         force.y.push_back(samples[i].force_n);
         depth.x.push_back(samples[i].time_s);
         depth.y.push_back(samples[i].depth_mm);
-        if (trace.dt_s(i) <= 0.0 || trace.leaps(i)) continue;
+        if (trace.dt_s(i) <= 0.0 || trace.is_discontinuous(i)) continue;
         speed.x.push_back(samples[i].time_s);
         speed.y.push_back(glm::length(samples[i].burr_mm - samples[i - 1].burr_mm) / trace.dt_s(i));
     }

@@ -12,7 +12,7 @@
 
 #include "common/bone/bone_ray.h"
 #include "common/bone/structure_mask.h"
-#include "common/recording/packet_reader.h"
+#include "common/recording/packet.h"
 #include "common/recording/playhead.h"
 
 namespace osteomill {
@@ -125,7 +125,7 @@ void add_sample(SessionTrace& trace, Playhead& playhead, Watches& watches) {
     }
     structures.update(tool);
     sample.distances = structures.distances();
-    if (sample.is_paused || trace.leaps(trace.samples.size() - 1))
+    if (sample.is_paused || trace.is_discontinuous(trace.samples.size() - 1))
         watches.plunges.forget();
     else
         watches.plunges.update(playhead.bone(), tool_moments_of(playhead), sample.cuts());

@@ -81,9 +81,11 @@ struct SessionTrace {
     double dt_s(std::size_t i) const {
         return i == 0 ? 0.0 : std::max(0.0, samples[i].time_s - samples[i - 1].time_s);
     }
-    /// The tool was put elsewhere in this interval, so no hand moved that far. The first frame after a
-    /// placement reports it; its tool may be that of the tick before.
-    bool leaps(std::size_t i) const { return i > 0 && (samples[i].is_placed || samples[i - 1].is_placed); }
+    /// A position discontinuity: the tool was put elsewhere in this interval, so no hand moved that far. The
+    /// first frame after a placement reports it; its tool may be that of the tick before.
+    bool is_discontinuous(std::size_t i) const {
+        return i > 0 && (samples[i].is_placed || samples[i - 1].is_placed);
+    }
     double mm3(std::int64_t levels) const {
         return static_cast<double>(levels) / 255.0 * voxel_volume_mm3(at_start.grid());
     }

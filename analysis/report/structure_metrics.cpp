@@ -149,7 +149,7 @@ class ForceAndFeedSum {
             force_s_ += moment.dt_s;
             force_n_s_ += moment.force_n * moment.dt_s;
         }
-        if (i == 0 || trace.leaps(i)) return;
+        if (i == 0 || trace.is_discontinuous(i)) return;
         path_s_ += trace.dt_s(i);
         path_mm_ += glm::length(now.burr_mm - trace.samples[i - 1].burr_mm);
     }
@@ -208,7 +208,7 @@ void add_frame(const SessionTrace& trace, std::size_t i, std::size_t tissue,
     Sums& sums = all[tissue];
     for (std::size_t k = 0; k < near_mm.size(); ++k)
         if (*is_at_mm <= near_mm[k]) sums.within[k].add(trace, i);
-    if (i == 0 || trace.leaps(i)) {
+    if (i == 0 || trace.is_discontinuous(i)) {
         sums.piece.reset();
         return;
     }

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "analysis/report/metric_files.h"
+#include "analysis/report/metrics_csv_json.h"
 #include "analysis/report/report_html.h"
 #include "common/files/atomic_file.h"
 

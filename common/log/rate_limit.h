@@ -1,5 +1,5 @@
-// Limits on what strangers cause: a rate, and log lines at a limited rate, since a port scan must not fill
-// the disk, nor bury important lines.
+// Limits on what untrusted peers cause: a rate, and log lines at a limited rate, since a port scan must not
+// fill the disk, nor bury important lines.
 #pragma once
 
 #include <spdlog/spdlog.h>
@@ -36,8 +36,8 @@ class TokenBucket {
     Time filled_{};
 };
 
-/// Log lines caused by strangers, limited in rate: a port scan must not fill the disk, nor bury important
-/// lines.
+/// Log lines caused by untrusted peers, limited in rate: a port scan must not fill the disk, nor bury
+/// important lines.
 class LimitedLog {
   public:
     using Time = TokenBucket::Time;

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/recording/packet.h"
-#include "common/recording/packet_reader.h"
 #include "common/wire/session_receiver.h"
 #include "osteomill/v2/session.pb.h"
 

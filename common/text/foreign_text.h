@@ -90,4 +90,13 @@ inline std::string as_file_name(std::string_view text) {
     return name;
 }
 
+// Passwords in addresses (postgresql://USER:PASSWORD@HOST/NAME): found, and removed from printed or written
+// text.
+
+/// `text` with *** in the place of each password of an address or of a setting (password=...).
+std::string without_passwords(const std::string& text);
+
+/// Whether an address or a list of settings for libpq has one; also if letters are written as %XX.
+bool holds_password(const std::string& address);
+
 }  // namespace osteomill

@@ -1,5 +1,5 @@
 // Check of the name under which a visitor asked for a page (the field Host of HTTP). A page of this machine
-// that answered to any name could be read by a stranger's web page whose name was rebound to 127.0.0.1.
+// that answered to any name could be read by an untrusted web page whose name was rebound to 127.0.0.1.
 #pragma once
 
 #include <span>

@@ -64,12 +64,12 @@ class Visit : public std::enable_shared_from_this<Visit> {
         answer_.keep_alive(false);
         answer_.set(http::field::content_type, "text/plain; version=0.0.4; charset=utf-8");
         const std::string_view target(request_.target().data(), request_.target().size());
-        if (const std::optional<std::string> stranger = strange_host()) {
+        if (const std::optional<std::string> refused = refused_host()) {
             answer_.result(http::status::misdirected_request);
             answer_.body() = fmt::format(
                 "this page is not of '{}': ask for it by localhost or by an address, or start "
                 "haptic_server with --metrics-host NAME\n",
-                printable(*stranger));
+                printable(*refused));
         } else if (target.substr(0, target.find('?')) != path) {
             answer_.result(http::status::not_found);
             answer_.body() = fmt::format("there is {} alone\n", path);
@@ -87,7 +87,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
     }
 
     /// The name that it was asked for by, if that is not its own.
-    std::optional<std::string> strange_host() const {
+    std::optional<std::string> refused_host() const {
         const auto [first, last] = request_.equal_range(http::field::host);
         for (auto field = first; field != last; ++field) {
             const std::string host(field->value().data(), field->value().size());

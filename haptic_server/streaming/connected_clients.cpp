@@ -14,7 +14,7 @@ namespace osteomill {
 
 namespace {
 
-/// Bounds the memory that strangers can make the server hold; a class of students needs far fewer.
+/// Bounds the memory that untrusted peers can make the server hold; a class of students needs far fewer.
 constexpr std::size_t most_clients = 32;
 
 /// A client says hello within two round trips; this allows for a busy machine.

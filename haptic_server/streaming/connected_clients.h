@@ -105,7 +105,7 @@ class ConnectedClients {
 
     std::map<Id, std::shared_ptr<ClientConnection>> connections_;
     /// The connections from which no hello has come. They are sent a hello and nothing else, so that a
-    /// stranger costs no snapshot.
+    /// untrusted peer costs no snapshot.
     ConnectionQuota unidentified_;
     std::set<Id> watchers_;       // connections that may not move the tool
     std::set<Id> refused_input_;  // those of them that the log has named for sending input

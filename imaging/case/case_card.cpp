@@ -13,7 +13,7 @@
 #include <span>
 #include <variant>
 
-#include "imaging/picture/bone_view.h"
+#include "imaging/picture/bone_picture.h"
 
 namespace osteomill {
 
@@ -84,7 +84,7 @@ void write_card_picture(const Scene& scene, const Bone& bone, const std::filesys
     const RgbPicture square = picture_of(bone, scene.tissues, view_of(scene, bone), size_px.x);
     const std::size_t row_bytes = 3 * static_cast<std::size_t>(size_px.x);
     const auto above = static_cast<std::size_t>((size_px.x - size_px.y) / 2);
-    write_rgb_png(
+    write_lasting_png(
         std::span(square.rgb).subspan(above * row_bytes, static_cast<std::size_t>(size_px.y) * row_bytes),
         size_px, png, Link::replace);
 }

@@ -11,7 +11,7 @@
 #include "common/files/atomic_file.h"
 #include "imaging/bone_file/hu_file.h"
 #include "imaging/formats/source_image.h"
-#include "imaging/picture/bone_view.h"
+#include "imaging/picture/bone_picture.h"
 #include "imaging/segmentation/segment_structure.h"
 
 namespace osteomill {
@@ -122,7 +122,7 @@ void write_preview(const CtVolume& ct, const std::optional<ScanRegion>& region,
         if (region) draw_region(ct, plane, *region, left_px, canvas);
         left_px += size[plane.right] + gap_px;
     }
-    write_rgb_png(canvas.rgb, canvas.size_px, png);
+    write_lasting_png(canvas.rgb, canvas.size_px, png);
 }
 
 void write_preview_voxels(const CtVolume& ct,

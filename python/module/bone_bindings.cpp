@@ -24,7 +24,7 @@
 #include "imaging/bone_file/carved_bone.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
-#include "python/module/bone_view.h"
+#include "python/module/python_bone.h"
 #include "python/module/released_lock.h"
 
 namespace osteomill::python {
@@ -32,13 +32,13 @@ namespace osteomill::python {
 /// The bone whose voxels are those of the arrays, (i, j, k): the fraction left of each (uint8, or bool), its
 /// relative stiffness (an array, one number, or None: 1), its tissue's label. Throws std::invalid_argument
 /// that names the argument.
-BoneView bone_from_array(const pybind11::array& fraction, double spacing_mm,
-                         const pybind11::handle& origin_mm, const pybind11::object& stiffness,
-                         const std::optional<pybind11::array>& tissue);
+PythonBone bone_from_array(const pybind11::array& fraction, double spacing_mm,
+                           const pybind11::handle& origin_mm, const pybind11::object& stiffness,
+                           const std::optional<pybind11::array>& tissue);
 
 /// Saves the present bone, voxel by voxel, for Case(bone=...) and haptic_server --bone. Throws ImagingError
 /// in one line if it cannot be written.
-void save_bone_of(const BoneView& view, const std::filesystem::path& file);
+void save_bone_of(const PythonBone& view, const std::filesystem::path& file);
 
 namespace {
 
@@ -107,7 +107,7 @@ void for_each_row(const Bone& bone, const Box& box, const Copy& copy) {
 
 /// Reads a bone that no other thread changes meanwhile, without the interpreter's lock.
 template <typename Look>
-void look(const BoneView& view, const Look& look_at) {
+void look(const PythonBone& view, const Look& look_at) {
     const ReleasedLock released;
     std::unique_lock<std::mutex> held;
     if (view.session() != nullptr) held = taken(view.session()->busy());
@@ -117,7 +117,7 @@ void look(const BoneView& view, const Look& look_at) {
 /// A copy of a channel: `copy(bone, slot, offset in the brick, count, out)` for each row, 0 if no bone is
 /// stored.
 template <typename Value, typename Copy>
-py::array channel(const BoneView& view, const BoxArgument& argument, const Copy& copy) {
+py::array channel(const PythonBone& view, const BoxArgument& argument, const Copy& copy) {
     const Box box = box_of(argument, view.bone().grid());
     auto array = empty_array<Value>(box);
     Value* out = array.mutable_data();
@@ -131,7 +131,7 @@ py::array channel(const BoneView& view, const BoxArgument& argument, const Copy&
     return array;
 }
 
-py::array fraction(const BoneView& view, const BoxArgument& box) {
+py::array fraction(const PythonBone& view, const BoxArgument& box) {
     return channel<std::uint8_t>(
         view, box,
         [](const Bone& bone, std::int32_t slot, std::size_t offset, std::size_t count, std::uint8_t* out) {
@@ -139,7 +139,7 @@ py::array fraction(const BoneView& view, const BoxArgument& box) {
         });
 }
 
-py::array tissue(const BoneView& view, const BoxArgument& box) {
+py::array tissue(const PythonBone& view, const BoxArgument& box) {
     return channel<std::uint8_t>(
         view, box,
         [](const Bone& bone, std::int32_t slot, std::size_t offset, std::size_t count, std::uint8_t* out) {
@@ -148,7 +148,7 @@ py::array tissue(const BoneView& view, const BoxArgument& box) {
         });
 }
 
-py::array stiffness(const BoneView& view, const BoxArgument& box) {
+py::array stiffness(const PythonBone& view, const BoxArgument& box) {
     return channel<float>(
         view, box,
         [](const Bone& bone, std::int32_t slot, std::size_t offset, std::size_t count, float* out) {
@@ -157,7 +157,7 @@ py::array stiffness(const BoneView& view, const BoxArgument& box) {
         });
 }
 
-py::array hu(const BoneView& view, const BoxArgument& argument) {
+py::array hu(const PythonBone& view, const BoxArgument& argument) {
     const Grid& grid = view.bone().grid();
     const BoneSource* source = view.source();
     if (source == nullptr || !has_ct(*source, grid))
@@ -183,8 +183,8 @@ py::array hu(const BoneView& view, const BoxArgument& argument) {
 }  // namespace
 
 void bind_bone(py::module_& module) {
-    py::class_<BoneView>(module, "Bone",
-                         R"(A bone on a grid of voxels: what is left of it, and what it is made of.
+    py::class_<PythonBone>(module, "Bone",
+                           R"(A bone on a grid of voxels: what is left of it, and what it is made of.
 
 Voxel (i, j, k) is a cube of edge `spacing_mm`; its centre lies at `origin_mm + spacing_mm * (i, j, k)` in patient LPS
 (x to the patient's left, y to the back, z up). Arrays are copies of shape (i, j, k) with i fastest in memory; `.T` is
@@ -203,21 +203,21 @@ To mill it, save it and name the file: bone.save("own.nrrd"), Case("cube", bone=
              "haptic_server --bone; "
              "3D Slicer reads it, too. Fault: it cannot be written.")
         .def_property_readonly(
-            "spacing_mm", [](const BoneView& view) { return view.bone().grid().spacing_mm; },
+            "spacing_mm", [](const PythonBone& view) { return view.bone().grid().spacing_mm; },
             "Edge of a voxel, mm.")
         .def_property_readonly(
-            "origin_mm", [](const BoneView& view) { return array_of(view.bone().grid().origin_mm); },
+            "origin_mm", [](const PythonBone& view) { return array_of(view.bone().grid().origin_mm); },
             "Centre of voxel (0, 0, 0), patient LPS, mm: (3,).")
         .def_property_readonly(
             "shape",
-            [](const BoneView& view) {
+            [](const PythonBone& view) {
                 const glm::ivec3& n = view.bone().grid().size_voxels;
                 return py::make_tuple(n.x, n.y, n.z);
             },
             "Voxels along i, j and k.")
         .def_property_readonly(
             "volume_mm3",
-            [](const BoneView& view) {
+            [](const PythonBone& view) {
                 double volume_mm3 = 0.0;
                 look(view, [&](const Bone& bone) { volume_mm3 = bone_volume_mm3(bone); });
                 return volume_mm3;
@@ -238,7 +238,7 @@ To mill it, save it and name the file: bone.save("own.nrrd"), Case("cube", bone=
              "ValueError: there are none.")
         .def(
             "checksum",
-            [](const BoneView& view) {
+            [](const PythonBone& view) {
                 std::uint64_t sum = 0;
                 look(view, [&](const Bone& bone) { sum = checksum(bone); });
                 return fmt::format("{:016x}", sum);
@@ -246,7 +246,7 @@ To mill it, save it and name the file: bone.save("own.nrrd"), Case("cube", bone=
             "Checksum of the remaining bone, 16 hex digits: equal for equal bones, and the `bone_checksum` "
             "of haptic_server "
             "--json.")
-        .def("__repr__", [](const BoneView& view) {
+        .def("__repr__", [](const PythonBone& view) {
             const Grid& grid = view.bone().grid();
             return fmt::format("<Bone of {} x {} x {} voxels of {:g} mm>", grid.size_voxels.x,
                                grid.size_voxels.y, grid.size_voxels.z, grid.spacing_mm);
@@ -304,8 +304,8 @@ int edge_of(const py::array& array, int axis) {
 
 }  // namespace
 
-BoneView bone_from_array(const py::array& fraction, double spacing_mm, const py::handle& origin_mm,
-                         const py::object& stiffness, const std::optional<py::array>& tissue) {
+PythonBone bone_from_array(const py::array& fraction, double spacing_mm, const py::handle& origin_mm,
+                           const py::object& stiffness, const std::optional<py::array>& tissue) {
     const Bytes3 left = fractions_of(fraction);
     const Grid grid{.size_voxels = {edge_of(left, 0), edge_of(left, 1), edge_of(left, 2)},
                     .spacing_mm = spacing_mm,
@@ -345,10 +345,10 @@ BoneView bone_from_array(const py::array& fraction, double spacing_mm, const py:
     });
     if (bone.stored_bricks() == 0)
         throw std::invalid_argument("fraction: there is no bone: every voxel is 0");
-    return BoneView(std::move(bone));
+    return PythonBone(std::move(bone));
 }
 
-void save_bone_of(const BoneView& view, const std::filesystem::path& file) {
+void save_bone_of(const PythonBone& view, const std::filesystem::path& file) {
     const ReleasedLock released;
     std::unique_lock<std::mutex> held;
     if (view.session() != nullptr) held = taken(view.session()->busy());

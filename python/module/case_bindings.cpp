@@ -13,7 +13,7 @@
 #include "common/scene/scene_file.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
-#include "python/module/bone_view.h"
+#include "python/module/python_bone.h"
 #include "python/module/released_lock.h"
 
 namespace osteomill::python {
@@ -194,7 +194,7 @@ tissue's stiffness or another bone loads it anew. Errors as Case.)")
         .def_property_readonly(
             "bone",
             [](const std::shared_ptr<LoadedCase>& loaded) {
-                return BoneView(std::shared_ptr<const LoadedCase>(loaded));
+                return PythonBone(std::shared_ptr<const LoadedCase>(loaded));
             },
             "The bone before anything is milled.")
         .def_property_readonly(

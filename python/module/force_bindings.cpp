@@ -8,7 +8,7 @@
 
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
-#include "python/module/bone_view.h"
+#include "python/module/python_bone.h"
 #include "simulation/cutting_force/reference_force.h"
 
 namespace osteomill::python {
@@ -27,7 +27,7 @@ SteadyMotion make_motion(const py::object& position_mm, const py::object& veloci
 }
 
 /// Stiffness of the voxel in which a point lies, times the fraction left of it.
-BoneFunction function_of(const BoneView& view) {
+BoneFunction function_of(const PythonBone& view) {
     return [&bone = view.bone()](const glm::dvec3& position_mm) {
         const glm::ivec3 voxel(glm::floor(to_voxel_coordinates(bone.grid(), position_mm) + 0.5));
         return bone.stiffness_at(voxel) * bone.fraction_at(voxel) / 255.0;
@@ -35,7 +35,7 @@ BoneFunction function_of(const BoneView& view) {
 }
 
 BoneFunction function_of(const py::object& bone) {
-    if (py::isinstance<BoneView>(bone)) return function_of(bone.cast<const BoneView&>());
+    if (py::isinstance<PythonBone>(bone)) return function_of(bone.cast<const PythonBone&>());
     if (py::isinstance<py::str>(bone) && bone.cast<std::string>() == "flat") return study::flat_bone();
     if (PyCallable_Check(bone.ptr()) == 0)
         throw std::invalid_argument(

@@ -17,12 +17,12 @@
 
 #include "analysis/hdf5/recording_hdf5.h"
 #include "analysis/replay/recording_summary.h"
-#include "analysis/report/metric_files.h"
+#include "analysis/report/metrics_csv_json.h"
 #include "analysis/report/session_metrics.h"
 #include "common/recording/playhead.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
-#include "python/module/bone_view.h"
+#include "python/module/python_bone.h"
 #include "python/module/released_lock.h"
 #include "python/module/repeated_session.h"
 #include "python/module/tick_columns.h"
@@ -94,12 +94,12 @@ auto column(std::vector<Value> StateColumns::*values, int width = 1) {
     };
 }
 
-BoneView bone_at(const SharedRecording& recording, double time_s) {
+PythonBone bone_at(const SharedRecording& recording, double time_s) {
     if (!(time_s >= 0.0))
         throw std::invalid_argument(fmt::format("time_s: takes seconds from 0 on, not {}", time_s));
     const ReleasedLock released;
     const std::unique_lock<std::mutex> held(recording->busy());
-    return BoneView(Bone(recording->bone_at(time_s)));
+    return PythonBone(Bone(recording->bone_at(time_s)));
 }
 
 py::object metrics(const SharedRecording& recording) {

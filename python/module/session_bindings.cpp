@@ -18,7 +18,7 @@
 #include "common/text/foreign_text.h"
 #include "python/module/arrays.h"
 #include "python/module/bindings.h"
-#include "python/module/bone_view.h"
+#include "python/module/python_bone.h"
 #include "python/module/released_lock.h"
 #include "python/module/session_motion.h"
 #include "python/module/stepped_session.h"
@@ -214,7 +214,7 @@ go to a thread of its own. A copy of a session that is recorded is not. Fault: t
             "__deepcopy__", [](const SharedSession& session, const py::dict&) { return copy_of(session); },
             py::arg("memo"))
         .def_property_readonly(
-            "bone", [](const SharedSession& session) { return BoneView(session); },
+            "bone", [](const SharedSession& session) { return PythonBone(session); },
             "The bone as it is whenever it is asked.")
         .def_property_readonly("case",
                                [](const SharedSession& session) {

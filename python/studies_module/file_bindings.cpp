@@ -11,7 +11,6 @@
 #include "common/files/atomic_file.h"
 #include "common/files/distinct_files.h"
 #include "common/files/input_file.h"
-#include "common/text/address_text.h"
 #include "common/text/csv.h"
 #include "common/text/foreign_json.h"
 #include "common/text/foreign_text.h"

@@ -33,7 +33,8 @@ struct PictureQuality {
     bool operator==(const PictureQuality&) const = default;
 };
 
-// Pictures as PNG files (libpng): of 8-bit RGB, or of indices into a table of colours.
+// Pictures as PNG files (libpng), written fast and without a wait for the disk: of 8-bit RGB, or of indices
+// into a table of colours.
 
 /// Replaces the file as a whole. Throws std::runtime_error, naming the file, if it cannot be written.
 void write_png(const Picture& picture, const std::filesystem::path& file);

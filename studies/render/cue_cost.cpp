@@ -22,7 +22,7 @@ namespace osteomill::study {
 namespace {
 
 constexpr int rays_a_side = 4;
-constexpr double leap_mm = 1.0;
+constexpr double discontinuity_mm = 1.0;
 
 bool is_of_tool(std::string_view cue) {
     return cue == "handpiece" || cue == "motion blur";
@@ -82,7 +82,8 @@ double distance_mm(const Camera& camera, const glm::ivec2& size_px, float window
     return projection[3][2] / (2.0 * static_cast<double>(window_depth) - 1.0 + projection[2][2]);
 }
 
-/// Summary of the squares of rays, one for each pixel: their mean, and whether depth leaps among them.
+/// Summary of the squares of rays, one for each pixel: their mean, and whether depth is discontinuous among
+/// them.
 struct Supersampled {
     Picture picture;
     std::vector<bool> is_silhouette;
@@ -114,8 +115,9 @@ Supersampled supersampled(const BoneTextures& bone, const Camera& camera, const 
             for (std::size_t channel = 0; channel < 3; ++channel)
                 made.picture.rgb[3 * made.is_silhouette.size() + channel] = static_cast<std::uint8_t>(
                     std::lround(static_cast<double>(sum[channel]) / (rays_a_side * rays_a_side)));
-            made.is_silhouette.push_back(
-                distance_mm(camera, size_px, farthest) - distance_mm(camera, size_px, nearest) > leap_mm);
+            made.is_silhouette.push_back(distance_mm(camera, size_px, farthest) -
+                                             distance_mm(camera, size_px, nearest) >
+                                         discontinuity_mm);
         }
     return made;
 }

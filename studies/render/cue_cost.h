@@ -39,7 +39,7 @@ CueCost cue_cost(std::string_view cue, const BoneTextures& bone, const Camera& c
 struct SilhouettePsnr {
     double without_db = 0.0;
     double with_db = 0.0;
-    std::size_t pixels = 0;  ///< in which depth leaps by a millimetre or more
+    std::size_t pixels = 0;  ///< with a depth discontinuity of a millimetre or more
 };
 
 /// Peak signal-to-noise ratio on the pixels of silhouettes against a picture of 4 x 4 rays a pixel, each of

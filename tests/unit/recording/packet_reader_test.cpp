@@ -1,8 +1,6 @@
-#include "common/recording/packet_reader.h"
-
 #include <gmock/gmock.h>
 
-#include "common/recording/packet_writer.h"
+#include "common/recording/packet.h"
 #include "tests/support/made_recording.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"

@@ -1,8 +1,6 @@
-#include "common/recording/packet_writer.h"
-
 #include <gmock/gmock.h>
 
-#include "common/recording/packet_reader.h"
+#include "common/recording/packet.h"
 #include "common/wire/frame.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/made_recording.h"

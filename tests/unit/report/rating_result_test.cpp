@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "analysis/report/metric_files.h"
+#include "analysis/report/metrics_csv_json.h"
 #include "analysis/report/report_html.h"
 #include "analysis/report/session_metrics.h"
 #include "common/scene/rating_quantities.h"

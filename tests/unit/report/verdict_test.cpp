@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "analysis/report/metric_files.h"
+#include "analysis/report/metrics_csv_json.h"
 #include "analysis/report/reference_sessions.h"
 #include "analysis/report/report_html.h"
 #include "analysis/report/session_metrics.h"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/report/metric_files.h"
-#include "common/recording/packet_reader.h"
-#include "imaging/picture/bone_view.h"
+#include "analysis/report/metrics_csv_json.h"
+#include "common/recording/packet.h"
+#include "imaging/picture/bone_picture.h"
 #include "tests/support/made_recording.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/written_session.h"

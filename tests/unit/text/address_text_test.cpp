@@ -1,7 +1,7 @@
-#include "common/text/address_text.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "common/text/foreign_text.h"
 
 namespace osteomill {
 namespace {

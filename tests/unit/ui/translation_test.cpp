@@ -307,7 +307,7 @@ TEST(Translation, LeaveNoWordsOfTheReportAside) {
         "reached", "missed", "two", "first", "cannot make a PNG picture: ", "data:image/png;base64,"};
     const auto sources = sources_in("analysis/report");
     std::size_t literals = 0;
-    for (const char* file : {"first_page.cpp", "metric_tables.cpp", "session_pictures.cpp", "rating_html.cpp",
+    for (const char* file : {"first_page.cpp", "metrics_html.cpp", "session_pictures.cpp", "rating_html.cpp",
                              "report_html.cpp", "session_plots.cpp"}) {
         const std::string& source = sources.at(file);
         for (std::size_t at = source.find('"'); at != std::string::npos; at = source.find('"', at)) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/picture/bone_view.h"
+#include "imaging/picture/bone_picture.h"
 #include "studies/render/made_bone.h"
 #include "tests/support/ball_structure.h"
 #include "tests/support/labelled_cube.h"

@@ -1,4 +1,4 @@
-#include "analysis/report/metric_files.h"
+#include "analysis/report/metrics_csv_json.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

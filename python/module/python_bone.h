@@ -10,15 +10,15 @@
 
 namespace osteomill::python {
 
-class BoneView {
+class PythonBone {
   public:
     /// The bone as it was loaded.
-    explicit BoneView(std::shared_ptr<const LoadedCase> loaded) : loaded_(std::move(loaded)) {}
+    explicit PythonBone(std::shared_ptr<const LoadedCase> loaded) : loaded_(std::move(loaded)) {}
     /// The session's bone at each moment of reading.
-    explicit BoneView(std::shared_ptr<SteppedSession> session)
+    explicit PythonBone(std::shared_ptr<SteppedSession> session)
         : loaded_(session->shared_case()), session_(std::move(session)) {}
     /// A bone of its own, without CT numbers.
-    explicit BoneView(Bone bone) : own_(std::make_shared<const Bone>(std::move(bone))) {}
+    explicit PythonBone(Bone bone) : own_(std::make_shared<const Bone>(std::move(bone))) {}
 
     const Bone& bone() const {
         if (own_) return *own_;

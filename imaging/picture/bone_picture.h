@@ -1,4 +1,5 @@
-// A picture of a bone by the CPU: parallel rays through its bricks to where half a voxel is left.
+// A picture of a bone by the CPU: parallel rays through its bricks to where half a voxel is left; and PNGs of
+// such pictures.
 //
 // Surface and normals are those of the window (bone_sampling.glsl). Lit from the viewer's upper left,
 // coloured by tissue; where the near side is cut away, the cut face is flat and bears the tissues' colours.
@@ -14,6 +15,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/bone/bone.h"
@@ -50,11 +52,15 @@ struct SectionMarks {
 RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const BoneView& view, int size_px,
                       const SectionMarks& marks = {});
 
-// A picture of 8-bit RGB as a PNG file (libpng).
+// A picture as a PNG that lasts: small, and on the disk when it is written. The window's, of which there are
+// thirty a second, are those of render_client/volume/picture.h.
 
-/// `rgb`: three bytes a pixel, rows from above. Replaces the file as a whole. Throws std::runtime_error, in
-/// one line naming the file, if it cannot be written.
-void write_rgb_png(std::span<const std::uint8_t> rgb, const glm::ivec2& size_px,
-                   const std::filesystem::path& path, Link link = Link::follow);
+/// The bytes of a PNG. `rgb`: three bytes a pixel, rows from above. Throws std::runtime_error.
+std::string lasting_png(std::span<const std::uint8_t> rgb, const glm::ivec2& size_px);
+
+/// Replaces the file as a whole. Throws std::runtime_error, in one line naming the file, if it cannot be
+/// written.
+void write_lasting_png(std::span<const std::uint8_t> rgb, const glm::ivec2& size_px,
+                       const std::filesystem::path& path, Link link = Link::follow);
 
 }  // namespace osteomill

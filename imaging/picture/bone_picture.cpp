@@ -1,4 +1,4 @@
-#include "imaging/picture/bone_view.h"
+#include "imaging/picture/bone_picture.h"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -335,17 +335,24 @@ RgbPicture picture_of(const Bone& bone, std::span<const Tissue> tissues, const B
     return picture;
 }
 
-void write_rgb_png(std::span<const std::uint8_t> rgb, const glm::ivec2& size_px,
-                   const std::filesystem::path& path, Link link) {
+std::string lasting_png(std::span<const std::uint8_t> rgb, const glm::ivec2& size_px) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     image.format = PNG_FORMAT_RGB;
     image.width = static_cast<png_uint_32>(size_px.x);
     image.height = static_cast<png_uint_32>(size_px.y);
-    AtomicFile file(path, link);
-    if (!png_image_write_to_file(&image, file.part().c_str(), 0, rgb.data(), 0, nullptr))
-        throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), image.message));
-    file.commit();
+    std::string png;
+    png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(image);
+    png.resize(bytes);
+    if (!png_image_write_to_memory(&image, png.data(), &bytes, 0, rgb.data(), 0, nullptr))
+        throw std::runtime_error(fmt::format("a picture cannot be made: {}", image.message));
+    png.resize(bytes);
+    return png;
+}
+
+void write_lasting_png(std::span<const std::uint8_t> rgb, const glm::ivec2& size_px,
+                       const std::filesystem::path& path, Link link) {
+    write_atomic_file(path, lasting_png(rgb, size_px), link);
 }
 
 }  // namespace osteomill

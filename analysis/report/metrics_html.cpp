@@ -1,4 +1,4 @@
-#include "analysis/report/metric_tables.h"
+#include "analysis/report/metrics_html.h"
 
 #include <fmt/format.h>
 
