@@ -104,7 +104,7 @@ class ConnectedClients {
     std::optional<Id> steered_last_;                // set while that client is connected
 
     std::map<Id, std::shared_ptr<ClientConnection>> connections_;
-    /// The connections from which no hello has come. They are sent a hello and nothing else, so that a
+    /// The connections from which no hello has come. They are sent a hello and nothing else, so that an
     /// untrusted peer costs no snapshot.
     ConnectionQuota unidentified_;
     std::set<Id> watchers_;       // connections that may not move the tool
