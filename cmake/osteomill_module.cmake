@@ -13,7 +13,7 @@ endfunction()
 
 # osteomill_module(NAME [FOLDERS folder... [EXCEPT file...]] [SOURCES file...] LIBRARIES lib ... [LOOPS]): a static library of all sources in
 # these folders, but for the mains of programs (NAME_main.cpp) and those in EXCEPT, and of SOURCES. Includes are written from the
-# repository root ("common/bone/grid.h"). LOOPS: it has inner loops that somebody waits for, see osteomill_optimisation.cmake.
+# repository root ("common/bone/grid.h"). LIBRARIES bring their own along, which are not named again. LOOPS: it has inner loops that somebody waits for, see osteomill_optimisation.cmake.
 function(osteomill_module name)
     cmake_parse_arguments(arg "LOOPS" "" "FOLDERS;EXCEPT;SOURCES;LIBRARIES" ${ARGN})
     osteomill_sources(found *.cpp ${arg_FOLDERS} EXCEPT ${arg_EXCEPT})
@@ -33,10 +33,10 @@ function(osteomill_module name)
     endif()
 endfunction()
 
-# osteomill_program(NAME SOURCES ... LIBRARIES ...): a thin main over the modules; installed.
+# osteomill_program(NAME [FOLDER folder] LIBRARIES ...): NAME_main.cpp of this folder, a thin main over the modules; installed.
 function(osteomill_program name)
-    cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
-    add_executable(${name} ${arg_SOURCES})
+    cmake_parse_arguments(arg "" "FOLDER" "LIBRARIES" ${ARGN})
+    add_executable(${name} ${CMAKE_CURRENT_SOURCE_DIR}/${arg_FOLDER}/${name}_main.cpp)
     target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} osteomill_warnings)
     target_compile_definitions(${name} PRIVATE OSTEOMILL_VERSION="${PROJECT_VERSION}")
     install(TARGETS ${name} RUNTIME)

@@ -17,10 +17,10 @@ function(osteomill_run test program filter)
 endfunction()
 
 # osteomill_test(NAME [SOURCES file...] [FOLDERS folder... [EXCEPT file...]] LIBRARIES ... [PROGRAMS program...] [DEFINES name=text...] [DRAWS]
-#                [BUSY] [LABEL name] [CLAIMS filter] [NIGHTLY filter] [ADDRESS filter] [THREADS filter] [SANITIZED_NIGHTLY] [THREADS_NIGHTLY]):
+#                [BUSY] [LABEL name] [TIMEOUT seconds] [CLAIMS filter] [NIGHTLY filter] [ADDRESS filter] [THREADS filter] [SANITIZED_NIGHTLY] [THREADS_NIGHTLY]):
 # a GoogleTest program whose tests ctest lists one by one. Filters are GoogleTest's.
-# FOLDERS: every *_test.cpp in them is a source, EXCEPT these.
-# PROGRAMS: it runs these, by support/child_process.h: HAPTIC_SERVER is the path of haptic_server.
+# FOLDERS: every *_test.cpp in them is a source, EXCEPT these. With neither these nor SOURCES: NAME.cpp.
+# PROGRAMS: it runs these, by support/child_process.h: HAPTIC_SERVER is the path of haptic_server; it talks to them, and reads what they write.
 # DRAWS: it uses OpenGL; drivers are unloaded before the leak checker looks and leave leaks that no suppression can name.
 # BUSY: it keeps two cores busy, and a haptic loop that gets none stops for safety.
 # CLAIMS: its tests of a flagship claim: `ctest -L claims`.
@@ -30,11 +30,15 @@ endfunction()
 # SANITIZED_NIGHTLY: these two hold for `./test.sh all` alone, since unit tests run the same code under the same sanitizer.
 # THREADS_NIGHTLY: THREADS holds for `./test.sh all` alone: two fifths of that build are what only these tests need.
 function(osteomill_test name)
-    cmake_parse_arguments(arg "DRAWS;BUSY;SANITIZED_NIGHTLY;THREADS_NIGHTLY" "LABEL;CLAIMS;NIGHTLY;ADDRESS;THREADS"
+    cmake_parse_arguments(arg "DRAWS;BUSY;SANITIZED_NIGHTLY;THREADS_NIGHTLY" "LABEL;TIMEOUT;CLAIMS;NIGHTLY;ADDRESS;THREADS"
         "SOURCES;FOLDERS;EXCEPT;LIBRARIES;PROGRAMS;DEFINES" ${ARGN})
     osteomill_sources(found *_test.cpp ${arg_FOLDERS} EXCEPT ${arg_EXCEPT})
+    if(NOT arg_SOURCES AND NOT arg_FOLDERS)
+        set(found ${name}.cpp)
+    endif()
     if(arg_PROGRAMS)
         list(APPEND found ${CMAKE_SOURCE_DIR}/tests/support/child_process.cpp)
+        list(APPEND arg_LIBRARIES osteomill_wire nlohmann_json::nlohmann_json)
     endif()
     add_executable(${name} ${arg_SOURCES} ${found})
     target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
@@ -74,6 +78,9 @@ function(osteomill_test name)
     endif()
     if(arg_LABEL)
         list(APPEND properties LABELS ${arg_LABEL})
+    endif()
+    if(arg_TIMEOUT)
+        list(APPEND properties TIMEOUT ${arg_TIMEOUT})
     endif()
     set(rest "${instrumented}")
     if(NOT instrumented)
@@ -115,6 +122,7 @@ function(osteomill_program_test name)
     elseif(OSTEOMILL_SANITIZER STREQUAL "thread" AND OSTEOMILL_NIGHTLY)
         list(APPEND patterns ${arg_THREADS_NIGHTLY})
     endif()
+    set(osteomill_program_tests ${osteomill_program_tests} ${name}_test.py PARENT_SCOPE)
     if(NOT patterns AND NOT OSTEOMILL_SANITIZER STREQUAL "none")
         return()
     endif()
@@ -148,14 +156,17 @@ function(osteomill_fuzz name library)
     endforeach()
 endfunction()
 
-# osteomill_memcheck(TEST [NIGHTLY] PROGRAM ARGUMENTS...). NIGHTLY: it takes minutes, or waits for another thread, which a busy machine lets
+# osteomill_memcheck(TEST [NIGHTLY] PROGRAM FILTER): those tests of a GoogleTest program; or PROGRAM COMMAND ARGUMENTS... NIGHTLY: it takes minutes, or waits for another thread, which a busy machine lets
 # wait too long under valgrind. There a wait takes thirty times as long; --fair-sched lets each go on.
 function(osteomill_memcheck test)
-    cmake_parse_arguments(arg "NIGHTLY" "" "" ${ARGN})
-    list(POP_FRONT arg_UNPARSED_ARGUMENTS program)
+    cmake_parse_arguments(arg "NIGHTLY" "" "COMMAND" ${ARGN})
+    list(POP_FRONT arg_UNPARSED_ARGUMENTS program filter)
+    if(filter)
+        set(arg_COMMAND --gtest_brief=1 --gtest_filter=${filter})
+    endif()
     if(osteomill_valgrind)
         add_test(NAME EncodersUnderValgrind.${test} COMMAND ${osteomill_valgrind} --quiet --error-exitcode=9 --leak-check=no --fair-sched=yes
-                 $<TARGET_FILE:${program}> ${arg_UNPARSED_ARGUMENTS})
+                 $<TARGET_FILE:${program}> ${arg_COMMAND})
         set_tests_properties(EncodersUnderValgrind.${test} PROPERTIES TIMEOUT 900)
     else()
         add_test(NAME EncodersUnderValgrind.${test} COMMAND ${CMAKE_COMMAND} -E echo "skipped: valgrind is not installed (Debian: valgrind)")

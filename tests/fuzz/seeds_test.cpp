@@ -32,7 +32,7 @@ class FuzzSeeds : public ::testing::TestWithParam<Target> {
     static std::vector<std::vector<std::uint8_t>> seeds() {
         std::vector<std::vector<std::uint8_t>> seeds;
         std::vector folders = GetParam().folders;
-        folders.push_back(std::filesystem::path(OSTEOMILL_FUZZ_SEEDS) / GetParam().name);
+        folders.push_back(std::filesystem::path(REPOSITORY "/tests/fuzz/seeds") / GetParam().name);
         for (const auto& folder : folders)
             for (const auto& entry : std::filesystem::directory_iterator(folder))
                 seeds.push_back(bytes_of(entry.path()));
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
     Of, FuzzSeeds,
     ::testing::Values(Target{"frame_decoder", frame_decoder}, Target{"server_session", server_session},
                       Target{"client_session", client_session}, Target{"recording", recording},
-                      Target{"scene", scene, {OSTEOMILL_SCENES}}, Target{"haply_state", haply_state},
+                      Target{"scene", scene, {REPOSITORY "/scenes"}}, Target{"haply_state", haply_state},
                       Target{"nrrd_header", nrrd_header}, Target{"meta_image_header", meta_image_header},
                       Target{"nifti_header", nifti_header}, Target{"dicom_header", dicom_header},
                       Target{"dicom_segmentation", dicom_segmentation}),

@@ -17,7 +17,7 @@
 namespace osteomill {
 namespace {
 
-const std::filesystem::path golden = std::filesystem::path(GOLDEN) / "0.3";
+const std::filesystem::path golden = std::filesystem::path(REPOSITORY "/tests/golden") / "0.3";
 
 /// 10 x 10 x 4 mm, full when nothing is milled.
 constexpr double block_mm3 = 400.0;

@@ -392,8 +392,9 @@ TEST_F(Recording, IsDecodedByTsharkWithOurProtoFiles) {
     if (!std::filesystem::exists("/usr/bin/tshark")) GTEST_SKIP() << "tshark is not installed";
     record("a.pcap");
     const Finished tshark = run_program({"/usr/bin/tshark", "-r", file("a.pcap"), "-X",
-                                         "lua_script:" OSTEOMILL_PROTO "/osteomill.lua", "-o",
-                                         "uat:protobuf_search_paths:\"" OSTEOMILL_PROTO "\",\"TRUE\"", "-V"});
+                                         "lua_script:" REPOSITORY "/proto/osteomill.lua", "-o",
+                                         "uat:protobuf_search_paths:\"" REPOSITORY "/proto\",\"TRUE\"",
+                                         "-V"});
     EXPECT_EQ(tshark.status, 0) << tshark.err;
     EXPECT_THAT(tshark.out, AllOf(HasSubstr("scene_name = block"), HasSubstr("removed_mm3 = "),
                                   HasSubstr("zstd_channels"), HasSubstr("the session has ended")));

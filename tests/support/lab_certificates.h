@@ -91,7 +91,8 @@ class LabCertificates {
             ".pem 2> /dev/null");
     }
     void make(const std::string& what) const {
-        run(std::string(MAKE_LAB_CERTIFICATES) + " " + folder_.path().string() + " " + what);
+        run(std::string(REPOSITORY "/scripts/make_lab_certificates.sh") + " " + folder_.path().string() +
+            " " + what);
     }
     static void run(const std::string& command) {
         if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);

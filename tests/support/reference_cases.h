@@ -9,7 +9,7 @@ namespace osteomill::testing {
 using ReferenceCase = study::SteadyCase;
 
 inline std::vector<ReferenceCase> reference_cases() {
-    return study::read_steady_cases(OSTEOMILL_TEST_DATA "/milling_forces.json");
+    return study::read_steady_cases(REPOSITORY "/tests/data/milling_forces.json");
 }
 
 }  // namespace osteomill::testing

@@ -30,7 +30,7 @@ std::string obstacle() {
         const auto found = testing::run_program({"/bin/sh", "-c", std::string("command -v ") + program});
         if (found.status != 0) return std::string(program) + " is not installed";
     }
-    if (!std::filesystem::exists(std::filesystem::path(VM_KERNEL) / "vmlinuz"))
+    if (!std::filesystem::exists(std::filesystem::path(REPOSITORY "/build/vm-kernel") / "vmlinuz"))
         return "there is no kernel: scripts/fetch_vm_kernel.sh brings one";
     return "";
 }
@@ -113,7 +113,7 @@ TEST(HidArmInAVirtualMachine, MillsAsTheSimulatedOneAndSurvivesNonsenseAndAPulle
     if (const std::string reason = obstacle(); !reason.empty()) GTEST_SKIP() << reason;
     const testing::TemporaryFolder folder;
     for (const char* file : {"run.sh", "scene.toml", "trajectory.csv", "vm_arm.toml"})
-        std::filesystem::copy(std::filesystem::path(VM_INPUTS) / file, folder / file);
+        std::filesystem::copy(std::filesystem::path(REPOSITORY "/tests/vm") / file, folder / file);
     write_block(folder / "block.nrrd");
 
     const auto host =
@@ -121,8 +121,10 @@ TEST(HidArmInAVirtualMachine, MillsAsTheSimulatedOneAndSurvivesNonsenseAndAPulle
                               folder / "trajectory.csv", "--clock", "virtual", "--milling-rate-hz", "250",
                               "--duration-s", "5", "--log-csv", folder / "simulated.csv"});
     ASSERT_EQ(host.status, 0) << host.err;
-    const auto machine = testing::run_program({RUN_IN_VM, VM_KERNEL, folder.path(), HAPTIC_SERVER, UHID_ARM},
-                                              std::chrono::seconds(270));
+    const auto machine =
+        testing::run_program({REPOSITORY "/tests/vm/run_in_vm.sh", REPOSITORY "/build/vm-kernel",
+                              folder.path(), HAPTIC_SERVER, UHID_ARM},
+                             std::chrono::seconds(270));
     ASSERT_EQ(machine.status, 0) << machine.err << text_of(folder / "console");
     const std::filesystem::path out = folder / "out";
     const std::string said = text_of(out / "server.txt");
@@ -196,11 +198,17 @@ TEST(HidArmInAVirtualMachine, MillsUnderTheServiceWithAllThatItsUnitTakesAway) {
     if (!std::filesystem::exists(systemd)) GTEST_SKIP() << "systemd is not installed";
     const testing::TemporaryFolder folder;
     for (const char* file : {"scene.toml", "trajectory.csv", "vm_arm.toml"})
-        std::filesystem::copy(std::filesystem::path(VM_INPUTS) / file, folder / file);
-    std::filesystem::copy(std::filesystem::path(VM_INPUTS) / "run_service.sh", folder / "run.sh");
-    std::filesystem::copy(SERVICE, folder / "osteomill.service");
+        std::filesystem::copy(std::filesystem::path(REPOSITORY "/tests/vm") / file, folder / file);
+    std::filesystem::copy(std::filesystem::path(REPOSITORY "/tests/vm") / "run_service.sh",
+                          folder / "run.sh");
+    std::filesystem::copy(REPOSITORY "/scripts/systemd/osteomill.service", folder / "osteomill.service");
     write_block(folder / "block.nrrd");
-    std::vector<std::string> command{RUN_IN_VM, VM_KERNEL, folder.path(), HAPTIC_SERVER, UHID_ARM, systemd};
+    std::vector<std::string> command{REPOSITORY "/tests/vm/run_in_vm.sh",
+                                     REPOSITORY "/build/vm-kernel",
+                                     folder.path(),
+                                     HAPTIC_SERVER,
+                                     UHID_ARM,
+                                     systemd};
     // Since version 255 it starts services by a program of its own.
     if (const std::string executor = "/lib/systemd/systemd-executor"; std::filesystem::exists(executor))
         command.push_back(executor);

@@ -79,12 +79,12 @@ TEST(MetricsText, IsInPrometheusFormat) {
 
 TEST(MetricsText, IsWhatTheDocumentAndTheDashboardName) {
     const std::string text = prometheus_text({}, {}, "9.8.7");
-    const std::string document = text_of(DOCUMENTS "/operating.md");
+    const std::string document = text_of(REPOSITORY "/docs/operating.md");
     const std::regex family("# TYPE (osteomill_[a-z_]+)");
     for (std::sregex_iterator at(text.begin(), text.end(), family), end; at != end; ++at)
         EXPECT_THAT(document, HasSubstr("`" + (*at)[1].str()));
     const std::set<std::string> there = named_in(text);
-    const std::set<std::string> shown = named_in(text_of(DOCUMENTS "/grafana_dashboard.json"));
+    const std::set<std::string> shown = named_in(text_of(REPOSITORY "/docs/grafana_dashboard.json"));
     EXPECT_GT(shown.size(), 5U);
     for (const std::string& name : shown) EXPECT_TRUE(there.contains(name)) << name << " of the dashboard";
 }

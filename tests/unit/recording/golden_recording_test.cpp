@@ -11,7 +11,7 @@ namespace {
 
 TEST(GoldenRecording, OfProtocol1IsRefusedInOneLineThatSaysSo) {
     try {
-        Playhead playhead(std::filesystem::path(OSTEOMILL_TEST_DATA) / "recording_1_1.pcap");
+        Playhead playhead(std::filesystem::path(REPOSITORY "/tests/data") / "recording_1_1.pcap");
         FAIL() << "it was read";
     } catch (const RecordingError& error) {
         EXPECT_THAT(error.what(), ::testing::HasSubstr("recording_1_1.pcap, packet 1"));
@@ -23,7 +23,7 @@ TEST(GoldenRecording, OfProtocol1IsRefusedInOneLineThatSaysSo) {
 
 TEST(GoldenRecording, OfProtocol20HasNoTicksAndIsRead) {
     // haptic_server 0.2.0 of protocol 2.0, on tests/support/block_file.h's block: its own --json said so.
-    Playhead playhead(std::filesystem::path(OSTEOMILL_TEST_DATA) / "recording_2_0.pcap");
+    Playhead playhead(std::filesystem::path(REPOSITORY "/tests/data") / "recording_2_0.pcap");
     while (playhead.step(std::numeric_limits<double>::infinity()) != Playhead::Step::end) {
         EXPECT_TRUE(playhead.ticks().empty());
     }

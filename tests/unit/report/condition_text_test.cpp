@@ -44,8 +44,11 @@ TEST_F(ConditionText, LeavesAConditionThatCannotBeRead) {
 }
 
 TEST_F(ConditionText, HasWordsForEveryQuantity) {
-    for (const RatedQuantity& one : rated_quantities)
-        EXPECT_EQ(quantity_text(one.key, "").find('_'), std::string::npos) << one.key;
+    for (const RatedQuantity& one : rated_quantities) {
+        const std::string text = quantity_text(one.key, "");
+        EXPECT_FALSE(text.empty()) << one.key;
+        EXPECT_EQ(text.find_first_of("_{"), std::string::npos) << one.key;
+    }
 }
 
 TEST_F(ConditionText, ShowsValuesWithTheirUnits) {

@@ -32,6 +32,21 @@ std::string wrong_in(const std::string& text) {
     return testing::message_of<ConditionError>([&] { const RatingCondition condition(text); });
 }
 
+TEST(RatingCondition, HandsOutItsPiecesInOrder) {
+    std::string pieces;
+    for (const ConditionPiece& one :
+         RatingCondition("not (structure_touches ( 'the nerve' )+1 >= -2.5) or time_s<3*undos").pieces()) {
+        if (one.kind == ConditionPiece::Kind::number)
+            pieces += std::to_string(static_cast<int>(10 * one.number));
+        else if (one.kind == ConditionPiece::Kind::quantity)
+            pieces += one.quantity.key + "," + one.quantity.of;
+        else
+            pieces += one.text;
+        pieces += ' ';
+    }
+    EXPECT_EQ(pieces, "not ( structure_touches,the nerve + 10 >= - 25 ) or time_s, < 30 * undos, ");
+}
+
 TEST(RatingCondition, ComparesNumbers) {
     for (const char* yes : {"time_s < 10.5", "time_s <= 10", "time_s > 9", "time_s >= 1e1", "time_s == 10",
                             "time_s != 9", "-time_s < -9.5", "structure_touches(\"the nerve\") == 2",

@@ -94,7 +94,7 @@ file = "path.csv"
 
 TEST(SceneFile, ShippedScenesAreReadAndSurviveWriting) {
     int scenes = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(OSTEOMILL_SCENES)) {
+    for (const auto& entry : std::filesystem::directory_iterator(REPOSITORY "/scenes")) {
         if (entry.path().extension() != ".toml" || entry.path().filename() == "materials.toml") continue;
         const Scene scene = read_scene(entry.path());
         EXPECT_EQ(parse_scene(write_scene(scene), "again.toml"), scene) << entry.path();
@@ -222,7 +222,7 @@ TEST(SceneFile, AnySpindleSpeedSurvivesWriting) {
 }
 
 TEST(SceneFile, IsWrittenWithEveryKeyThatHasAValue) {
-    for (const auto& entry : std::filesystem::directory_iterator(OSTEOMILL_SCENES)) {
+    for (const auto& entry : std::filesystem::directory_iterator(REPOSITORY "/scenes")) {
         if (entry.path().extension() != ".toml" || entry.path().filename() == "materials.toml") continue;
         const Scene scene = read_scene(entry.path());
         const std::string text = write_scene(scene, SceneText::complete);
@@ -252,7 +252,7 @@ TEST(SceneFile, IsWrittenForPeople) {
 }
 
 TEST(SceneFile, AFileCutOffOrDamagedAnywhereIsASceneOrAnErrorWithItsName) {
-    const std::string whole = write_scene(read_scene(OSTEOMILL_SCENES "/tooth.toml"));
+    const std::string whole = write_scene(read_scene(REPOSITORY "/scenes/tooth.toml"));
     const auto reads_or_refuses = [](const std::string& text) {
         try {
             (void)parse_scene(text, "my.toml");

@@ -80,7 +80,7 @@ TEST(KeyBindings, HaveTheKeysOfTheDocuments) {
     };
     for (const KeyBinding& binding : key_bindings()) known.merge(keys_in(binding.name));
     for (const char* document : {"README.md", "docs/microscope.md"}) {
-        std::ifstream file(std::filesystem::path(OSTEOMILL_SOURCES) / document);
+        std::ifstream file(std::filesystem::path(REPOSITORY) / document);
         int keys = 0;
         bool is_in_table = false;
         for (std::string line; std::getline(file, line);) {

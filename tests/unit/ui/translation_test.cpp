@@ -68,7 +68,7 @@ std::string literal_at(const std::string& source, std::size_t& at) {
 std::map<std::string, std::string> sources_in(const char* folder) {
     std::map<std::string, std::string> sources;
     for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(std::filesystem::path(OSTEOMILL_SOURCES) / folder)) {
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(REPOSITORY) / folder)) {
         if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
         std::ostringstream text;
         std::ifstream file(entry.path());

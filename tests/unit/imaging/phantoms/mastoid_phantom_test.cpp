@@ -74,7 +74,7 @@ std::size_t index_in_grid(const glm::ivec3& v) {
 }
 
 TEST(MastoidPhantom, HasTheNamesIdentifiersAndLabelsOfFivrs) {
-    std::ifstream table(OSTEOMILL_SCENES "/fivrs.ctbl");
+    std::ifstream table(REPOSITORY "/scenes/fivrs.ctbl");
     std::string line;
     std::size_t tissue = 0;
     const Scene scene = phantom_scene("mastoid");

@@ -131,7 +131,7 @@ TEST(PhantomScenes, GiveTissuesColoursThatDifferInLightness) {
 
 TEST(PhantomScenes, AreTheOnesThatAreShippedAsFiles) {
     for (const std::string name : phantom_names)
-        EXPECT_EQ(read_scene(OSTEOMILL_SCENES "/" + name + ".toml"), phantom_scene(name)) << name;
+        EXPECT_EQ(read_scene(REPOSITORY "/scenes/" + name + ".toml"), phantom_scene(name)) << name;
     EXPECT_THROW((void)phantom_scene("skull"), std::invalid_argument);
     EXPECT_THROW((void)make_phantom("skull"), std::invalid_argument);
 }

@@ -17,7 +17,7 @@ using ::testing::Not;
 class SteadyCaseFile : public ::testing::Test {
   protected:
     SteadyCaseFile() {
-        std::ifstream good(OSTEOMILL_TEST_DATA "/milling_forces.json");
+        std::ifstream good(REPOSITORY "/tests/data/milling_forces.json");
         cases_ = nlohmann::json::parse(good);
     }
 
@@ -44,7 +44,7 @@ class SteadyCaseFile : public ::testing::Test {
 };
 
 TEST_F(SteadyCaseFile, IsReadWhole) {
-    const auto cases = read_steady_cases(OSTEOMILL_TEST_DATA "/milling_forces.json");
+    const auto cases = read_steady_cases(REPOSITORY "/tests/data/milling_forces.json");
     ASSERT_EQ(cases.size(), cases_.size());
     const SteadyCase& first = cases.front();
     EXPECT_EQ(first.name, "polish upright d=0.25");
