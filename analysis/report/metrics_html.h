@@ -1,4 +1,4 @@
-// The metrics of a session as tables of HTML, group by group, and its rating.
+// The metrics of a session as tables of HTML, group by group.
 #pragma once
 
 #include <string>
@@ -8,8 +8,6 @@
 #include "common/wire/session_info.h"
 
 namespace osteomill {
-
-// The metrics of a session as tables of HTML, group by group.
 
 /// Metrics of the session in two columns; below them the metrics that exist for each tissue, burr or
 /// structure, a line each.
