@@ -33,9 +33,9 @@ std::string wrong_in(const std::string& text) {
 }
 
 TEST(RatingCondition, HandsOutItsPiecesInOrder) {
+    const RatingCondition condition("not (structure_touches ( 'the nerve' )+1 >= -2.5) or time_s<3*undos");
     std::string pieces;
-    for (const ConditionPiece& one :
-         RatingCondition("not (structure_touches ( 'the nerve' )+1 >= -2.5) or time_s<3*undos").pieces()) {
+    for (const ConditionPiece& one : condition.pieces()) {
         if (one.kind == ConditionPiece::Kind::number)
             pieces += std::to_string(static_cast<int>(10 * one.number));
         else if (one.kind == ConditionPiece::Kind::quantity)
