@@ -21,19 +21,21 @@ float depth_of(float distance_along) {
     return depth_terms.x + depth_terms.y / (distance_along * dot(direction, forward));
 }
 
-// Samples stand on one lattice along the ray, skipped or not, so skipping cannot change the picture.
+// Samples stand on one lattice along the ray, skipped or not, so skipping cannot change the picture. Samples of a block are a loop
+// of their own: a software rasteriser would look the block up again for each.
 bool find_bone(inout float index) {
-    for (int visit = 0; visit < 16384; ++visit) {
-        float distance_along = enter + index * step_length;
-        if (distance_along > leave) return false;
-        vec3 p = eye + distance_along * direction;
-        float skip = skips ? skip_distance(p, direction) : 0.0;
-        if (skip > 0.0) {
-            index += max(ceil(skip / step_length), 1.0);
-            continue;
-        }
-        if (fraction_at(p) >= bone_surface) return true;
-        index += 1.0;
+    float last = floor((leave - enter) / step_length);
+    for (int visit = 0; visit < 16384 && index <= last; ++visit) {
+        bool is_empty;
+        float way = way_in_blocks(eye + (enter + index * step_length) * direction, direction, is_empty);
+        float end = index + max(ceil(way / step_length), 1.0);
+        float next = skips && is_empty ? end : index;
+        for (end = min(end, last + 1.0); next < end; next += 1.0)
+            if (fraction_at(eye + (enter + next * step_length) * direction) >= bone_surface) {
+                index = next;
+                return true;
+            }
+        index = next;
     }
     return false;
 }

@@ -22,8 +22,10 @@
 //     vec4  surface_colour_at(vec3 point)           of surface voxels nearby: display RGB times alpha, alpha
 //     float ambient_occlusion(vec3 point, vec3 normal)    0 to 1, how much of the sky above a surface is free of
 //                                                   bone
-//     float skip_distance(vec3 point, vec3 direction) voxels along a unit direction (no component may be zero)
-//                                                   in which the fraction stays below one half; 0 if unknown
+//     float way_in_blocks(vec3 point, vec3 direction, out bool is_empty)
+//                                                   voxels along a unit direction (no component may be zero) to the faces of the
+//                                                   blocks about the point that are empty: there the fraction stays below one
+//                                                   half; or of its own block, in which it may not
 //     const bool, by variant of the program:
 //     bool  bone_has_colour_code                    else all bone looks alike
 //     bool  bone_codes_are_mostly_alike             as within a tissue; else they are stiffness
@@ -136,36 +138,32 @@ vec4 look_at(vec3 point) {
 }
 
 // Whether among the 4^3 nearest voxels, of which `low` is the first, one of the inner eight or of the corners has
-// another code. A code missed between these is hardly seen.
-bool codes_differ_about(ivec3 low, uint code) {
+// another code. A code missed between these is hardly seen. A loop of no turn where it is not asked: a software rasteriser computes
+// both sides of a branch.
+bool codes_differ_about(ivec3 low, uint code, bool is_asked) {
     uint others = 0u;
-    for (int corner = 0; corner < 8; ++corner) {
-        ivec3 side = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
-        others |= (code_of(low + 1 + side) ^ code) | (code_of(low + 3 * side) ^ code);
+    int voxels = is_asked ? 16 : 0;
+    for (int voxel = 0; voxel < voxels; ++voxel) {
+        ivec3 side = ivec3(voxel & 1, (voxel >> 1) & 1, (voxel >> 2) & 1);
+        others |= code_of(low + (voxel < 8 ? 1 + side : 3 * side)) ^ code;
     }
     return others != 0u;
 }
 
-// Weights by voxel along an axis, for a place 0 to 1 between the middle two: tents at this distance before the place
-// and after it.
-const float tent_offset = 0.85;
-vec4 wide_weights(float part) {
-    vec4 away = vec4(-1.0, 0.0, 1.0, 2.0) - part;
-    return 0.5 * (max(1.0 - abs(away - tent_offset), 0.0) + max(1.0 - abs(away + tent_offset), 0.0));
-}
-
 // Looks of the 4^3 nearest voxels, blended so widely that borders between tissues, which run along the faces of voxels,
-// are no stairs: a standard deviation of 0.9 voxels.
-vec4 wide_look(ivec3 low, vec3 part) {
-    vec4 along_x = wide_weights(part.x), along_y = wide_weights(part.y), along_z = wide_weights(part.z);
+// are no stairs: a standard deviation of 0.9 voxels. Along each axis tents at this distance before and after the place are the weight.
+const float tent_offset = 0.85;
+vec4 wide_look(ivec3 low, vec3 part, bool is_asked) {
     vec4 sum = vec4(0.0);
     float known = 0.0;
-    for (int voxel = 0; voxel < 64; ++voxel) {
+    int voxels = is_asked ? 64 : 0;
+    for (int voxel = 0; voxel < voxels; ++voxel) {
         ivec3 step = ivec3(voxel & 3, (voxel >> 2) & 3, voxel >> 4);
         uint code = code_of(low + step);
         vec4 look = texelFetch(bone_colours, ivec2(int(code), 0), 0);
-        if (code == 0u || look.a == 0.0) continue;
-        float weight = along_x[step.x] * along_y[step.y] * along_z[step.z] + 1e-5;
+        vec3 away = vec3(step) - 1.0 - part;
+        vec3 tents = 0.5 * (max(1.0 - abs(away - tent_offset), 0.0) + max(1.0 - abs(away + tent_offset), 0.0));
+        float weight = code == 0u || look.a == 0.0 ? 0.0 : tents.x * tents.y * tents.z + 1e-5;
         sum += weight * look;
         known += weight;
     }
@@ -195,19 +193,30 @@ vec4 blended_look(vec3 point, ivec3 nearest, ivec3 shift) {
     return known > 0.0 ? sum / known : texelFetch(bone_colours, ivec2(0), 0);
 }
 
+ivec3 block_of(vec3 point) { return ivec3(floor(point / block_edge)) + 1; }
+
+// The distance of bone's surface in blocks, and 128 if bone about the block has one code.
+uint block_texel(ivec3 block) {
+    ivec3 last = ivec3(bone_size / block_edge) + 1;
+    return uint(texelFetch(bone_blocks, clamp(block, ivec3(0), last), 0).g * 255.0 + 0.5);
+}
+
+bool has_one_code_about(vec3 point) { return block_texel(block_of(point)) >= 128u; }
+
 vec4 smooth_look_at(vec3 point) {
     if (!bone_has_colour_code) return texelFetch(bone_colours, ivec2(0), 0);
     ivec3 nearest = ivec3(floor(point));
     ivec3 shift = texel_shift(point);
     uint code = code_at(nearest, shift);
     vec4 look = texelFetch(bone_colours, ivec2(int(code), 0), 0);
-    if (code == 0u || look.a == 0.0) look = texelFetch(bone_colours, ivec2(0), 0);
-    // Within a tissue that is enough. A loop of one turn or none, because a software rasteriser computes both sides of
-    // a branch but leaves a loop in which there is no pixel of a group.
+    bool is_hidden = code == 0u || look.a == 0.0;
+    if (is_hidden) look = texelFetch(bone_colours, ivec2(0), 0);
+    // Within a tissue that is enough.
     if (bone_codes_are_mostly_alike) {
         ivec3 low = ivec3(floor(point - 0.5)) - 1;
-        int turns = codes_differ_about(low, code) ? 1 : 0;
-        for (int turn = 0; turn < turns; ++turn) look = wide_look(low, fract(point - 0.5));
+        bool is_border = codes_differ_about(low, code, is_hidden || !has_one_code_about(point));
+        vec4 wide = wide_look(low, fract(point - 0.5), is_border);
+        if (is_border) look = wide;
     } else
         look = blended_look(point, nearest, shift);
     return look;
@@ -221,7 +230,7 @@ vec3 place_under(vec3 point, vec3 normal) {
 
 float mean_fraction_at(vec3 point) {
     vec3 map_size = bone_size / block_edge + 2.0;
-    return textureLod(bone_blocks, (point / block_edge + 1.0) / map_size, 0.0).r;
+    return textureLod(bone_blocks, (point / block_edge + 1.0) * (1.0 / map_size), 0.0).r;
 }
 
 // By the mean fractions of blocks near and far in four directions round the normal.
@@ -237,14 +246,14 @@ float ambient_occlusion(vec3 point, vec3 normal) {
     return clamp(1.15 - 0.14 * taken, 0.0, 1.0);
 }
 
-// To the faces of the cube of blocks that the distance map says is empty.
-float skip_distance(vec3 point, vec3 direction) {
-    ivec3 block = ivec3(floor(point / block_edge)) + 1;
-    ivec3 last = ivec3(bone_size / block_edge) + 1;
-    int away = int(texelFetch(bone_blocks, clamp(block, ivec3(0), last), 0).g * 255.0 + 0.5);
-    if (away == 0) return 0.0;
-    vec3 low = vec3(block - away) * block_edge;
-    vec3 high = vec3(block + away - 1) * block_edge;
-    vec3 leave = (mix(low, high, greaterThan(direction, vec3(0.0))) - point) / direction;
-    return max(min(leave.x, min(leave.y, leave.z)), 0.0);
+// The faces of the cube of blocks that the distance map says is empty, or of the one block.
+float way_in_blocks(vec3 point, vec3 direction, out bool is_empty) {
+    ivec3 block = block_of(point);
+    int away = int(block_texel(block) & 127u);
+    is_empty = away != 0;
+    int beside = max(away, 1);
+    vec3 low = vec3(block - beside) * block_edge;
+    vec3 high = vec3(block + beside - 1) * block_edge;
+    vec3 leave = (mix(low, high, greaterThan(direction, vec3(0.0))) - point) * (1.0 / direction);
+    return min(leave.x, min(leave.y, leave.z));
 }

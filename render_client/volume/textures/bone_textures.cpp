@@ -2,16 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <glm/common.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "common/bone/structure_mask.h"
+#include "render_client/volume/textures/voxel_codes.h"
 
 namespace osteomill {
 
 namespace {
+
+constexpr int farthest_shown = 127, has_one_code_bit = 128;  // as bone_sampling.glsl has them
 
 void upload_voxels(gl::Texture3D& texture, const Bone& bone, BoneChannel channel, const PlacedVoxels& placed,
                    std::vector<std::uint8_t>& scratch) {
@@ -77,6 +81,8 @@ Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
         co_yield 0.4;
     }
     tile_table_ = upload_tile_table(drawn.content(), places_);
+    if (codes_are_mostly_alike())
+        for (Steps part = find_blocks_of_one_code(drawn); part.step();) co_yield 0.4;
 
     for (Steps wait = arrival(blocks); wait.step();) co_yield 0.4;
     blocks_ = blocks.get();
@@ -182,6 +188,23 @@ std::vector<TextureSize> BoneTextures::sizes() const {
     return sizes;
 }
 
+Steps BoneTextures::find_blocks_of_one_code(const Bone& drawn) {
+    const glm::ivec3& size = empty_space_.size_blocks();
+    has_one_code_.resize(VoxelBox{{}, size}.count());
+    for (const BrickIndex index : drawn.content().brick_of_slot) {
+        const glm::ivec3 brick = brick_position(drawn.content().size_bricks, index);
+        const auto are_one = blocks_of_one_code(drawn, table_.codes, brick);
+        const glm::ivec3 first = (brick * brick_edge_voxels - box().first) / block_edge_voxels + 1;
+        for (std::size_t number = 0; number < blocks_per_brick; ++number) {
+            const glm::ivec3 block =
+                first + glm::ivec3(number & 3, number >> 2 & 3, static_cast<int>(number >> 4));
+            has_one_code_[(static_cast<std::size_t>(block.z) * size.y + block.y) * size.x + block.x] =
+                are_one[number];
+        }
+        co_yield 0.0;
+    }
+}
+
 void BoneTextures::upload_blocks(const VoxelBox& blocks) {
     const glm::ivec3& size = empty_space_.size_blocks();
     scratch_.resize(2 * blocks.count());
@@ -191,7 +214,10 @@ void BoneTextures::upload_blocks(const VoxelBox& blocks) {
             std::size_t block = (static_cast<std::size_t>(z) * size.y + y) * size.x + blocks.first.x;
             for (int x = 0; x < blocks.size.x; ++x, ++block) {
                 *texel++ = empty_space_.mean_fraction()[block];
-                *texel++ = empty_space_.distance()[block];
+                const bool has_one_code = !has_one_code_.empty() && has_one_code_[block];
+                *texel++ =
+                    static_cast<std::uint8_t>(std::min<int>(empty_space_.distance()[block], farthest_shown) +
+                                              (has_one_code ? has_one_code_bit : 0));
             }
         }
     blocks_->upload(blocks.first, blocks.size, scratch_);

@@ -78,7 +78,9 @@ class BoneTextures {
     double colour_depth_voxels() const { return osteomill::colour_depth_voxels(table_); }
     /// AtlasLayout::tile_table; none in a dense layout.
     const std::optional<gl::Texture3D>& tile_table() const { return tile_table_; }
-    /// For each block of EmptySpace, two bytes: its mean fraction and its distance.
+    /// For each block of EmptySpace, two bytes: its mean fraction; and its distance, at most 127, with 128
+    /// more if bone in it and two voxels about it has one code (blocks_of_one_code), where codes are mostly
+    /// alike.
     const gl::Texture3D& blocks() const { return *blocks_; }
 
     /// Tissues that thin bone shows; null if it shows none.
@@ -105,6 +107,7 @@ class BoneTextures {
     Steps for_all(const Bone& drawn, std::function<void(const PlacedVoxels&)> upload);
     const Bone& copied(const Bone& bone) const { return copy_ ? copy_->bone() : bone; }
     const Bone& shown(const Bone& bone) const { return visible_ ? visible_->bone() : copied(bone); }
+    Steps find_blocks_of_one_code(const Bone& drawn);
     void upload_blocks(const VoxelBox& blocks);
     void store_seen_looks();
 
@@ -116,6 +119,7 @@ class BoneTextures {
     Grid grid_;
     AtlasLayout places_;
     EmptySpace empty_space_;
+    std::vector<bool> has_one_code_;  ///< by block of empty_space_; empty if codes are not mostly alike
     std::optional<gl::Texture3D> fraction_;
     std::optional<gl::Texture3D> blocks_;
     std::optional<gl::Texture3D> tile_table_;

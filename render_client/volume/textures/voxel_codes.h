@@ -5,11 +5,13 @@
 // a tooth, at one byte a voxel as before.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "render_client/volume/textures/empty_space.h"
 #include "render_client/volume/textures/voxel_box.h"
 
 namespace osteomill {
@@ -30,6 +32,11 @@ struct VoxelCodes {
 /// is stored, and for a bone without codes. The bone must have the channels that the codes are of.
 void copy_codes(const Bone& bone, const VoxelCodes& codes, const VoxelBox& box,
                 std::span<std::uint8_t> voxels);
+
+/// By block of a brick, x fastest: whether the bone in the block and within two voxels of it has at most one
+/// code. A voxel of code 0 is none, and counts with any other.
+std::array<bool, blocks_per_brick> blocks_of_one_code(const Bone& bone, const VoxelCodes& codes,
+                                                      const glm::ivec3& brick);
 
 /// Copies the codes within a box. A stiffness code is the largest of the voxel and its 26 neighbours: a voxel
 /// at the edge of bone mixes bone and air, and its CT number makes it softer than the bone in it. With its

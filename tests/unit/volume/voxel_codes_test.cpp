@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <random>
 
 #include "common/bone/bone_builder.h"
@@ -84,6 +85,47 @@ TEST(VoxelCodes, OfLabelsAreTheVoxelsOwn) {
         ASSERT_EQ(found[place], bone.tissue_at(voxel));
         ASSERT_EQ(stiffest[place], bone.tissue_at(voxel));
     });
+}
+
+/// Two bricks of label 1, with a voxel of another label here and there, and air.
+Bone bone_with_specks(int specks, std::uint32_t seed) {
+    const Grid grid{.size_voxels = {32, 16, 16}};
+    BoneBuilder builder = BoneBuilder::heterogeneous(grid, 0.02, true);
+    std::mt19937 random(seed);
+    for (int x = 0; x < 2; ++x) {
+        ByteBrick fraction{}, stiffness{}, tissue{};
+        fraction.fill(255);
+        stiffness.fill(50);
+        tissue.fill(1);
+        for (int speck = 0; speck < specks; ++speck)
+            tissue[random() % tissue.size()] = static_cast<std::uint8_t>(random() % 3);
+        builder.add_brick({x, 0, 0}, fraction, &stiffness, &tissue);
+    }
+    return std::move(builder).build();
+}
+
+TEST(VoxelCodes, BlocksOfOneCodeHaveNoSecondOneWithinTwoVoxels) {
+    const VoxelCodes codes{.channel = BoneChannel::tissue};
+    int of_one_code = 0, others = 0;
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        const Bone bone = bone_with_specks(static_cast<int>(seed), seed);
+        for (int brick = 0; brick < 2; ++brick) {
+            const auto are_one = blocks_of_one_code(bone, codes, {brick, 0, 0});
+            for (int block = 0; block < static_cast<int>(blocks_per_brick); ++block) {
+                const glm::ivec3 first =
+                    glm::ivec3(16 * brick, 0, 0) + 4 * glm::ivec3(block & 3, block >> 2 & 3, block >> 4);
+                std::vector<std::uint8_t> about(512);
+                copy_codes(bone, codes, {first - 2, glm::ivec3(8)}, about);
+                std::erase(about, std::uint8_t{0});
+                const bool is_one = std::ranges::adjacent_find(about, std::not_equal_to<>()) == about.end();
+                ASSERT_EQ(are_one[static_cast<std::size_t>(block)], is_one)
+                    << "seed " << seed << ", block " << block;
+                ++(is_one ? of_one_code : others);
+            }
+        }
+    }
+    EXPECT_GT(of_one_code, 100);
+    EXPECT_GT(others, 100);
 }
 
 }  // namespace
