@@ -21,7 +21,7 @@ body{font:14px/1.4 "Helvetica Neue",Arial,"Liberation Sans",sans-serif;color:#22
 h1{font-size:24px;margin:0 0 2px}h2{font-size:17px;margin:26px 0 8px;border-bottom:2px solid #0072b2;padding-bottom:3px}
 p.about{color:#555;margin:2px 0}p.wrong{background:#fdecea;border-left:4px solid #b00;padding:8px 12px}
 .verdict{border-left:6px solid #888;background:#f3f6f9;padding:8px 14px;margin:12px 0}.verdict b{font-size:19px;margin-right:10px}
-.verdict.passed{border-color:#007a4d;background:#e8f5ee}.verdict.failed{border-color:#b00;background:#fdecea}
+.verdict.passed{border-color:#007a4d;background:#e8f5ee}.verdict.failed{border-color:#b00;background:#fdecea}.verdict.touched{border-color:#b26a00;background:#fff4e0}
 .verdict b.undone{font-size:inherit;color:#b00}.source{display:block;color:#777;font-size:12px}code{font-size:11.5px;overflow-wrap:anywhere}
 .tiles{display:grid;grid-template-columns:repeat(3,1fr);gap:8px;margin:12px 0}
 .tile{background:#f3f6f9;border-radius:4px;padding:7px 12px;border-left:4px solid #c9d3dc}

@@ -173,8 +173,10 @@ void add_touches(PanelText& text, const StructureDistance& now, const Tissue& ti
     std::string when = is_one
                            ? trf("at {:.1f} s, for {:.1f} s", now.first_touch_s, now.touched_s)
                            : trf("first at {:.1f} s, for {:.1f} s in all", now.first_touch_s, now.touched_s);
-    const double mm3 = std::max(now.removed_mm3, now.entered_mm3);
-    if (mm3 > 0.0) when += fmt::format(", {:.2f} mm\u00b3", mm3);
+    if (now.removed_mm3 > 0.0)
+        when += trf(", {:.2f} mm³ milled", now.removed_mm3);
+    else if (now.entered_mm3 > 0.0)
+        when += trf(", {:.2f} mm³ entered, none of it milled", now.entered_mm3);
     text.push_back({{Tone::plain, std::move(when)}});
 }
 
