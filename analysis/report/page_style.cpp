@@ -74,13 +74,14 @@ ShownValue shown_value(std::string_view key, double value, std::string_view unit
     return {number_text(value), unit == "mm^3" ? "mm³" : unit == "deg" ? "°" : std::string(unit)};
 }
 
-std::string local_time_text(std::int64_t unix_ns) {
+std::string local_time_text(std::int64_t unix_ns, const std::string& language) {
     if (began_text(unix_ns).empty()) return {};
     const auto unix_s = static_cast<std::time_t>(unix_ns / 1'000'000'000);
     std::tm local{};
     std::array<char, 64> text{};
     if (localtime_r(&unix_s, &local) == nullptr) return {};
-    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M %Z", &local)};
+    const char* const form = language == "de" ? "%d.%m.%Y, %H:%M Uhr" : "%Y-%m-%d %H:%M %Z";
+    return {text.data(), std::strftime(text.data(), text.size(), form, &local)};
 }
 
 namespace {

@@ -4,10 +4,12 @@
 
 #include <string>
 
+#include "common/words/translation.h"
+
 namespace osteomill {
 
-/// Every number of a text with the decimal sign of the chosen language. Numbers with several points, such as
-/// versions, stay as they are.
-std::string with_decimal_sign(std::string text);
+/// Every number of a text with the decimal sign of a language. Numbers with several points, such as versions,
+/// stay as they are.
+std::string with_decimal_sign(std::string text, const std::string& language = spoken_language());
 
 }  // namespace osteomill
