@@ -117,7 +117,7 @@ class LanguageTest(unittest.TestCase):
         numbers = [[re.findall(rf"\d+(?:{sign}\d+)?", cell.replace(began[language], "")) for row in rows for cell in row]
                    for language, sign, rows in (("en", r"\.", english), ("de", ",", german))]
         self.assertEqual(numbers[0], [[number.replace(",", ".") for number in cell] for cell in numbers[1]])
-        text_of = {language: re.sub(r"<style>.*?</style>|<[^>]*>", " ", html, flags=re.DOTALL) for language, html in pages.items()}
+        text_of = {language: re.sub(r"<style>.*?</style>|<[^>]*>", " ", one.html, flags=re.DOTALL) for language, one in pages.items()}
         self.assertIn(" 155,7 ", text_of["de"])
         self.assertEqual(re.findall(r"(?<![\w.])\d+\.\d+(?!\w|\.\d)", text_of["de"]), [])
         self.assertRegex(began["de"], r"^\d\d\.\d\d\.\d{4}, \d\d:\d\d Uhr$")
