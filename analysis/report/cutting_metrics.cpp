@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 #include "common/statistics/percentile.h"
 
@@ -27,9 +28,11 @@ RemovalMetrics removal_metrics(const SessionTrace& trace, std::span<const Stroke
             undone += levels.restored;
         }
     RemovalMetrics metrics{.removed_mm3 = trace.mm3(removed), .undone_mm3 = trace.mm3(undone)};
-    metrics.undos = static_cast<std::size_t>(std::ranges::count_if(trace.events, [](const ControlEvent& one) {
-        return !one.is_refused && (one.action == SessionAction::undo || one.action == SessionAction::reset);
-    }));
+    std::set<std::size_t> undos;
+    for (const Stroke& stroke : strokes)
+        for (const Stroke::Slice& slice : stroke.slices)
+            if (slice.undone_by) undos.insert(*slice.undone_by);
+    metrics.undos = undos.size();
     std::array<bool, 256> is_named{};
     for (const Tissue& tissue : trace.session.tissues) {
         metrics.by_tissue.push_back({tissue.name, trace.mm3(left_out[tissue.label])});
@@ -43,7 +46,7 @@ RemovalMetrics removal_metrics(const SessionTrace& trace, std::span<const Stroke
     for (const Stroke& stroke : strokes)
         for (const Stroke::Slice& slice : stroke.slices)
             for (const auto& [burr, levels] : slice.levels_by_burr)
-                by_burr[burr] += slice.is_undone ? 0 : levels;
+                by_burr[burr] += slice.is_undone() ? 0 : levels;
     for (const auto& [burr, levels] : by_burr)
         metrics.by_burr.push_back({trace.session.burrs[burr].name, trace.mm3(levels)});
     return metrics;

@@ -21,7 +21,7 @@ struct NamedVolume {
 struct RemovalMetrics {
     double removed_mm3 = 0.0;              ///< of the bone as it was, at the end
     double undone_mm3 = 0.0;               ///< milled and given back
-    std::size_t undos = 0;                 ///< undo and reset that were carried out, whatever was redone
+    std::size_t undos = 0;                 ///< undo and reset of which something was not redone
     std::vector<NamedVolume> by_tissue{};  ///< every tissue of the scene; bone without a label, if any
     std::vector<NamedVolume> by_burr{};    ///< the burrs that took any
 };

@@ -43,24 +43,56 @@ std::string heading(const SessionTrace& trace) {
     return html;
 }
 
-/// The harm to protected structures, shown whether or not there are marks: nobody may overlook it.
-std::string harm(const std::vector<StructureMetrics>& structures) {
-    std::string html;
+/// A protected structure in a box of its own: its title, and how much of it.
+struct HarmBox {
+    const char* kind;
+    std::string title;
+    std::string how;
+};
+
+/// Whether the spindle turned in some state in which the burr was in the structure. A burr that stands still,
+/// as after a fault, harms nothing.
+bool was_entered_turning(const SessionTrace& trace, const std::string& name) {
+    return std::ranges::any_of(trace.samples, [&](const TraceSample& sample) {
+        return sample.spindle_on && std::ranges::any_of(sample.distances, [&](const StructureDistance& now) {
+                   return now.touches && trace.session.tissues[now.tissue].name == name;
+               });
+    });
+}
+
+/// Opened: some of it was milled, given back or not.
+HarmBox opened(const StructureMetrics& one) {
+    std::string how = trf("{} mm³ of it milled", number_text(one.dose_mm3 + one.undone_dose_mm3));
+    if (one.undone_dose_mm3 > 0.0)
+        how += trf(", {} mm³ given back by undo", number_text(one.undone_dose_mm3));
+    return {" failed", trf("Opened: {}", html_text(tissue_words(one.name))), how};
+}
+
+/// Entered, and nothing of it is milled: a soft structure has no bone that could be.
+HarmBox entered(const StructureMetrics& one, bool by_turning_burr) {
+    const std::string name = html_text(tissue_words(one.name));
+    const std::string mm3 = number_text(one.entered_mm3);
+    return by_turning_burr ? HarmBox{" failed", trf("Entered by the turning burr: {}", name),
+                                     trf("{} mm³ of it inside the burr; no bone of it milled", mm3)}
+                           : HarmBox{" touched", trf("Touched, nothing cut: {}", name),
+                                     trf("{} mm³ of it inside the burr, which stood still", mm3)};
+}
+
+/// The harm to protected structures, the worst first, whether or not there are marks: nobody may overlook it.
+std::string harm(const SessionTrace& trace, const std::vector<StructureMetrics>& structures) {
+    std::vector<HarmBox> of_opened, of_turning, of_touched;
     for (const StructureMetrics& one : structures) {
-        const double milled_mm3 = one.dose_mm3 + one.undone_dose_mm3;
-        const auto volume = [](double mm3) { return number_text(mm3) + " mm³"; };
-        std::string how;
-        if (milled_mm3 > 0.0) {
-            how = trf("{} of it milled", volume(milled_mm3));
-            if (one.undone_dose_mm3 > 0.0) how += trf(", {} given back by undo", volume(one.undone_dose_mm3));
+        if (one.dose_mm3 + one.undone_dose_mm3 > 0.0) {
+            of_opened.push_back(opened(one));
         } else if (one.entered_mm3 > 0.0) {
-            how = trf("{} of it inside the burr", volume(one.entered_mm3));
-        } else {
-            continue;
+            const bool turning = was_entered_turning(trace, one.name);
+            (turning ? of_turning : of_touched).push_back(entered(one, turning));
         }
-        html += fmt::format("<div class='verdict failed'><b>{}</b>{}</div>",
-                            trf("Opened: {}", html_text(tissue_words(one.name))), how);
     }
+    std::string html;
+    for (const auto* boxes : {&of_opened, &of_turning, &of_touched})
+        for (const HarmBox& box : *boxes)
+            html += fmt::format("<div class='verdict{}'><b>{}</b>{}</div>", box.kind, box.title, box.how);
     return html;
 }
 
@@ -187,7 +219,7 @@ std::string first_page(const SessionTrace& trace, const SessionMetrics& metrics,
                        const std::vector<MetricRow>& rows, const SessionPictures& pictures,
                        const ReferenceSessions& references) {
     const std::vector<JudgedMark> marks = judged_marks(metrics.pass, rows);
-    return "<div class='first'>" + heading(trace) + harm(metrics.structures) + verdict(trace, marks) +
+    return "<div class='first'>" + heading(trace) + harm(trace, metrics.structures) + verdict(trace, marks) +
            rating_summary(trace, metrics.rating) + tiles(rows, marks, references) +
            figures(pictures.first, "two") + legend(trace) +
            fmt::format(

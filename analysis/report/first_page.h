@@ -1,6 +1,6 @@
 // The first page of a report, which stands alone on paper: whose session, the verdict (session_metrics.h), a
-// line "Opened: ..." for each protected structure that was milled or entered (structure_metrics.h), six
-// numbers, two pictures, space for comment and signature.
+// line for each protected structure that was milled ("Opened: ...") or only entered (structure_metrics.h),
+// six numbers, two pictures, space for comment and signature.
 #pragma once
 
 #include <string>

@@ -21,7 +21,7 @@ body{font:14px/1.4 "Helvetica Neue",Arial,"Liberation Sans",sans-serif;color:#22
 h1{font-size:24px;margin:0 0 2px}h2{font-size:17px;margin:26px 0 8px;border-bottom:2px solid #0072b2;padding-bottom:3px}
 p.about{color:#555;margin:2px 0}p.wrong{background:#fdecea;border-left:4px solid #b00;padding:8px 12px}
 .verdict{border-left:6px solid #888;background:#f3f6f9;padding:8px 14px;margin:12px 0}.verdict b{font-size:19px;margin-right:10px}
-.verdict.passed{border-color:#007a4d;background:#e8f5ee}.verdict.failed{border-color:#b00;background:#fdecea}
+.verdict.passed{border-color:#007a4d;background:#e8f5ee}.verdict.failed{border-color:#b00;background:#fdecea}.verdict.touched{border-color:#b26a00;background:#fff4e0}
 .verdict b.undone{font-size:inherit;color:#b00}.source{display:block;color:#777;font-size:12px}code{font-size:11.5px;overflow-wrap:anywhere}
 .tiles{display:grid;grid-template-columns:repeat(3,1fr);gap:8px;margin:12px 0}
 .tile{background:#f3f6f9;border-radius:4px;padding:7px 12px;border-left:4px solid #c9d3dc}
@@ -78,13 +78,14 @@ ShownValue shown_value(std::string_view key, double value, std::string_view unit
     return {number_text(value), shown_unit(unit)};
 }
 
-std::string local_time_text(std::int64_t unix_ns) {
+std::string local_time_text(std::int64_t unix_ns, const std::string& language) {
     if (began_text(unix_ns).empty()) return {};
     const auto unix_s = static_cast<std::time_t>(unix_ns / 1'000'000'000);
     std::tm local{};
     std::array<char, 64> text{};
     if (localtime_r(&unix_s, &local) == nullptr) return {};
-    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M %Z", &local)};
+    const char* const form = language == "de" ? "%d.%m.%Y, %H:%M Uhr" : "%Y-%m-%d %H:%M %Z";
+    return {text.data(), std::strftime(text.data(), text.size(), form, &local)};
 }
 
 namespace {

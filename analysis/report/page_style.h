@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "common/words/translation.h"
+
 namespace osteomill {
 
 /// For a <style> element. On paper, A4 or Letter, whichever the printer has.
@@ -31,8 +33,9 @@ ShownValue shown_value(std::string_view key, double value, std::string_view unit
 /// A metric's unit as people read it: "mm³" for "mm^3", "°" for "deg".
 std::string shown_unit(std::string_view unit);
 
-/// By the clock of this machine: "2026-11-23 22:40 CET"; empty if the recording holds no time.
-std::string local_time_text(std::int64_t unix_ns);
+/// By the clock of this machine, as a language writes it: "2026-11-23 22:40 CET", "23.11.2026, 22:40 Uhr";
+/// empty if the recording holds no time.
+std::string local_time_text(std::int64_t unix_ns, const std::string& language = spoken_language());
 
 // Untrusted text (names, notes) as HTML or SVG shows it and nothing else.
 

@@ -26,26 +26,29 @@ class UndoneSlices {
         undone_.clear();
     }
     void act(SessionAction action) {
-        if (action == SessionAction::undo) move(done_, undone_, true);
-        if (action == SessionAction::redo) move(undone_, done_, false);
-        if (action == SessionAction::reset)
-            while (!done_.empty()) move(done_, undone_, true);
+        if (action == SessionAction::undo) move(done_, undone_, undos_++);
+        if (action == SessionAction::redo) move(undone_, done_, std::nullopt);
+        if (action == SessionAction::reset) {
+            while (!done_.empty()) move(done_, undone_, undos_);
+            ++undos_;
+        }
     }
 
   private:
     struct Place {
         std::size_t stroke, slice;
     };
-    void move(std::vector<Place>& from, std::vector<Place>& to, bool is_undone) {
+    void move(std::vector<Place>& from, std::vector<Place>& to, std::optional<std::size_t> undone_by) {
         if (from.empty()) return;  // of a stroke before the recording began
         to.push_back(from.back());
         from.pop_back();
-        strokes_[to.back().stroke].slices[to.back().slice].is_undone = is_undone;
+        strokes_[to.back().stroke].slices[to.back().slice].undone_by = undone_by;
     }
 
     std::vector<Stroke>& strokes_;
     std::vector<Place> done_;
     std::vector<Place> undone_;
+    std::size_t undos_ = 0;
 };
 
 std::optional<double> variation(const std::vector<double>& values) {

@@ -22,7 +22,10 @@ struct Stroke {
     /// A slice that took bone.
     struct Slice {
         std::map<std::size_t, std::int64_t> levels_by_burr{};
-        bool is_undone = false;
+        /// Which undo or reset of the session gave it back, counted from 0; nothing: it stays milled, or was
+        /// redone.
+        std::optional<std::size_t> undone_by{};
+        bool is_undone() const { return undone_by.has_value(); }
     };
     std::vector<Slice> slices{};
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -107,6 +108,11 @@ std::string ChildProgram::last_line() const {
 
 void ChildProgram::ask_to_end() const {
     if (is_running()) ::kill(pid_, SIGTERM);
+}
+
+void ChildProgram::yield_to_others() const {
+    constexpr int nice = 15;
+    if (is_running()) ::setpriority(PRIO_PROCESS, static_cast<id_t>(pid_), nice);
 }
 
 }  // namespace osteomill

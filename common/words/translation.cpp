@@ -158,8 +158,8 @@ bool is_digit(char letter) {
 
 }  // namespace
 
-std::string with_decimal_sign(std::string text) {
-    if (std::ranges::find(languages_with_comma, spoken_language()) == languages_with_comma.end()) return text;
+std::string with_decimal_sign(std::string text, const std::string& language) {
+    if (std::ranges::find(languages_with_comma, language) == languages_with_comma.end()) return text;
     for (auto first = text.begin(); first != text.end();) {
         first = std::find_if(first, text.end(), is_of_number);
         const auto end = std::find_if_not(first, text.end(), is_of_number);

@@ -22,6 +22,7 @@
 #include "common/scene/scene_file.h"
 #include "common/text/foreign_text.h"
 #include "common/words/translation.h"
+#include "common/words/translation.h"
 #include "imaging/bone_file/digest.h"
 #include "python/module/loaded_case.h"
 #include "python/studies_module/bindings.h"
@@ -66,27 +67,32 @@ std::string digest_of_recording(const std::filesystem::path& file) {
     });
 }
 
-SessionTrace whole_trace(const std::filesystem::path& file) {
+SessionTrace trace_of(const std::filesystem::path& file) {
     const py::gil_scoped_release released;
-    return with_printable_error([&] {
-        SessionTrace trace = read_trace(file, [](double) {});
-        if (!trace.error.empty()) throw std::runtime_error(trace.error);
-        if (!trace.ends) throw std::runtime_error(file.string() + ": is torn: the session's end is missing");
-        return trace;
-    });
+    return with_printable_error([&] { return read_trace(file, [](double) {}); });
 }
 
-/// Names may come from a hostile file.
-py::dict read_session(const std::filesystem::path& file) {
-    const SessionTrace trace = whole_trace(file);
-    py::list metrics;
-    for (const MetricRow& row : metric_rows(session_metrics(trace)))
-        metrics.append(py::make_tuple(row.key, printable(row.of), row.value, row.unit, printable(row.text)));
+py::dict whose_it_is(const SessionTrace& trace) {
     const SessionInfo& session = trace.session;
     py::dict record;
     record["trainee"] = session.trainee.empty() ? "(no name)" : printable(session.trainee);
     record["case_name"] = printable(session.case_name.empty() ? session.scene_name : session.case_name);
     record["began_unix_ns"] = trace.began_unix_ns;
+    return record;
+}
+
+/// Names may come from a hostile file.
+py::dict read_session(const std::filesystem::path& file) {
+    const SessionTrace trace = trace_of(file);
+    py::dict record = whose_it_is(trace);
+    if (!trace.ends || !trace.error.empty()) {
+        record["goes_to_s"] = trace.samples.empty() ? 0.0 : trace.samples.back().time_s;
+        record["why_not"] = printable(trace.error);
+        return record;
+    }
+    py::list metrics;
+    for (const MetricRow& row : metric_rows(session_metrics(trace)))
+        metrics.append(py::make_tuple(row.key, printable(row.of), row.value, row.unit, printable(row.text)));
     record["metrics"] = metrics;
     const StartConditions start = start_conditions(trace);
     py::dict felt;
@@ -123,8 +129,11 @@ void bind_sessions(py::module_& module) {
     module.def(
         "number_text", [](const std::string& key, double value) { return shown_value(key, value).number; },
         py::arg("key"), py::arg("value"), "A metric's value as every page shows it, in its headline's unit.");
-    module.def("local_time_text", &local_time_text, py::arg("unix_ns"),
-               "By the clock of this machine; empty where the recording does not say.");
+    module.def(
+        "local_time_text", &local_time_text, py::arg("unix_ns"), py::arg("language"),
+        "By the clock of this machine, as the language writes it; empty where the recording does not say.");
+    module.def("with_decimal_sign", &with_decimal_sign, py::arg("text"), py::arg("language"),
+               "Every number of a text with the decimal sign of one of languages().");
     module.def("languages", &languages, "Codes of ISO 639-1; en is the first.");
     module.def("words_in", &translation_into, py::arg("language"),
                "Texts of window and report in one of languages(), by the English ones; none in English.");
@@ -134,8 +143,10 @@ void bind_sessions(py::module_& module) {
                "Digest of the bytes of a file.");
     module.def(
         "read_session", &read_session, py::arg("file"),
-        "Whose a whole recording is, of what, when, its metrics (key, of, value, unit, text), and what it "
-        "began with: the bone's digest and the settings that are felt.");
+        "Whose a recording is, of what and when; of a whole one its metrics (key, of, value, unit, text), "
+        "and "
+        "what it began with: the bone's digest and the settings that are felt. Of one without the session's "
+        "end: goes_to_s, its last state, and why_not, why no more can be read; empty: it just ends.");
 }
 
 }  // namespace osteomill::python

@@ -12,6 +12,8 @@ void SafetyMonitor::begin(FaultSet found, PedalSeen pedal, Clearance clearance) 
     if (is_untried_ && found.is_empty() && clearance == Clearance::in_bone) keeps_off_ = Fault::in_bone;
     if (!found.is_empty() || clearance != Clearance::unknown) is_untried_ = false;
     pedal_.tick(has_hand() ? pedal : PedalSeen::lapsed, found.withdraws_pedal());
+    if (!pedal_.is_locked()) spindle_locked_by_ = Fault::none;
+    if (found.withdraws_pedal()) spindle_locked_by_ = found.first();
 }
 
 glm::dvec3 SafetyMonitor::pass(const glm::dvec3& wanted_n, bool is_sound, double elapsed_s) noexcept {
@@ -25,6 +27,7 @@ glm::dvec3 SafetyMonitor::pass(const glm::dvec3& wanted_n, bool is_sound, double
     if (has_just_let_go()) {
         ++fault_counts_[static_cast<std::size_t>(guard_.fault())];
         pedal_.withdraw();
+        if (pedal_.is_locked()) spindle_locked_by_ = guard_.fault();
     }
     return force_n;
 }

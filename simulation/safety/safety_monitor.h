@@ -97,6 +97,9 @@ class SafetyMonitor {
     bool is_spindle_locked() const { return pedal_.is_locked(); }
     /// The pedal is held, but turns nothing before it has been up.
     bool awaits_release() const { return pedal_.awaits_release(); }
+    /// The fault that last locked the spindle; none once the pedal was up, and if something else did: the
+    /// start, a lapse, another speaker (pedal_latch.h).
+    Fault spindle_locked_by() const { return spindle_locked_by_; }
     /// Nothing is known yet of bone in the burr, and there was no fault.
     bool is_untried() const { return is_untried_; }
     /// Why the force is off, the one reason shown to people; none while it is on.
@@ -111,6 +114,7 @@ class SafetyMonitor {
     Fault keeps_off_ = Fault::none;  // the first of them, or what else keeps an `off` force off
     PedalDate pedal_date_;
     PedalLatch pedal_;
+    Fault spindle_locked_by_ = Fault::none;
     bool is_untried_ = true;
     bool was_engaged_ = true;
     std::array<std::uint64_t, fault_kinds> fault_counts_{};

@@ -105,6 +105,7 @@ class LanguageTest(unittest.TestCase):
         sessions = of_trainees("expert", (155.7, 162.3, 149.0), attempts=2) + of_trainees("student", (201.4, 188.9, 240.2), attempts=2)
         for session in sessions:
             session.case_name = "jaw"
+            session.began_unix_ns += 1_764_000_000_000_000_000
             session.metrics += [Metric("passed", "", 1.0, "", ""), Metric("structure_dose_mm3", "nerve_canal", 3.0, "mm^3", ""),
                                 Metric("rating_points", "", 1.0, "", ""), Metric("rating_most_points", "", 2.0, "", ""),
                                 Metric("rating_item_points", "Floor: the pulp is closed", 1.0, "", ""), Metric("undos", "", 1.0, "", "")]
@@ -112,8 +113,15 @@ class LanguageTest(unittest.TestCase):
         pages = {tr.language: page.overview(sessions, ["expert", "student"], ["x.pcap: torn"], [], tr) for tr in (ENGLISH, Words("de"))}
         english, german = (table_rows(pages[language].html) for language in ("en", "de"))
         self.assertEqual([len(row) for row in english], [len(row) for row in german])
-        numbers = [[re.findall(r"\d+(?:\.\d+)?", cell) for row in rows for cell in row] for rows in (english, german)]
-        self.assertEqual(*numbers)
+        began = {tr.language: tr.time(sessions[0].began_unix_ns) for tr in (ENGLISH, Words("de"))}
+        numbers = [[re.findall(rf"\d+(?:{sign}\d+)?", cell.replace(began[language], "")) for row in rows for cell in row]
+                   for language, sign, rows in (("en", r"\.", english), ("de", ",", german))]
+        self.assertEqual(numbers[0], [[number.replace(",", ".") for number in cell] for cell in numbers[1]])
+        text_of = {language: re.sub(r"<style>.*?</style>|<[^>]*>", " ", one.html, flags=re.DOTALL) for language, one in pages.items()}
+        self.assertIn(" 155,7 ", text_of["de"])
+        self.assertEqual(re.findall(r"(?<![\w.])\d+\.\d+(?!\w|\.\d)", text_of["de"]), [])
+        self.assertRegex(began["de"], r"^\d\d\.\d\d\.\d{4}, \d\d:\d\d Uhr$")
+        self.assertIn(began["de"], text_of["de"])
         self.assertEqual(german[0][:6], ["Name", "Versuch", "Beginn", "bestanden", "Punkte", "dafür zurückgenommen"])
         for words in ("<html lang='de'>", "<h1>12 Sitzungen</h1>", "Ausgelassen: x.pcap: torn", "<h2>Kiefer</h2>", "✓ ja", "Nervkanal 3 mm³", "1 von 2",
                       "1 Zurücknehmen", "Zeit (s)", "weniger ist besser", "Boden: die Pulpa ist geschlossen", "Lernkurven",
@@ -327,6 +335,20 @@ class ProgramTest(unittest.TestCase):
                      "linked/session.pcap: Too many levels", "pipe.pcap: is no file", "notes.pcap", "a2/session.pcap: ", "l\\xe4tin.pcap"):
             self.assertTrue(any(what in line for line in said), (what, said))
         self.assertIn("Left out: ", self.text("sessions.html"))
+
+    def test_names_a_session_that_was_broken_off_with_how_far_it_goes(self):
+        term = self.out / "term"
+        subprocess.run(["cp", "-r", self.folder / "term", term], check=True)
+        whole = term / "b" / "session.pcap"
+        for name in ("part", "torn-1"):  # killed; killed, and begun again under its name
+            (whole.parent / f"session.{name}.pcap").write_bytes(whole.read_bytes()[:-500])
+        whole.unlink()
+        done = self.study(term)
+        self.assertIn("2 sessions, 1 left out, in ", done.stdout, "the same bytes count once")
+        for said in (done.stderr, html.unescape(self.text("sessions.html"))):
+            self.assertRegex(said, r"b/session\.(part|torn-1)\.pcap: \S+Bo, cube, .*: broken off, or still under way: goes to 1\.\d+ s, without")
+        self.study(term, "--language", "de")
+        self.assertRegex(html.unescape(self.text("sessions.html")), r"Bo, Würfel, .* Uhr: abgebrochen oder noch im Gang: reicht bis 1,\d+ s,")
 
     def test_takes_the_groups_that_lie_beside_the_sessions(self):
         groups = self.folder / "term" / "groups.csv"

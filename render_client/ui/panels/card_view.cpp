@@ -85,20 +85,26 @@ void draw_case_card(StartPage& page, CardPictures& pictures, std::size_t index, 
     const ImVec2 first = ImGui::GetCursorScreenPos();
     ImGui::PushID(static_cast<int>(index));
     const bool is_chosen = page.chosen == index;
+    // The chosen card is filled; the one under the pointer only has a brighter edge.
+    if (!is_chosen) ImGui::PushStyleColor(ImGuiCol_HeaderHovered, ImVec4());
     if (ImGui::Selectable("##card", is_chosen, ImGuiSelectableFlags_AllowDoubleClick, size)) {
         const ImGuiIO& io = ImGui::GetIO();
         const bool by_mouse = io.MouseDown[ImGuiMouseButton_Left] || io.MouseReleased[ImGuiMouseButton_Left];
         page.chosen = index;
         if (by_mouse)
             page.click_card(index);
-        else if (is_chosen && !page.is_session_running())
+        else if (is_chosen && page.may_start())
             page.start();
     }
+    const bool is_hovered = ImGui::IsItemHovered();
+    if (!is_chosen) ImGui::PopStyleColor();
     if (is_chosen) ImGui::SetItemDefaultFocus();
     if (is_chosen && std::exchange(page.scrolls_to_chosen, false)) ImGui::SetScrollHereY();
     ImGui::PopID();
     ImDrawList& canvas = *ImGui::GetWindowDrawList();
-    canvas.AddRect(first, {first.x + size.x, first.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border), 3.0f);
+    const ImGuiCol edge = is_chosen ? ImGuiCol_Text : is_hovered ? ImGuiCol_TextDisabled : ImGuiCol_Border;
+    canvas.AddRect(first, {first.x + size.x, first.y + size.y}, ImGui::GetColorU32(edge), 3.0f, 0,
+                   is_chosen ? 2.0f : 1.0f);
     const ImVec2 picture_size = picture_in_card();
     const ImVec2 inner{first.x + gap, first.y + gap};
     canvas.PushClipRect(first, {first.x + size.x, first.y + size.y}, true);

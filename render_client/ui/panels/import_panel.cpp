@@ -247,6 +247,13 @@ void draw_import(StartPage& page, StartPicture& picture) {
         ImGui::Checkbox(tr("leave out small loose parts"), &form.leaves_out_specks);
         if (ImGui::IsItemHovered())
             ImGui::SetTooltip("%s", tr("bone of less than 2 mm3 that touches nothing else, such as noise"));
+        if (!form.are_labels) {
+            ImGui::SameLine();
+            const auto loose = page.loose_parts();
+            ImGui::TextDisabled(
+                "%s", !loose ? tr("(being counted ...)")
+                             : trf("(about {}, {:.1f} mm3 in all)", loose->count, loose->mm3).c_str());
+        }
         ImGui::BeginChild("segments", list_size(3.5f), false);
         if (button(tr("Add a segmentation ..."), !page.is_working()))
             page.show(StartPage::View::segmentation_browser);

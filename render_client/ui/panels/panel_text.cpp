@@ -44,6 +44,19 @@ void add_details(const SeenSession& session, const PictureProgress& picture, Pan
                                            1e3 * delay->by_clocks_s, 1e3 * delay->over_least_s)));
 }
 
+/// The nearest cause in a few words; the warnings say it in full.
+const char* why_spindle_is_off(const SeenSession& session) {
+    const ToolState& tool = *session.tool;
+    if (session.link.controls.is_paused) return tr("spindle off: paused");
+    if (!tool.fault.empty()) return tr("spindle off: fault");
+    // A recording, or a server's own device, does not say where its pedal is.
+    if (!session.operator_command) return tr("spindle off");
+    if (tool.driver == ToolDriver::another) return tr("spindle off: another has the tool");
+    if (!session.operator_command->pedal) return tr("spindle off: the pedal is up");
+    const bool awaits_release = tool.notice.text().starts_with("the spindle stays off");
+    return awaits_release ? tr("spindle off: press the pedal anew") : tr("spindle off");
+}
+
 /// The fault, and its remedy.
 void add_fault(const std::string& fault, PanelText& text) {
     text.push_back(line(Tone::warning, trf("FAULT: {}", tr(fault))));
@@ -88,7 +101,7 @@ PanelText tool_text(const SeenSession& session, const Bone* bone) {
                            : tr(std::string(head_shape_names[static_cast<std::size_t>(burr.head.shape)]));
         text.push_back(line(Tone::plain, trf("{} {:.1f} mm, {} edges", head, burr.diameter_mm, burr.edges)));
         text.push_back(tool.spindle_on ? line(Tone::good, trf("spindle {:.0f} rpm", spindle_rpm(tool, burr)))
-                                       : line(Tone::dim, tr("spindle off")));
+                                       : line(Tone::dim, why_spindle_is_off(session)));
     }
     if (session.operator_command && bone != nullptr) {
         // In a cavity there may be bone at its side and none for some way ahead.
@@ -173,8 +186,10 @@ void add_touches(PanelText& text, const StructureDistance& now, const Tissue& ti
     std::string when = is_one
                            ? trf("at {:.1f} s, for {:.1f} s", now.first_touch_s, now.touched_s)
                            : trf("first at {:.1f} s, for {:.1f} s in all", now.first_touch_s, now.touched_s);
-    const double mm3 = std::max(now.removed_mm3, now.entered_mm3);
-    if (mm3 > 0.0) when += fmt::format(", {:.2f} mm\u00b3", mm3);
+    if (now.removed_mm3 > 0.0)
+        when += trf(", {:.2f} mm³ milled", now.removed_mm3);
+    else if (now.entered_mm3 > 0.0)
+        when += trf(", {:.2f} mm³ entered, none of it milled", now.entered_mm3);
     text.push_back({{Tone::plain, std::move(when)}});
 }
 

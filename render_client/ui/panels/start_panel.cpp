@@ -45,7 +45,7 @@ void draw_cases(StartPage& page, StartPicture& pictures) {
     const float lines_below = (page.sessions().empty() ? 4.0f : 8.0f) + more_message_lines(page);
     ImGui::BeginChild("cases", list_size(lines_below), true, ImGuiWindowFlags_NavFlattened);
     const float room = ImGui::GetContentRegionAvail().x;
-    const int columns = room > 44.0f * letter ? 2 : 1;
+    const int columns = std::clamp(static_cast<int>(room / (26.0f * letter)), 1, 3);
     const float between = ImGui::GetStyle().ItemSpacing.x;
     const float width = (room - static_cast<float>(columns - 1) * between) / static_cast<float>(columns);
     const ImVec2 card{width, case_card_height(page, width)};
@@ -61,13 +61,16 @@ void draw_cases(StartPage& page, StartPicture& pictures) {
         draw_sessions(page);
         ImGui::EndChild();
     }
-    if (button(tr("Start"), !page.is_session_running())) page.start();
+    if (button(tr("Start"), page.may_start())) page.start();
     ImGui::SameLine();
     text_field(tr("trainee"), page.trainee, 14.0f * letter);
-    if (button(tr("Import a scan ..."), !page.is_session_running())) page.show(StartPage::View::scan_browser);
+    if (const std::string why = page.why_not_start(); !why.empty()) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("%s", why.c_str());
+    }
+    if (button(tr("Import a scan ..."), page.may_start())) page.show(StartPage::View::scan_browser);
     ImGui::SameLine();
-    if (button(tr("Import labels ..."), !page.is_session_running()))
-        page.show(StartPage::View::labels_browser);
+    if (button(tr("Import labels ..."), page.may_start())) page.show(StartPage::View::labels_browser);
     ImGui::SameLine();
     if (ImGui::Button(tr("Open a recording ..."))) page.show(StartPage::View::recording_browser);
     if (button(tr("Compare all sessions"), !page.is_working() && !page.sessions().empty()))
@@ -136,7 +139,7 @@ void draw_browser(StartPage& page) {
 glm::vec2 start_panel_size(const StartPage& page, const glm::vec2& available) {
     // A region is chosen in slices, the larger the better.
     const glm::vec2 letters =
-        page.view() == StartPage::View::import ? glm::vec2(96.0f, 56.0f) : glm::vec2(58.0f, 44.0f);
+        page.view() == StartPage::View::import ? glm::vec2(96.0f, 56.0f) : glm::vec2(86.0f, 44.0f);
     return glm::min(available, ImGui::GetFontSize() * letters);
 }
 

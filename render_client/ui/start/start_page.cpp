@@ -1,11 +1,14 @@
 #include "render_client/ui/start/start_page.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <stdexcept>
 #include <string_view>
@@ -54,24 +57,38 @@ std::string without_program(const std::string& line) {
     return is_program ? line.substr(colon + 2) : line;
 }
 
-/// How a session's program ended, for people; empty if all went well.
-/// A session's recording is kept to where the disk was full.
-std::string with_remedy_of_full_disk(std::string message) {
-    if (message.find(std::generic_category().message(ENOSPC)) == std::string::npos) return message;
-    return message + ". " +
+/// The last line of a program that failed, in the window's language. A session's recording is kept to where
+/// the disk was full.
+std::string failure_in_words(const ChildProgram& program) {
+    std::string words = tr_about_file(without_program(program.last_line()));
+    const std::string full = std::generic_category().message(ENOSPC);
+    const std::size_t at = words.find(full);
+    if (at != std::string::npos) words.replace(at, full.size(), tr(full));
+    if (words.find(tr(full)) == std::string::npos) return words;
+    return words + ". " +
            tr("Make room on the disk, then click on \"Make report\": what was recorded until it was full is "
               "kept");
 }
 
-std::string end_in_words(const ChildProgram& server) {
+/// How a session's program ended, for a trainee; empty if all went well. The technician finds the rest in the
+/// log.
+std::string end_in_words(const ChildProgram& server, bool is_recorded) {
     const int status = server.status().value_or(0);
-    if (status < 0)
-        return trf(
-            "the session was broken off (signal {}). What was recorded until then is kept: it is the first "
-            "of the sessions so far, and its report is one click away",
-            -status);
-    return status == 0 ? std::string() : with_remedy_of_full_disk(without_program(server.last_line()));
+    if (status == 0) return {};
+    if (status > 0) return failure_in_words(server);
+    spdlog::warn("haptic_server was ended by signal {} ({}); its last line: {}", -status, strsignal(-status),
+                 printable(server.last_line()));
+    return is_recorded
+               ? tr("The session was broken off: its program ended in the middle. What you did until then is "
+                    "kept, first under Sessions so far: \"Make report\" makes its report. Then start anew; "
+                    "if it "
+                    "happens again, tell whoever looks after the simulator.")
+               : tr("The session was broken off before anything was recorded. Start it anew; if it happens "
+                    "again, tell whoever looks after the simulator.");
 }
+
+/// As the server says it once all but its report is done (session_outputs.cpp).
+constexpr std::string_view report_begins = "the session has ended; its report is being made";
 
 }  // namespace
 
@@ -130,8 +147,12 @@ void StartPage::attempt(const std::function<void()>& act) {
 }
 
 void StartPage::start() {
-    if (is_session_running() || chosen >= cases_.size()) return;
+    if (!may_start() || chosen >= cases_.size()) return;
     clicked_.reset();
+    if (server_) {
+        server_->yield_to_others();
+        reporting_.push_back(std::move(server_));
+    }
     const ShelvedCase& wanted = cases_[chosen];
     message_ = make_folder_at_home(places_.home / "reports");
     if (!message_.empty()) return;
@@ -161,8 +182,28 @@ void StartPage::start() {
 
 void StartPage::click_card(std::size_t index) {
     chosen = index;
-    if (is_session_running()) return;
+    if (!may_start()) return;
     if (std::exchange(clicked_, index) == index) start();
+}
+
+bool StartPage::is_report_written() const {
+    return is_session_running() && server_->output().find(report_begins) != std::string::npos;
+}
+
+std::string StartPage::why_not_start() const {
+    if (may_start()) return is_report_written() ? tr("the last session's report is still being written") : "";
+    return is_making_ready() ? tr("a session is being made ready")
+                             : tr("the last session is still being saved");
+}
+
+bool StartPage::poll_reports() {
+    return std::erase_if(reporting_, [&](const std::unique_ptr<ChildProgram>& program) {
+               program->poll();
+               if (program->is_running()) return false;
+               if (program->status() != 0) message_ = failure_in_words(*program);
+               look_at_home();
+               return true;
+           }) > 0;
 }
 
 void StartPage::note_end_of_session() {
@@ -208,9 +249,9 @@ void StartPage::replay(const std::filesystem::path& recording) {
 
 void StartPage::compare_sessions() {
     if (is_working()) return;
-    auto sessions = sessions_in(places_.home / "reports", 0);
-    std::erase_if(sessions, [](const KeptSession& session) { return !session.is_whole; });
-    if (sessions.empty()) {
+    // Those that were broken off are named on the page.
+    const auto sessions = sessions_in(places_.home / "reports", 0);
+    if (std::ranges::none_of(sessions, &KeptSession::is_whole)) {
         message_ = tr("there is nothing to compare yet: no session was finished");
         return;
     }
@@ -289,9 +330,11 @@ void StartPage::give_up_work() {
 void StartPage::end_of_work() {
     const bool is_good = worker_->status() == 0;
     const std::string said = worker_->output();
-    const std::string last = without_program(worker_->last_line());
+    message_ = worker_->status().value_or(0) < 0 ? tr("it was ended in the middle; try again")
+               : worker_->last_line().empty()    ? tr("it failed without a word")
+                                                 : failure_in_words(*worker_);
     worker_.reset();
-    message_ = is_good ? std::string() : last.empty() ? tr("it failed without a word") : last;
+    if (is_good) message_.clear();
     if (work_ == Work::import && is_good) {
         show(View::cases);
         for (std::size_t i = 0; i < cases_.size(); ++i)
@@ -300,7 +343,6 @@ void StartPage::end_of_work() {
         message_ = trf("{} is there", form.name);
         if (const std::string specks = specks_said(said); !specks.empty()) message_ += "; " + specks;
     } else if (work_ == Work::report) {
-        message_ = with_remedy_of_full_disk(message_);
         look_at_home();
         if (std::error_code ignored; std::filesystem::exists(reported_ / "report.html", ignored))
             open_page(reported_ / "report.html");
@@ -323,12 +365,35 @@ void StartPage::take_in_look(const std::string& said) {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began_looking_;
     look_->took_s = took.count();
     attempt([&] {
-        voxels_ = read_scan_voxels(scratch_ / "look.raw", look_->covers, preview_mm_per_px);
+        voxels_ = std::make_shared<const ScanVoxels>(
+            read_scan_voxels(scratch_ / "look.raw", look_->covers, preview_mm_per_px));
         ++voxels_number_;
     });
     form.available_bytes = available_memory_bytes().value_or(0);
     if (is_another_scan_) slices_at_mm = 0.5 * (look_->covers.low_mm + look_->covers.high_mm);
     take_look(form, *look_, is_another_scan_);
+}
+
+std::optional<LooseParts> StartPage::loose_parts() const {
+    return counted_of_ == count_wanted() && !form.are_labels ? counted_ : std::nullopt;
+}
+
+/// A large scan takes a second, which the window must not stand still for.
+bool StartPage::count_loose_parts() {
+    bool has_news = false;
+    if (count_.valid() && count_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        counted_ = count_.get();
+        has_news = true;
+    }
+    if (view_ != View::import || !look_ || !voxels_ || form.are_labels || count_.valid() ||
+        counted_of_ == count_wanted())
+        return has_news;
+    counted_of_ = count_wanted();
+    counted_.reset();
+    count_ = std::async(std::launch::async, [voxels = voxels_, look = *look_, of = counted_of_] {
+        return loose_parts_in(*voxels, look, preview_mm_per_px, of.region, of.threshold_hu);
+    });
+    return has_news;
 }
 
 void StartPage::look_for_address() {
@@ -359,15 +424,19 @@ bool StartPage::poll() {
         else if (const std::string line = without_program(worker_->last_line()); !line.empty())
             message_ = line;
     }
+    has_news = count_loose_parts() || has_news;
+    has_news = poll_reports() || has_news;
     if (server_ && server_->poll()) {
         has_news = true;
         if (!server_->is_running()) {
             const std::filesystem::path page = report_folder_ / "report.html";
             std::error_code ignored;
             if (std::filesystem::exists(page, ignored)) report_ = page;
-            message_ = end_in_words(*server_);
-            server_.reset();
             look_at_home();
+            const bool is_recorded =
+                std::ranges::find(sessions_, report_folder_, &KeptSession::folder) != sessions_.end();
+            message_ = end_in_words(*server_, is_recorded);
+            server_.reset();
             // Its port may soon be somebody else's.
             server_is_at_ = places_.connects_to;
         } else if (!has_address_) {
@@ -377,7 +446,7 @@ bool StartPage::poll() {
     std::erase_if(players_, [&](const std::unique_ptr<ChildProgram>& player) {
         if (!player->poll() || player->is_running()) return false;
         has_news = true;
-        if (player->status() != 0) message_ = without_program(player->last_line());
+        if (player->status() != 0) message_ = failure_in_words(*player);
         return true;
     });
     if (opener_ && opener_->poll() && !opener_->is_running()) {

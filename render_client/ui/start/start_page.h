@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@
 #include "render_client/ui/start/folder_listing.h"
 #include "render_client/ui/start/import_form.h"
 #include "render_client/ui/start/kept_sessions.h"
+#include "render_client/ui/start/loose_parts.h"
 
 namespace osteomill {
 
@@ -69,7 +71,12 @@ class StartPage {
     /// The next frame's list scrolls to the chosen case: it was chosen by an import, and may be out of sight.
     bool scrolls_to_chosen = false;
     std::string trainee{};  ///< who works in the session
+    /// Beside a report that is still being written, too: all else of that session lies on the disk, and its
+    /// program gives way to the new one's.
     void start();
+    bool may_start() const { return !is_session_running() || is_report_written(); }
+    /// Why there is no start yet, or what goes on beside it; empty: nothing.
+    std::string why_not_start() const;
     /// A person's click on a card: the first chooses it, the second starts it, however long after. (A double
     /// click is over in 0.3 s, in which a slow picture draws one frame.)
     void click_card(std::size_t index);
@@ -99,7 +106,9 @@ class StartPage {
     ImportForm form{};
     /// The scan's preview, once it is there.
     const std::optional<ScanPreview>& look() const { return look_; }
-    const std::optional<ScanVoxels>& voxels() const { return voxels_; }
+    const std::shared_ptr<const ScanVoxels>& voxels() const { return voxels_; }
+    /// An estimate for the form's region and threshold; nothing while it is made, and of labels.
+    std::optional<LooseParts> loose_parts() const;
     std::uint64_t voxels_number() const { return voxels_number_; }  ///< another for each preview
     glm::dvec3 slices_at_mm{0.0};                                   ///< where the slices meet, patient LPS
     bool is_working() const { return worker_ != nullptr; }          ///< makes a preview or imports
@@ -148,13 +157,33 @@ class StartPage {
     std::filesystem::path scratch_;  // the preview's under way
     std::optional<ScanPreview> look_;
     std::chrono::steady_clock::time_point began_looking_{};
-    std::optional<ScanVoxels> voxels_;
+    std::shared_ptr<const ScanVoxels> voxels_;  // a count under way has them, too
     std::uint64_t voxels_number_ = 0;
 
     void look_for_address();
 
+    /// What a count of loose parts is of.
+    struct CountOf {
+        std::uint64_t voxels_number = 0;
+        ScanBox region{};
+        double threshold_hu = 0.0;
+
+        bool operator==(const CountOf&) const = default;
+    };
+    CountOf count_wanted() const { return {voxels_number_, form.region, form.threshold_hu}; }
+    bool count_loose_parts();
+
+    CountOf counted_of_;  // by the count under way, or the one before
+    std::optional<LooseParts> counted_;
+    std::future<LooseParts> count_;
+
+    /// The last session is over, and its program still writes the report.
+    bool is_report_written() const;
+    bool poll_reports();
+
     std::unique_ptr<ChildProgram> server_;
-    bool has_address_ = false;  // it has said where it listens
+    std::vector<std::unique_ptr<ChildProgram>> reporting_;  // write reports of sessions before
+    bool has_address_ = false;                              // it has said where it listens
     std::optional<ListenAddress> server_is_at_;
     std::filesystem::path report_folder_;
     std::filesystem::path look_file_;

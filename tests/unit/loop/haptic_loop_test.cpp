@@ -458,6 +458,9 @@ TEST(HapticLoop, HoldsStillAsLongAsTheGateSaysAndTheSpindleUntilThePedalHasBeenU
     bench.run(1000);
     EXPECT_EQ(bench.run(1), glm::dvec3(2.0, 0.0, 0.0));
     EXPECT_FALSE(bench.shown().spindle_on) << "the pedal has been down all the time";
+    EXPECT_EQ(bench.shown().notice,
+              "the spindle stays off after a pause, an undo or a placing of the tool: let go of the pedal, and "
+              "press it anew");
     bench.device.script = [](double) { return DeviceState{}; };
     bench.run(2);
     bench.device.script = [](double) { return DeviceState{.pedal = {true}}; };

@@ -274,6 +274,30 @@ TEST_F(ReportedSession, DoesNotCountWhatWasUndone) {
     ASSERT_EQ(metrics.removal.by_burr.size(), 2u);
     EXPECT_NEAR(metrics.removal.by_burr[0].mm3, layer_mm3, 1e-9);
     EXPECT_NEAR(metrics.removal.by_burr[1].mm3, layer_mm3, 1e-9);
+    EXPECT_EQ(metrics.removal.undos, 1u) << "the other one was redone";
+}
+
+TEST_F(ReportedSession, CountsAResetUntilAllOfItIsRedone) {
+    const auto act = [&](SessionAction action) {
+        written_->event({.time_s = tool_.time_s, .action = action});
+        frame();
+    };
+    frame();
+    for (const double z_mm : {-3.1, -2.9}) {
+        tool_.spindle_on = true;
+        written_->cut(layer(z_mm, true));
+        frame();
+        tool_.spindle_on = false;
+        frame();
+    }
+    act(SessionAction::reset);
+    act(SessionAction::redo);
+    act(SessionAction::reset);
+    act(SessionAction::redo);
+    act(SessionAction::redo);
+    act(SessionAction::undo);
+    const SessionMetrics metrics = session_metrics(trace());
+    EXPECT_EQ(metrics.removal.undos, 1u) << "of both resets nothing is left; the last undo stands";
 }
 
 TEST_F(ReportedSession, EndsAStrokeInAirAsTheServerDoes) {

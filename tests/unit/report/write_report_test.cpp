@@ -102,6 +102,40 @@ TEST(WriteReport, SaysFirstWhatWasOpened) {
     EXPECT_THAT(page, HasSubstr("<div class='tile missed'><span>touches of protected structures"));
 }
 
+TEST(WriteReport, CallsAStructureOpenedOnlyIfItWasMilled) {
+    const testing::TemporaryFolder folder;
+    const Bone bone = testing::labelled_cube(1, 0.5, [](const glm::dvec3& place) {
+        return static_cast<std::uint8_t>(place.x > 1.0 ? 1 : place.x < -1.0 ? 2 : 3);
+    });
+    testing::WrittenSession written(folder / "a.pcap",
+                                    {.scene_name = "cube",
+                                     .burrs = {Burr{}},
+                                     .tissues = {{.label = 1, .name = "nerve", .is_protected = true},
+                                                 {.label = 2, .name = "dura", .is_protected = true},
+                                                 {.label = 3, .name = "pulp", .is_protected = true}}},
+                                    bone);
+    double time_s = 0.0;
+    const auto at = [&](const glm::dvec3& place_mm, bool turns) {
+        written.frame({.time_s = time_s += 0.1, .burr_position_mm = place_mm, .spindle_on = turns});
+    };
+    at({50.0, 0.0, 0.0}, false);
+    at({3.0, 0.0, 0.0}, false);  // as after a fault: the spindle is off
+    at({-3.0, 0.0, 0.0}, true);
+    at({50.0, 0.0, 0.0}, false);
+    written.cut([](const glm::dvec3& place) { return std::abs(place.x) < 1.0 && place.z > 3.0; });
+    at({50.0, 0.0, 0.0}, true);
+    written.finish();
+    EXPECT_EQ(write_report(folder / "a.pcap", folder / "report", [](double) {}), "");
+    const std::string page = testing::bytes_of(folder / "report/report.html");
+    const auto opened = page.find("<div class='verdict failed'><b>Opened: pulp</b>");
+    const auto entered = page.find("<div class='verdict failed'><b>Entered by the turning burr: dura</b>");
+    const auto touched = page.find("<div class='verdict touched'><b>Touched, nothing cut: nerve</b>");
+    ASSERT_NE(touched, std::string::npos);
+    EXPECT_LT(opened, entered);
+    EXPECT_LT(entered, touched);
+    EXPECT_THAT(page, Not(HasSubstr("Opened: nerve")));
+}
+
 TEST(WriteReport, OfATornRecordingIsOfWhatCanBeRead) {
     const testing::TemporaryFolder folder;
     testing::make_recording(folder / "a.pcap");

@@ -157,6 +157,22 @@ TEST_F(PanelTexts, TellTheWayToBoneUnlessTheBurrTouchesSome) {
                 AllOf(HasSubstr("in touch with bone"), Not(HasSubstr("ahead"))));
 }
 
+TEST_F(PanelTexts, SayWhyTheSpindleIsOff) {
+    const auto spindle = [&] { return plain(tool_text(seen_, nullptr)); };
+    seen_.operator_command = OperatorCommand{};
+    EXPECT_THAT(spindle(), HasSubstr("spindle off: the pedal is up"));
+    seen_.operator_command->pedal = true;
+    EXPECT_THAT(spindle(), HasSubstr("spindle off\n"));
+    seen_.tool->notice = "the spindle stays off after a fault: let go of the pedal, and press it anew";
+    EXPECT_THAT(spindle(), HasSubstr("spindle off: press the pedal anew"));
+    seen_.tool->driver = ToolDriver::another;
+    EXPECT_THAT(spindle(), HasSubstr("spindle off: another has the tool"));
+    seen_.tool->fault = "the device is lost";
+    EXPECT_THAT(spindle(), HasSubstr("spindle off: fault"));
+    seen_.link.controls.is_paused = true;
+    EXPECT_THAT(spindle(), HasSubstr("spindle off: paused"));
+}
+
 TEST_F(PanelTexts, TellTheToolAndTheSession) {
     EXPECT_THAT(plain(tool_text(seen_, nullptr)),
                 HasSubstr("burr 3.0 mm, 8 edges\nspindle off\nremoved 1.23 mm"));

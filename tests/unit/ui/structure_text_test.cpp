@@ -6,6 +6,7 @@ namespace osteomill::structure_text_test {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 std::vector<std::string> lines_of(const PanelText& text) {
@@ -53,7 +54,10 @@ TEST_F(StructureTexts, KeepATouchOnTheScreen) {
         {.tissue = 1, .touches_so_far = 2, .first_touch_s = 3.14, .touched_s = 1.5, .entered_mm3 = 0.25}};
     EXPECT_THAT(lines_of(structure_text(seen_)),
                 ElementsAre("no protected structure near", "touched: facial nerve, 2 times",
-                            "first at 3.1 s, for 1.5 s in all, 0.25 mm\u00b3"));
+                            "first at 3.1 s, for 1.5 s in all, 0.25 mm³ entered, none of it milled"));
+    seen_.link.distances[0].removed_mm3 = 0.125;
+    EXPECT_THAT(lines_of(structure_text(seen_)).back(), HasSubstr(", 0.12 mm³ milled"));
+
     EXPECT_THAT(structure_warnings(seen_), IsEmpty());
 }
 

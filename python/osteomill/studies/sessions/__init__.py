@@ -1,7 +1,8 @@
 """Recorded sessions of several trainees side by side: a table, learning curves, an overview.
 
 Writes OUT/sessions.sqlite, sessions.csv, sessions.html and a learning curve OUT/KEY.svg for each metric that is drawn
-(KEY_2.svg for the second case, ...). A recording that cannot be read to its end is named and left out. With a database,
+(KEY_2.svg for the second case, ...). A recording that cannot be read to its end, as of a session that was
+broken off, is named with how far it goes, and left out. With a database,
 the sessions are added to that, too.
 """
 
@@ -45,8 +46,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, study: StudyRun) -> None:
     files = records.recordings_in(options.places)
     groups = Groups.of(options.groups or records.groups_file(options.places))
-    sessions, skipped = _read(files, study)
     tr = Words(options.language)
+    sessions, skipped = _read(files, tr, study)
     nobodies = groups.assign(sessions, tr)
     for line in nobodies:
         study.warn(line)
@@ -57,7 +58,7 @@ def run(options: argparse.Namespace, study: StudyRun) -> None:
     _write(sessions, options.compare, skipped, nobodies, tr, study)
 
 
-def _read(files: list[pathlib.Path], study: StudyRun) -> tuple[list[SessionRecord], list[str]]:
+def _read(files: list[pathlib.Path], tr: Words, study: StudyRun) -> tuple[list[SessionRecord], list[str]]:
     """Sessions in the order of their start, each once, and a line for each recording that was left out."""
     from osteomill.studies.sessions.database import SessionStore
 
@@ -78,6 +79,10 @@ def _read(files: list[pathlib.Path], study: StudyRun) -> tuple[list[SessionRecor
     found = study.sweep(functools.partial(_read_one, str(store.file)), cases, lambda case: str(case["file"]))
     sessions = []
     for (digest, file), one in zip(recordings.items(), found):
+        if "goes_to_s" in one:
+            study.warn("left out: " + records.broken_off_text(printable(str(file)), one))
+            skipped.append(records.broken_off_text(printable(str(file)), one, tr))
+            continue
         if "why_not" in one:
             skip(one["why_not"])
             continue

@@ -31,8 +31,8 @@ class Headline:
             return Possible.ANY
         return Possible.SHARE if self.unit == "%" else Possible.NOT_NEGATIVE
 
-    def number(self, value: float) -> str:
-        return _studies.number_text(self.key, value)
+    def number(self, value: float, tr: Words = ENGLISH) -> str:
+        return tr.numbers(_studies.number_text(self.key, value))
 
     def heading(self, tr: Words) -> str:
         return f"{tr(self.text)} ({self.unit})" if self.unit else tr(self.text)
@@ -120,5 +120,5 @@ def _apart(one: SessionRecord, usual: SessionRecord, tr: Words) -> str:
     ways = [tr("another bone at the start")] if one.bone_at_start != usual.bone_at_start else []
     for name in sorted({*one.settings, *usual.settings}):
         if (value := one.settings.get(name)) != usual.settings.get(name):
-            ways.append(f"{tr.name(name)} {value or tr('none')}")
+            ways.append(f"{tr.name(name)} {tr.numbers(value or '') or tr('none')}")
     return ", ".join(ways)

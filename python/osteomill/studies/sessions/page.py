@@ -105,26 +105,26 @@ def _session_row(case: Case, attempt: Attempt, tr: Words) -> dict[str, Any]:
         "file": session.file,
         "trainee": f"{session.trainee} ({session.group})" if session.group else session.trainee,
         "attempt": attempt.number,
-        "began": _studies.local_time_text(session.began_unix_ns),
+        "began": tr.time(session.began_unix_ns),
         "report": session.report,
         "passed": session.value("passed"),
         "points": _points(session, tr),
         "undone": _undone(session, tr),
-        "opened": ", ".join(f"{tr.name(one.of)} {_studies.number_text(one.key, one.value or 0.0)} mm³" for one in session.opened()),
-        "values": [NONE if value is None else what.number(value) for what, value in values],
+        "opened": ", ".join(f"{tr.name(one.of)} {tr.numbers(_studies.number_text(one.key, one.value or 0.0))} mm³" for one in session.opened()),
+        "values": [NONE if value is None else what.number(value, tr) for what, value in values],
     }
 
 
 def _points(session: SessionRecord, tr: Words) -> str:
     points, most = session.value("rating_points"), session.value("rating_most_points")
-    return "" if points is None or most is None else tr("{} of {}", f"{points:g}", f"{most:g}")
+    return "" if points is None or most is None else tr("{} of {}", tr.numbers(f"{points:g}"), tr.numbers(f"{most:g}"))
 
 
 def _undone(session: SessionRecord, tr: Words) -> str:
     """Beside the points: full marks by undoing are none."""
     if not (undos := session.value("undos")):
         return ""
-    volume_mm3 = _studies.number_text("undone_mm3", session.value("undone_mm3") or 0.0)
+    volume_mm3 = tr.numbers(_studies.number_text("undone_mm3", session.value("undone_mm3") or 0.0))
     return tr("{} undo, {} mm³", 1, volume_mm3) if undos == 1 else tr("{} undos, {} mm³", f"{undos:g}", volume_mm3)
 
 
@@ -151,7 +151,7 @@ def _mean_cells(case: Case, what: Headline, tr: Words) -> list[str]:
     mean = mean_of(case.learners().trainee_means(what), what.possible)
     if mean is None:
         return ["0", NONE]
-    return [str(mean.n), _with_interval(what, mean.mean, mean.interval, tr) if mean.interval else what.number(mean.mean)]
+    return [str(mean.n), _with_interval(what, mean.mean, mean.interval, tr) if mean.interval else what.number(mean.mean, tr)]
 
 
 def _trend_cells(case: Case, what: Headline, tr: Words) -> list[str]:
@@ -162,38 +162,38 @@ def _trend_cells(case: Case, what: Headline, tr: Words) -> list[str]:
     low, high = trend.slope_interval()
     doubling = math.log(2.0)
     interval = what.possible.difference((doubling * low, doubling * high))
-    return [_with_interval(what, doubling * trend.slope, interval, tr), _p_text(trend.p())]
+    return [_with_interval(what, doubling * trend.slope, interval, tr), _p_text(trend.p(), tr)]
 
 
 def _comparison_cells(case: Case, what: Headline, compared: list[str], tr: Words) -> list[str]:
     """Both means, the difference, the effect size, p, and the name of the test."""
     first, second = (case.trainee_means(what, group) for group in compared)
-    means = [f"{what.number(mean.mean)} ({mean.n})" if (mean := mean_of(group)) else NONE for group in (first, second)]
+    means = [f"{what.number(mean.mean, tr)} ({mean.n})" if (mean := mean_of(group)) else NONE for group in (first, second)]
     if min(len(first), len(second)) < FEWEST_COMPARED:
         return [*means, NONE, NONE, NONE, ""]
     if what.is_count:
         ranks = compare_ranks(first, second)
         if ranks is None:
             return [*means, NONE, NONE, NONE, ""]
-        return [*means, NONE, f"δ {ranks.cliffs_delta:.2f}", _p_text(ranks.p), "Mann-Whitney"]
+        return [*means, NONE, tr.numbers(f"δ {ranks.cliffs_delta:.2f}"), _p_text(ranks.p, tr), "Mann-Whitney"]
     welch = compare_means(first, second)
     if welch is None:
         return [*means, NONE, NONE, NONE, ""]
-    return [*means, _with_interval(what, welch.difference, what.possible.difference(welch.interval), tr), f"g {welch.hedges_g:.2f}", _p_text(welch.p), "Welch"]
+    return [*means, _with_interval(what, welch.difference, what.possible.difference(welch.interval), tr), tr.numbers(f"g {welch.hedges_g:.2f}"), _p_text(welch.p, tr), "Welch"]
 
 
 def _interval_text(what: Headline, interval: Interval, tr: Words) -> str:
-    return tr("{} to {}", *map(what.number, interval))
+    return tr("{} to {}", *(what.number(end, tr) for end in interval))
 
 
 def _with_interval(what: Headline, value: float, interval: Interval, tr: Words) -> str:
     if abs(value) < 1e-9 * (interval[1] - interval[0]):
         value = 0.0  # but for rounding
-    return f"{what.number(value)} [{_interval_text(what, interval, tr)}]"
+    return f"{what.number(value, tr)} [{_interval_text(what, interval, tr)}]"
 
 
-def _p_text(p: float) -> str:
-    return "< 0.001" if p < 0.001 else f"{p:.3f}"
+def _p_text(p: float, tr: Words) -> str:
+    return tr.numbers("< 0.001" if p < 0.001 else f"{p:.3f}")
 
 
 def _inline(svg: str) -> Markup:

@@ -3,13 +3,16 @@
 import dataclasses
 import os
 import pathlib
+import re
 import stat
 from collections.abc import Iterable
 from typing import Any
 
 from osteomill import _studies
+from osteomill.studies.sessions.words import ENGLISH, Words
 
 GROUPS_FILE = "groups.csv"
+SESSION_FILE = re.compile(r"session(\.part|\.torn-\d+)?\.pcap")  # the last two have no end
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,7 +62,8 @@ class SessionRecord:
 
 
 def recordings_in(places: Iterable[pathlib.Path]) -> list[pathlib.Path]:
-    """Recordings in the given places: a file itself; in a folder DIR all DIR/*.pcap and DIR/*/session.pcap.
+    """Recordings in the given places: a file itself; in a folder DIR all DIR/*.pcap, and DIR/*/session.pcap or what is left of a
+    session that was broken off, DIR/*/session.part.pcap and DIR/*/session.torn-N.pcap.
 
     In the order of their paths, each once. Files that merely have a recording's name, and links that lead nowhere, are included:
     reading them reports the error of each. RuntimeError for a place that is neither file nor folder, and for a folder without
@@ -93,7 +97,7 @@ def digest_of(file: pathlib.Path) -> str:
 
 
 def read(file: str) -> dict[str, Any]:
-    """The result of _studies.read_session for a whole recording, or `why_not` it cannot be read."""
+    """The result of _studies.read_session, or `why_not` the recording cannot be read at all."""
     try:
         return _studies.read_session(file)
     except RuntimeError as error:
@@ -105,6 +109,15 @@ def record_of(digest: str, file: str, found: dict[str, Any]) -> SessionRecord:
     metrics = [Metric(**row) if isinstance(row, dict) else Metric(*row) for row in found["metrics"]]
     return SessionRecord(digest, file, found["trainee"], found["case_name"], found["began_unix_ns"], metrics,
                          bone_at_start=found["bone_at_start"], settings=found["settings"])
+
+
+def broken_off_text(file: str, found: dict[str, Any], tr: Words = ENGLISH) -> str:
+    """A line, in words of `tr`, for the result of `read` of a recording without the session's end."""
+    began = tr.time(found["began_unix_ns"])
+    whose = ", ".join(part for part in (found["trainee"], tr(found["case_name"]), began) if part)
+    seconds = tr.numbers(_studies.number_text("time_s", found["goes_to_s"]))
+    why = found["why_not"].removeprefix(file).lstrip(", ")
+    return f"{file}: " + tr("{}: broken off, or still under way: goes to {} s, without the session's end", whose, seconds) + (f" ({why})" if why else "")
 
 
 def has_entry(path: pathlib.Path) -> bool:
@@ -120,8 +133,9 @@ def _recordings_of_folder(folder: pathlib.Path) -> list[pathlib.Path]:
     found = []
     for name in os.listdir(folder):
         path = folder / name
-        if os.path.isdir(path) and has_entry(inner := path / "session.pcap"):
-            found.append(inner)
+        if os.path.isdir(path):
+            inside = [inner for inner in os.listdir(path) if SESSION_FILE.fullmatch(inner)]
+            found += [path / inner for inner in inside] or ([path] if path.suffix == ".pcap" else [])
         elif path.suffix == ".pcap" or not os.path.exists(path):
             found.append(path)
     if not found:

@@ -25,6 +25,14 @@ class Words:
         text = self._texts.get(english, english)
         return text.format(*values) if values else text
 
+    def numbers(self, text: str) -> str:
+        """The text with the language's decimal sign in its numbers."""
+        return _studies.with_decimal_sign(text, self.language)
+
+    def time(self, unix_ns: int) -> str:
+        """By the clock of this machine; empty where a recording holds no time."""
+        return _studies.local_time_text(unix_ns, self.language)
+
     def name(self, written: str) -> str:
         """The name of a tissue, a case or a structure as people write it: files write "Facial_Nerve"."""
         return self(written.replace("_", " "))

@@ -105,6 +105,60 @@ TEST_F(StartPageTest, SaysWhatToDoWhenTheDiskIsFullAtTheEnd) {
     EXPECT_EQ(window.message(), "there is no such case");
 }
 
+TEST_F(StartPageTest, SaysInGermanThatTheDiskIsFull) {
+    make_program("haptic_server",
+                 "echo 'haptic_server: bone.nrrd: cannot be written: No space left on device' "
+                 ">&2\nexit 1");
+    speak("de");
+    StartPage window = page();
+    window.start();
+    const bool ended = comes_true(window, [&] { return !window.is_session_running(); });
+    speak("en");
+    ASSERT_TRUE(ended);
+    EXPECT_THAT(window.message(),
+                ::testing::StartsWith("bone.nrrd: lässt sich nicht schreiben: die Platte ist "
+                                      "voll. Auf der Platte Platz schaffen"));
+}
+
+TEST_F(StartPageTest, SaysToATraineeThatASessionWasBrokenOffAndWhatToDo) {
+    make_program("haptic_server", "kill -9 $$");
+    StartPage window = page();
+    window.start();
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_session_running(); }));
+    EXPECT_THAT(window.message(), HasSubstr("broken off before anything was recorded. Start it anew"));
+    make_program("haptic_server",
+                 "for a; do case $a in --report=*) d=${a#--report=};; esac; done\n"
+                 "mkdir -p $d; echo x > $d/session.part.pcap; kill -9 $$");
+    window.trainee = "Eva";
+    window.start();
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_session_running(); }));
+    EXPECT_THAT(window.message(), HasSubstr("\"Make report\" makes its report"));
+    EXPECT_THAT(window.message(), ::testing::Not(HasSubstr("signal")));
+}
+
+TEST_F(StartPageTest, StartsBesideAReportThatIsStillBeingWrittenAndSaysSo) {
+    const std::string ended = (folder_ / "ended").string();
+    const std::string written = (folder_ / "written").string();
+    make_program("haptic_server", "while [ ! -e " + ended +
+                                      " ]; do sleep 0.01; done\n"
+                                      "echo 'the session has ended; its report is being made'\n"
+                                      "trap '' TERM\nwhile [ ! -e " +
+                                      written + " ]; do sleep 0.01; done");
+    StartPage window = page();
+    EXPECT_EQ(window.why_not_start(), "");
+    window.start();
+    EXPECT_FALSE(window.may_start());
+    EXPECT_EQ(window.why_not_start(), "a session is being made ready");
+    std::ofstream{ended};
+    ASSERT_TRUE(comes_true(window, [&] { return window.may_start(); }));
+    EXPECT_EQ(window.why_not_start(), "the last session's report is still being written");
+    make_program("haptic_server", "trap 'exit 0' TERM\nwhile :; do sleep 0.01; done");
+    window.start();
+    EXPECT_TRUE(window.is_session_running());
+    EXPECT_FALSE(window.may_start());
+    std::ofstream{written};
+}
+
 TEST_F(StartPageTest, StartsACaseAtTheSecondClickOnItsCardHoweverLateAndNoOther) {
     make_program("haptic_server", "while :; do sleep 0.01; done");
     StartPage window = page();
@@ -129,6 +183,9 @@ TEST_F(StartPageTest, ComparesInTheWindowsLanguageWhatWasFinished) {
     StartPage window = page();
     window.compare_sessions();
     EXPECT_THAT(window.message(), HasSubstr("no session was finished"));
+    const auto broken_off = folder_ / "home" / "reports" / "jaw-eva-20261128-150500";
+    std::filesystem::create_directories(broken_off);
+    std::ofstream(broken_off / "session.part.pcap") << "x";
     std::filesystem::rename(session / "session.part.pcap", session / "session.pcap");
     window.compare_sessions();
     ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
@@ -138,6 +195,7 @@ TEST_F(StartPageTest, ComparesInTheWindowsLanguageWhatWasFinished) {
     EXPECT_THAT(arguments, HasSubstr("sessions --out"));
     EXPECT_THAT(arguments, HasSubstr("--language=en"));
     EXPECT_THAT(arguments, HasSubstr(session.string()));
+    EXPECT_THAT(arguments, HasSubstr(broken_off.string())) << "the page names it";
 }
 
 TEST_F(StartPageTest, ReplaysInAWindowAsLargeAsItsOwn) {
@@ -174,6 +232,9 @@ TEST_F(StartPageTest, LooksAtAScanOnceAndGoesThroughItsSlices) {
     EXPECT_EQ(window.voxels()->greys.back(), '8');
     EXPECT_EQ(window.slices_at_mm, glm::dvec3(0.25));
     EXPECT_GT(window.look()->took_s, 0.0);
+    ASSERT_TRUE(comes_true(window, [&] { return window.loose_parts().has_value(); }));
+    window.form.threshold_hu += 1.0;
+    EXPECT_FALSE(window.loose_parts()) << "that was of another threshold";
     std::ifstream file(folder_ / "arguments");
     std::string once, again;
     EXPECT_TRUE(std::getline(file, once));
