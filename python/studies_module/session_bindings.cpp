@@ -22,7 +22,6 @@
 #include "common/scene/scene_file.h"
 #include "common/text/foreign_text.h"
 #include "common/words/translation.h"
-#include "common/words/translation.h"
 #include "imaging/bone_file/digest.h"
 #include "python/module/loaded_case.h"
 #include "python/studies_module/bindings.h"
