@@ -59,6 +59,19 @@ TEST(KeyBindings, ReachEveryAction) {
         EXPECT_EQ(reached.count(static_cast<Action>(action)), 1u) << action;
 }
 
+/// German and French keyboards bear [ ] only with another key held, French ones the point and the minus, too.
+TEST(KeyBindings, ReachEveryActionByAKeyThatEveryKeyboardHas) {
+    constexpr int first_without_sign = 256;  // GLFW_KEY_ESCAPE
+    const auto is_everywhere = [](int key) {
+        return key == ' ' || (key >= 'A' && key <= 'Z') || key >= first_without_sign;
+    };
+    for (const KeyBinding& binding : key_bindings()) {
+        if (binding.action != Action::none) {
+            EXPECT_TRUE(std::ranges::any_of(binding.keys, is_everywhere)) << binding.name;
+        }
+    }
+}
+
 TEST(KeyBindings, NameTheKeyOfEveryAction) {
     EXPECT_EQ(key_of(Action::none), "");
     EXPECT_EQ(key_of(Action::undo), "U");
