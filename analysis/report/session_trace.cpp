@@ -12,7 +12,7 @@
 
 #include "common/bone/bone_ray.h"
 #include "common/bone/structure_mask.h"
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/recording/playhead.h"
 
 namespace osteomill {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/wire/sealed_frame.h"
 
 namespace osteomill {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/wire/session_receiver.h"
 #include "osteomill/v2/session.pb.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "common/files/session_file.h"
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 
 namespace osteomill {
 

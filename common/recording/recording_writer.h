@@ -22,7 +22,7 @@
 #include <string>
 #include <thread>
 
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 
 namespace osteomill {
 

@@ -1,7 +1,7 @@
 // The milling steps whose result a tick was the first to see, as one whole number. It records the order in
 // which the loops of the real clock took turns, so that a session can be computed again as it was.
 //
-// A digit to base 65536 for each run of steps to one command, the oldest in the lowest: count + 32 * lag +
+// Each run of steps to one command is a field of 16 bits, the oldest run in the lowest: count + 32 * lag +
 // 512 * missed. `count` steps (1 to 31) went to the command of the tick `lag` before (1 to 15), the first of
 // them after `missed` skipped periods of its loop (0 to 127).
 #pragma once

@@ -4,8 +4,8 @@
 //   the one below, with r = ripple / (2 force), as of a train of pulses (Poisson's kernel). Louder with the
 //   force; run-out lets it beat once a turn.
 // - Whine of the spindle in air, at its revolutions, and the edges in the air, faint; a cut drowns it.
-// - Grain, noise of the chips, in a band that follows the tissue: dark in soft bone, bright in enamel. -
-// Growl of a motor that is held, at mains' pitch; all that is left of a stall.
+// - Grain, noise of the chips, in a band that follows the tissue: dark in soft bone, bright in enamel.
+// - Growl of a motor that is held, at mains' pitch; all that is left of a stall.
 //
 // The spindle runs up, slows down and coasts as a motor does, and everything else follows its cue within some
 // hundredths of a second, so that cues thirty times a second make no clicks. Nothing sounds above 20 kHz: a

@@ -27,7 +27,7 @@
 #include "devices/haply/haply_messages.h"
 #include "devices/position_sensor.h"
 #include "devices/wake_up.h"
-#include "simulation/device/fading_force.h"
+#include "simulation/device/fade_out.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/exchange/triple_buffer.h"
 
@@ -146,7 +146,7 @@ class HaplyArm final : public HapticDevice {
     Clock::time_point sensed_;
     Clock::time_point forced_;  // when the loop left the newest force
     bool has_force_ = false;
-    FadingForce sent_force_;
+    FadeOut sent_force_;
     Clock::time_point requested_;
     Clock::time_point first_request_;  // the oldest unanswered request: an answer is no older
     Clock::time_point understood_;     // the newest message that made sense

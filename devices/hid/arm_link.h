@@ -31,7 +31,7 @@
 #include "devices/hid/arm_profile.h"
 #include "devices/hid/hid_transport.h"
 #include "devices/position_sensor.h"
-#include "simulation/device/fading_force.h"
+#include "simulation/device/fade_out.h"
 #include "simulation/device/haptic_device.h"
 
 namespace osteomill {
@@ -171,7 +171,7 @@ class ArmLink {
     std::optional<ArmInput> received_;  // not yet taken over
     double empty_s_;                    // no report was waiting then
     double received_s_ = 0.0;           // the newest came after that
-    FadingForce sent_force_;
+    FadeOut sent_force_;
     bool is_gone_ = false;
     bool is_calibrating_ = false;
     std::uint64_t malformed_count_ = 0;

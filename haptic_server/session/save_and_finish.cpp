@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-SessionControls::Requests SaveAndFinish::requests() {
+ControlRunner::Requests SaveAndFinish::requests() {
     return {.save = [this](const Bone& bone, const std::string& ending) { return save(bone, ending); },
             .finish =
                 [this] {

@@ -11,7 +11,7 @@
 
 #include "common/bone/bone.h"
 #include "common/recording/recording_writer.h"
-#include "haptic_server/streaming/session_controls.h"
+#include "haptic_server/streaming/control_runner.h"
 
 namespace osteomill {
 
@@ -27,9 +27,9 @@ class SaveAndFinish {
     SaveAndFinish(const SaveAndFinish&) = delete;
     SaveAndFinish& operator=(const SaveAndFinish&) = delete;
 
-    /// Callbacks for SessionControls, called on the streaming thread; this object must outlive them. A save
+    /// Callbacks for ControlRunner, called on the streaming thread; this object must outlive them. A save
     /// holds a copy of the bone's fractions until it is written; one at a time.
-    SessionControls::Requests requests();
+    ControlRunner::Requests requests();
 
     /// Any thread: in the log, and to clients, as the answer to a save. A failure to save is reported when it
     /// happens.

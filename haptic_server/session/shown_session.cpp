@@ -103,9 +103,9 @@ void ShownSession::end() {
     keeper_.wait();
 }
 
-SessionControls::Requests ShownSession::requests(const ShownOptions& options, const Scene& scene,
-                                                 const DeviceParts& device, FixtureSet held) {
-    SessionControls::Requests requests = keeper_.requests();
+ControlRunner::Requests ShownSession::requests(const ShownOptions& options, const Scene& scene,
+                                               const DeviceParts& device, FixtureSet held) {
+    ControlRunner::Requests requests = keeper_.requests();
     for (std::size_t i = 0; i < scene.fixtures.size(); ++i)
         requests.fixtures.push_back(has_fixture(held, i) ? scene.fixtures[i].name : std::string());
     requests.finish_words = options.words_at_finish;

@@ -55,13 +55,13 @@ class ShownSession {
     const std::optional<ToolPose>& placed() const { return placed_; }
 
   private:
-    SessionControls::Requests requests(const ShownOptions& options, const Scene& scene,
-                                       const DeviceParts& device, FixtureSet held);
+    ControlRunner::Requests requests(const ShownOptions& options, const Scene& scene,
+                                     const DeviceParts& device, FixtureSet held);
 
     const bool waits_for_client_;
     SaveAndFinish keeper_;
     std::optional<ToolPose> placed_;  // the streaming thread's until end()
-    SessionControls controls_;
+    ControlRunner controls_;
     LiveSession live_;
     StreamingServer server_;
 };

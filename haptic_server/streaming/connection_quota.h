@@ -1,10 +1,10 @@
-// Quota of connections that have not identified themselves yet, a new client or a port scan, shared by the
-// addresses they come from. So they never cost a client its connection.
+// Quota of connections that have not identified themselves yet, as of a new client or of a port scan. They
+// never cost a client, which has, its connection.
 //
-// When it is full, the oldest connection of the address that holds most goes. So one address, however fast it
-// connects, never costs another its connection. Behind one address, or from very many, a connection is kept
-// until N newer ones have come, N being the quota: with 512, and 1000 new ones a second, for half a second. A
-// handshake takes two round trips, of 50 ms say.
+// When the quota is full, the address that holds most loses its oldest connection. So one address, however
+// fast it connects, never costs another its connection. Behind one address, or from very many, a connection
+// is kept until N newer ones have come, N being the quota: with 512, and 1000 new ones a second, for half a
+// second. A handshake takes two round trips, of 50 ms say.
 #pragma once
 
 #include <boost/asio/ip/address.hpp>

@@ -17,8 +17,8 @@
 #include "common/session/structure_watch.h"
 #include "common/session/tool_state.h"
 #include "common/wire/session_info.h"
+#include "haptic_server/streaming/control_runner.h"
 #include "haptic_server/streaming/control_script.h"
-#include "haptic_server/streaming/session_controls.h"
 #include "haptic_server/streaming/stream_source.h"
 #include "simulation/exchange/change_queue.h"
 #include "simulation/exchange/triple_buffer.h"
@@ -59,7 +59,7 @@ class LiveSession final : public StreamSource {
   public:
     /// `controls`: outlives it; null for a session without controls. `script`: controls that are due at given
     /// times.
-    LiveSession(TripleBuffer<ToolState>& tool, ChangeQueue& changes, SessionControls* controls = nullptr,
+    LiveSession(TripleBuffer<ToolState>& tool, ChangeQueue& changes, ControlRunner* controls = nullptr,
                 ControlScript script = {})
         : tool_(tool), changes_(changes), controls_(controls), script_(std::move(script)) {}
     /// Makes the CT for display, on a thread of its own, at the first request.
@@ -80,7 +80,7 @@ class LiveSession final : public StreamSource {
     TripleBuffer<ToolState>& tool_;
     TripleBuffer<std::optional<CutState>>* cuts_ = nullptr;
     ChangeQueue& changes_;
-    SessionControls* controls_;
+    ControlRunner* controls_;
     ControlScript script_;
     StructureWatch structures_;
     std::optional<StructureLog> structure_log_;

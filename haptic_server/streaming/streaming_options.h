@@ -10,7 +10,7 @@
 #include <string>
 
 #include "common/net/tls_context.h"
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/recording/recording_writer.h"
 #include "common/session/tick_sample.h"
 #include "haptic_server/streaming/connection_quota.h"

@@ -1,7 +1,7 @@
 // Journal of the bone removed by each slice of a stroke, which is what one undo gives back, for any number of
 // undos and redos. Its functions call a slice a stroke.
 //
-// The owner, SessionControls, ends one where UndoSlice does (common/session/stroke_span.h). For each changed
+// The owner, ControlRunner, ends one where UndoSlice does (common/session/stroke_span.h). For each changed
 // brick the journal keeps the mask of its voxels and, compressed, their fractions before: no second copy of
 // the bone. An undone stroke keeps the fractions after it instead, for redo.
 #pragma once

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "common/files/input_file.h"
-#include "imaging/dicom/apart.h"
 #include "imaging/dicom/data_set.h"
 #include "imaging/dicom/dicom_pixels.h"
+#include "imaging/dicom/own_process.h"
 #include "imaging/dicom/quiet_libraries.h"
 #include "imaging/imaging_error.h"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "imaging/dicom/dicom_scan.h"
-#include "imaging/dicom/slice_geometry.h"
+#include "imaging/dicom/dicom_precheck.h"
+#include "imaging/dicom/slice_stack.h"
 
 namespace osteomill {
 
@@ -89,7 +89,7 @@ struct DicomHeader {
 
 /// std::nullopt if the file is not DICOM at all. Throws ImagingError if it cannot be opened, begins as
 /// DICOM and then cannot be parsed (cut off), nests its sequences beyond reason, or has pixels that are not
-/// there or cannot be decoded (dicom_scan.h).
+/// there or cannot be decoded (dicom_precheck.h).
 std::optional<DicomHeader> read_dicom_header(const std::filesystem::path& path);
 
 }  // namespace osteomill

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/dicom/dicom_scan.h"
+#include "imaging/dicom/dicom_precheck.h"
 
 namespace osteomill {
 

@@ -1,4 +1,4 @@
-// DICOM series that a folder holds, and the one to take.
+// DICOM series that a folder holds, and the one to take; slice_stack.h puts its slices in order.
 #pragma once
 
 #include <filesystem>

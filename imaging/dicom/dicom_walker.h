@@ -1,5 +1,5 @@
 // Walk through the elements of a DICOM file, with bounds on nesting and effort; it collects the facts of
-// dicom_scan.h.
+// dicom_precheck.h.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "imaging/dicom/dicom_scan.h"
+#include "imaging/dicom/dicom_precheck.h"
 
 namespace osteomill {
 

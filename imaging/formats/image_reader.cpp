@@ -18,7 +18,7 @@
 #include "common/files/input_file.h"
 #include "common/text/words.h"
 #include "imaging/dicom/dicom_image.h"
-#include "imaging/dicom/dicom_scan.h"
+#include "imaging/dicom/dicom_precheck.h"
 #include "imaging/formats/byte_source.h"
 #include "imaging/formats/desktop_file.h"
 #include "imaging/formats/meta_image_header.h"

@@ -23,7 +23,7 @@ struct ImageChoice {
 /// Reads headers only. Throws ImagingError, in one line, for all that is no three-dimensional grey image
 /// placed in the patient: a path that does not exist, an unknown kind of file, a header that is cut off or
 /// impossible, 2 or 4 dimensions, a single slice, colour, a geometry that no scan has (plausible_geometry.h),
-/// voxels for which the files are too short, and anything that the headers, dicom_series.h, slice_geometry.h
+/// voxels for which the files are too short, and anything that the headers, dicom_series.h, slice_stack.h
 /// and picture_stack.h refuse.
 OpenedImage open_image(const std::filesystem::path& path, const ImageChoice& choice = {});
 

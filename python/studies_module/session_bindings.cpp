@@ -18,7 +18,7 @@
 #include "analysis/report/session_metrics.h"
 #include "analysis/report/session_trace.h"
 #include "common/files/input_file.h"
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/scene/scene_file.h"
 #include "common/text/foreign_text.h"
 #include "common/words/translation.h"

@@ -40,9 +40,9 @@ constexpr double smoothing_voxels(VoxelCoverage coverage) {
     return coverage == VoxelCoverage::smoothed ? detail::smoothed_mean_over : 0.0;
 }
 
-/// How far from the burr's surface a voxel's centre can be that loses something and keeps something, voxels:
-/// beyond, the ramp is within half of one of the 255 levels of its end (smoothed: it ends as a parabola, v^2
-/// / (2 b) = 1 / 510 at v = 0.0527).
+/// The largest distance of a voxel's centre from the burr's surface, voxels, at which the voxel is cut in
+/// part. Beyond it the voxel is whole or gone: the ramp is within half of one of the 255 levels of its end
+/// (smoothed: it ends as a parabola, v^2 / (2 b) = 1 / 510 at v = 0.0527).
 constexpr double rim_voxels(VoxelCoverage coverage) {
     if (coverage == VoxelCoverage::binary) return 0.0;
     return coverage == VoxelCoverage::linear ? 0.5 - 0.5 / 255.0 : detail::smoothed_ramp_half - 0.0526;

@@ -14,7 +14,7 @@
 // of freshly carved bone scatter by a fortieth of a voxel (rms) and at most 0.08, as much as a slow burr
 // advances in a tick: a patch whose gap is that small may touch or not, and counts as touching by the weight
 // w_i, which falls from 1 to 0 over the scatter. A threshold would let it come and go with the lattice; a
-// wider fall takes bone for touched that is yet to be met, and the first touch for twice as hard as it is.
+// wider fall counts bone as touched too early, and makes the first touch twice as hard as it is.
 // Piecewise linear: Newton on the set of patches in contact (contact_solve.h). With a spring alone and in one
 // dimension, in bone of resistance B, it is p' = (B/dt p + K_c x) / (B/dt + K_c): stable for any B.
 //

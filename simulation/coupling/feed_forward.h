@@ -14,8 +14,8 @@
 // nothing from the range in which the spring is stable. It is open loop, as event transients are
 // (Kuchenbecker, Fiene and Niemeyer 2006), and bounded: it only resists; with the spring it tends to no more
 // than the rigid burr's force; its step in a tick is at most 0.1 N, with the spring's 0.15 N, or what the
-// spring alone makes. A step that is cut short comes in the ticks after, while there is cause. Of bone that
-// ends the spring lets go by itself: an f below 0, tried, strayed farther from the model's force.
+// spring alone makes. A step that is cut short comes in the ticks after, while there is cause. Where bone
+// ends, the spring relaxes by itself: an f below 0 was tried, and the force was farther from the model's.
 //
 // Three axes: f acts along the way of the hand, and B is the part against that way of the bone's force on a
 // burr that goes there with 1 mm/s. Sideways nothing is fed forward: the edges' pull across the way is up to

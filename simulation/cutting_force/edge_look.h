@@ -11,7 +11,7 @@
 //
 // Rows of the lattice enter half a path unevenly: along a surface its volume is off by a fiftieth, or by a
 // voxel in a thin cut, and then b leaves the force over the whole path as it is. A face that grows slowly
-// tells itself from that by its growth's mean <> over the way s that the burr has gone in bone, up to half a
+// is told from that by the mean <> of its growth over the way s that the burr has gone in bone, up to half a
 // voxel. If the line ends before there is a face, the burr has not reached the bone, and nothing rubs.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The spring of an arm that was measured (measured_arm.h), by the rule of arm_spring.h. A measurement takes
-// the place of the claim, and may go beyond it:
+// The spring of an arm that was measured (haptic_server/measuring/arm_measurement.h), by the rule of
+// arm_spring.h. A measurement takes the place of the claim, and may go beyond it:
 //
 //     K is at most 2/3 of the stiffest spring on which the arm came to rest, beside the same damper
 //

@@ -1,4 +1,4 @@
-// Requests and answers between SessionControls (haptic_server/streaming/session_controls.h), which asks, and
+// Requests and answers between ControlRunner (haptic_server/streaming/control_runner.h), which asks, and
 // the two loops, which answer: the spindle's speed, the fixtures that are on, whether to hold still; the
 // changes restored and the placement made so far. While the session holds still there is neither force nor
 // spindle, and only undo changes the bone.

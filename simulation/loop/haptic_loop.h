@@ -20,7 +20,7 @@
 #include "common/session/tool_state.h"
 #include "simulation/coupling/coupling.h"
 #include "simulation/coupling/handpiece_vibration.h"
-#include "simulation/device/fading_force.h"
+#include "simulation/device/fade_out.h"
 #include "simulation/device/haptic_device.h"
 #include "simulation/exchange/copiable_atomic.h"
 #include "simulation/exchange/milling_step.h"
@@ -116,7 +116,7 @@ class HapticLoop {
     bool gives_force_;
     EnergyMeter energy_;
     glm::dvec3 felt_n_{0.0};  // patient axes; last written and felt
-    FadingForce at_the_end_;
+    FadeOut at_the_end_;
     CopiableAtomic<bool> lets_go_{false};
     CopiableAtomic<bool> has_let_go_{false};
 

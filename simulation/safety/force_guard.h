@@ -1,5 +1,5 @@
 // The last stage of the force before the hand: it is finite, within the device's limit and rate of change,
-// and fades out on any fault.
+// fades out on any fault, and in again after it.
 //
 //             fault                faded out              no fault for settle_s
 //   active ----------> fading out -----------> off --------------------------> fading in
@@ -16,13 +16,13 @@
 // No state holds or repeats an old force: fading out only ever shrinks it.
 //
 // Other bounds on how fast a force changes: ArmSpring::felt_jump_n (simulation/device/arm_spring.h) a tick,
-// for a spring that meets or leaves bone; FadingForce (simulation/device/fading_force.h), for a driver whose
+// for a spring that meets or leaves bone; FadeOut (simulation/device/fade_out.h), for a driver whose
 // loop falls silent; MeasuringGuard (haptic_server/measuring/measuring_guard.h), while an arm is measured.
 #pragma once
 
 #include <glm/vec3.hpp>
 
-#include "simulation/device/fading_force.h"
+#include "simulation/device/fade_out.h"
 #include "simulation/safety/fault.h"
 
 namespace osteomill {
@@ -31,7 +31,7 @@ class ForceGuard {
   public:
     enum class State { active, fading_out, off, fading_in };
 
-    static constexpr double fade_out_s = FadingForce::fade_s;
+    static constexpr double fade_out_s = FadeOut::fade_s;
     /// Least time without a fault before the force returns; keeps a fault that comes and goes from drumming
     /// on the hand.
     static constexpr double settle_s = 0.1;

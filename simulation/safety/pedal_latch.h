@@ -6,9 +6,9 @@
 //     ^                                                                |
 //     +---------------- the pedal is seen up, and fresh ---------------+
 //
-// A statement lapses when it is older than longest_age_s, when the loop itself stood still for so long (a
-// stopped program has a stopped clock, and would find the pedal as it was held before), and when another
-// party speaks. Silence is not a release: a person who held the pedal through it may not mean the bone at
+// A statement lapses when it is older than longest_age_s, when the loop itself stood still for so long (the
+// clock of a stopped program stands, too, and the old statement would seem fresh), and when another party
+// speaks. Silence is not a release: a person who held the pedal through it may not mean the bone at
 // which the burr is afterwards. The latch starts locked.
 #pragma once
 

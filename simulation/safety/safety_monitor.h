@@ -111,7 +111,8 @@ class SafetyMonitor {
     Watchdog watchdog_;
     ForceGuard guard_;
     FaultSet found_;                 // in this tick
-    Fault keeps_off_ = Fault::none;  // the first of them, or what else keeps an `off` force off
+    Fault keeps_off_ = Fault::none;  // why the force is off: this tick's first fault, else an earlier one or
+                                     // bone in the burr
     PedalDate pedal_date_;
     PedalLatch pedal_;
     Fault spindle_locked_by_ = Fault::none;

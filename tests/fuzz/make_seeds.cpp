@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 #include "common/wire/structure_messages.h"

@@ -38,7 +38,7 @@ OPENINGS = {
     "common/files/atomic_file.cpp": "the place: refuses a link that leads to nothing",
     "common/files/session_file.cpp": "moves the part of a killed session aside",
     "common/files/output_place.cpp": "a lock of its own name",
-    "common/recording/packet.cpp": "the part of a SessionFile",
+    "common/recording/pcap_file.cpp": "the part of a SessionFile",
     "analysis/logs/csv_log.cpp": "the part of a SessionFile",
     "analysis/hdf5/hdf5_file.cpp": "the part of an AtomicFile",
     "analysis/replay/recording_sound.cpp": "the part of an AtomicFile",

@@ -13,7 +13,7 @@
 
 #include "common/files/atomic_file.h"
 #include "common/files/session_file.h"
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/structure_messages.h"
 #include "haptic_server/streaming/session_recorder.h"

@@ -1,5 +1,5 @@
-// The elements of a session that a picture may show: those that are true now, and not of another time, of
-// another bone, or of nobody.
+// The elements of a session that a picture may show: those that belong to the session and the bone in view,
+// and are up to date.
 #pragma once
 
 #include "render_client/link/session_source.h"

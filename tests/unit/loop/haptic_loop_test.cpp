@@ -184,7 +184,7 @@ TEST(HapticLoop, FadesTheForceOfASessionThatEndsAndStopsTheSpindle) {
     while (!bench.loop().has_let_go() && ++ticks < 100) {
         const double now_n = bench.run(1).x;
         EXPECT_LE(now_n, before_n);
-        EXPECT_GE(now_n, before_n - 1.01 * 2.0 * tick_s / FadingForce::fade_s);
+        EXPECT_GE(now_n, before_n - 1.01 * 2.0 * tick_s / FadeOut::fade_s);
         EXPECT_FALSE(bench.shown().spindle_on);
         before_n = now_n;
     }
@@ -458,9 +458,10 @@ TEST(HapticLoop, HoldsStillAsLongAsTheGateSaysAndTheSpindleUntilThePedalHasBeenU
     bench.run(1000);
     EXPECT_EQ(bench.run(1), glm::dvec3(2.0, 0.0, 0.0));
     EXPECT_FALSE(bench.shown().spindle_on) << "the pedal has been down all the time";
-    EXPECT_EQ(bench.shown().notice,
-              "the spindle stays off after a pause, an undo or a placing of the tool: let go of the pedal, and "
-              "press it anew");
+    EXPECT_EQ(
+        bench.shown().notice,
+        "the spindle stays off after a pause, an undo or a placing of the tool: let go of the pedal, and "
+        "press it anew");
     bench.device.script = [](double) { return DeviceState{}; };
     bench.run(2);
     bench.device.script = [](double) { return DeviceState{.pedal = {true}}; };

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/wire/frame.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/made_recording.h"

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/recording/recording_reader.h"
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"

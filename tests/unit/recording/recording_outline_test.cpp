@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/recording/recording_reader.h"
 #include "tests/support/made_recording.h"
 #include "tests/support/temporary_folder.h"

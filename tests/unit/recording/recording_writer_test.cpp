@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "tests/support/eventually.h"
 #include "tests/support/file_size_limit.h"
 #include "tests/support/temporary_folder.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/report/metrics_csv_json.h"
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "imaging/picture/bone_picture.h"
 #include "tests/support/made_recording.h"
 #include "tests/support/temporary_folder.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "haptic_server/streaming/session_controls.h"
+#include "haptic_server/streaming/control_runner.h"
 #include "tests/support/block.h"
 
 namespace osteomill {
@@ -14,7 +14,7 @@ TEST(SaveAndFinish, SaysForAsLongAsItIsSoThatNothingIsRecorded) {
     const Bone bone = testing::make_block({0.0, 0.0, 0.0}, {2.0, 2.0, 2.0}, 0.5);
     ChangeQueue restored(1 << 10, bone.shared_content());
     TripleBuffer<Placement> placements;
-    const SessionControls controls(gate, restored, placements, keeper.requests());
+    const ControlRunner controls(gate, restored, placements, keeper.requests());
     EXPECT_EQ(controls.status().recording_problem, "");
     keeper.hear(RecordingNews::stands_still, "a.pcap: No space left on device");
     for (int frame = 0; frame < 2; ++frame)

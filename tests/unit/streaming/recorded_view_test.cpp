@@ -1,7 +1,7 @@
 // The operator's viewpoint, on its way from a window into a recording.
 #include <gmock/gmock.h>
 
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 #include "common/recording/playhead.h"
 #include "common/wire/sealed_frame.h"
 #include "render_client/link/bone_link.h"

@@ -331,7 +331,7 @@ TEST(Translation, AreThereForAllThatAServerAnswersToAWindow) {
     const auto streaming = sources_in("haptic_server/streaming");
     const auto session = sources_in("haptic_server/session");
     std::size_t texts = 0;
-    for (const std::string& source : {streaming.at("session_controls.cpp"), session.at("tool_place.cpp")})
+    for (const std::string& source : {streaming.at("control_runner.cpp"), session.at("tool_place.cpp")})
         for (std::size_t at = source.find('"'); at != std::string::npos; at = source.find('"', at)) {
             const std::string text = with_plain_places(literal_at(source, at));
             if (!has_word(text)) continue;

@@ -1,4 +1,4 @@
-#include "haptic_server/streaming/session_controls.h"
+#include "haptic_server/streaming/control_runner.h"
 
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
     TripleBuffer<Placement> placements_;
     std::optional<ToolPose> placed_;
     std::optional<ToolPose> lifted_;
-    SessionControls controls_;
+    ControlRunner controls_;
     double time_s_ = 0.0;
     bool can_save_ = true;
     bool is_finished_ = false;
@@ -249,10 +249,10 @@ TEST_F(SessionControlsTest, ResetsManyStrokesInOneChangeOfEachBrick) {
     // And all of it again, requested one by one.
     std::size_t left = controls_.status().redo_steps;
     while (left > 0) {
-        for (std::size_t i = 0; i < std::min(left, SessionControls::most_waiting); ++i)
+        for (std::size_t i = 0; i < std::min(left, ControlRunner::most_waiting); ++i)
             controls_.control({SessionAction::redo});
         frame();
-        EXPECT_EQ(controls_.status().redo_steps, left - std::min(left, SessionControls::most_waiting));
+        EXPECT_EQ(controls_.status().redo_steps, left - std::min(left, ControlRunner::most_waiting));
         left = controls_.status().redo_steps;
         frames(60);
     }
@@ -395,7 +395,7 @@ TEST_F(SessionControlsTest, AnswersAllInTimeThoughNoArmIsThereToPlace) {
     controls_.control({SessionAction::mark, "behind"});
     controls_.control({SessionAction::save});
     controls_.control({SessionAction::finish});
-    for (int i = 0; i < SessionControls::longest_wait_frames; ++i) {
+    for (int i = 0; i < ControlRunner::longest_wait_frames; ++i) {
         EXPECT_TRUE(controls_.take_events().empty());
         frame();
     }
@@ -422,14 +422,14 @@ TEST_F(SessionControlsTest, AnswersAllInTimeThoughNoArmIsThereToPlace) {
 
 TEST_F(SessionControlsTest, SaysWhatAPlacementWaitedFor) {
     controls_.control({.action = SessionAction::place, .pose = {{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}});
-    for (int i = 0; i < SessionControls::longest_wait_frames; ++i) {
+    for (int i = 0; i < ControlRunner::longest_wait_frames; ++i) {
         controls_.begin_frame();
         controls_.end_frame(mirror_, {.time_s = 0.0, .fault = "the arm has gone"});
     }
     EXPECT_EQ(controls_.take_events().at(0).text, "the arm has gone");
     // Done at the last moment, it is done.
     controls_.control({.action = SessionAction::place, .pose = {{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}});
-    for (int i = 0; i < SessionControls::longest_wait_frames - 1; ++i) frame();
+    for (int i = 0; i < ControlRunner::longest_wait_frames - 1; ++i) frame();
     gate_.placed = 2;
     frame();
     EXPECT_FALSE(controls_.take_events().at(0).is_refused);
@@ -442,8 +442,7 @@ TEST_F(SessionControlsTest, AnswersAllInTimeThoughTheLoopsStandStill) {
          {SessionAction::mark, SessionAction::redo, SessionAction::save, SessionAction::finish,
           SessionAction::pause, SessionAction::resume, SessionAction::speed})
         controls_.control({action});
-    for (int i = 0; i < SessionControls::longest_wait_frames; ++i)
-        frame();  // and no step of the milling loop
+    for (int i = 0; i < ControlRunner::longest_wait_frames; ++i) frame();  // and no step of the milling loop
     auto events = controls_.take_events();
     ASSERT_EQ(events.size(), 8U);
     for (const ControlEvent& event : events) {
@@ -460,7 +459,7 @@ TEST_F(SessionControlsTest, AnswersAllInTimeThoughTheLoopsStandStill) {
     mill();
     controls_.control({SessionAction::undo});
     controls_.control({SessionAction::mark});
-    for (int i = 0; i < SessionControls::longest_wait_frames; ++i) frame(true);
+    for (int i = 0; i < ControlRunner::longest_wait_frames; ++i) frame(true);
     events = controls_.take_events();
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events[0].text, "the stroke under way does not end");
@@ -473,7 +472,7 @@ TEST_F(SessionControlsTest, TakesNoMoreThanItCanRemember) {
     const auto events = controls_.take_events();
     ASSERT_EQ(events.size(), 1000U);
     const auto refused = std::ranges::count_if(events, [](const auto& event) { return event.is_refused; });
-    EXPECT_EQ(refused, 1000 - static_cast<std::ptrdiff_t>(SessionControls::most_waiting));
+    EXPECT_EQ(refused, 1000 - static_cast<std::ptrdiff_t>(ControlRunner::most_waiting));
 }
 
 TEST_F(SessionControlsTest, GoesOnThroughAQueueThatIsTooSmallForAStroke) {

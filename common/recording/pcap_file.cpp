@@ -1,4 +1,4 @@
-#include "common/recording/packet.h"
+#include "common/recording/pcap_file.h"
 
 #include <fmt/format.h>
 #include <pcap/pcap.h>

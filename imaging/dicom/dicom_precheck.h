@@ -1,4 +1,4 @@
-// Scan of a DICOM file, element by element, before GDCM reads it. GDCM recurses into every sequence within a
+// Check of a DICOM file, element by element, before GDCM reads it. GDCM recurses into every sequence within a
 // sequence, sometimes twice, allocates any length that an element claims, and decodes pixels of any format.
 // So GDCM only gets files that nest little, hold the bytes that they claim, and are images that it decodes
 // (dicom_pixels.h). Pure functions over bytes.

@@ -1,6 +1,6 @@
-// Controls of a session by its operator: pause, undo and redo by slices of strokes, marks, the speed of the
-// spindle, fixtures on and off, saving, the end. They run on the streaming thread, whose own copy of the bone
-// shows everything that was milled.
+// Runner of a session's controls by its operator: pause, undo and redo by slices of strokes, marks, the speed
+// of the spindle, fixtures on and off, saving, the end. They run on the streaming thread, whose own copy of
+// the bone shows everything that was milled.
 //
 // Undo takes the path of milling in reverse: the fractions in the journal are queued for the milling loop,
 // which writes them into its bone while the spindle is off; they return as changes that restore, for the copy
@@ -11,8 +11,8 @@
 //
 //     asks    the window (render_client/ui/input/commands.h; its panels leave SessionRequests there), another
 //             client, or a script (control_script.h): each a SessionControl (session_control.h).
-//             leases.h and leases.h decide which client may
-//     acts    SessionControls, here; the loops through SessionGate (simulation/exchange/session_gate.h) and
+//             leases.h decides which client may
+//     acts    ControlRunner, here; the loops through SessionGate (simulation/exchange/session_gate.h) and
 //             the queue of restored changes
 //     writes  SaveAndFinish (haptic_server/session/save_and_finish.h) the saved bone, and it ends the session
 //     told    ControlEvents, to every client and the recording; the window words them by ControlNotices
@@ -38,7 +38,7 @@
 
 namespace osteomill {
 
-class SessionControls {
+class ControlRunner {
   public:
     /// Actions of other parts. Each returns the reason why it cannot be done; an empty line: it will be done.
     struct Requests {
@@ -70,8 +70,8 @@ class SessionControls {
 
     /// The one writer of gate.stillness, gate.spindle_rpm and gate.fixtures_on, of `restored` and of
     /// `placements`; all outlive it.
-    SessionControls(SessionGate& gate, ChangeQueue& restored, TripleBuffer<Placement>& placements,
-                    Requests requests)
+    ControlRunner(SessionGate& gate, ChangeQueue& restored, TripleBuffer<Placement>& placements,
+                  Requests requests)
         : gate_(gate), restored_(restored), placements_(placements), requests_(std::move(requests)) {}
 
     void control(const SessionControl& control);

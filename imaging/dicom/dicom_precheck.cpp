@@ -1,4 +1,4 @@
-#include "imaging/dicom/dicom_scan.h"
+#include "imaging/dicom/dicom_precheck.h"
 
 #include <zlib.h>
 

@@ -9,7 +9,7 @@
 #include "tests/support/raw_dicom.h"
 #include "tests/support/raw_images.h"
 
-namespace osteomill::dicom_scan_test {
+namespace osteomill::dicom_precheck_test {
 namespace {
 
 using namespace testing;
@@ -169,4 +169,4 @@ TEST(DicomScan, TellsWhatHoldsNoCtNumbers) {
 }
 
 }  // namespace
-}  // namespace osteomill::dicom_scan_test
+}  // namespace osteomill::dicom_precheck_test

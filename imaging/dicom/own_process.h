@@ -1,4 +1,4 @@
-// A step of a library in a process of its own: a file over which the library ends its process ends no other.
+// A library's step in a process of its own: if a file makes the library crash, that process alone ends.
 #pragma once
 
 #include <chrono>

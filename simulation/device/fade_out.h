@@ -1,6 +1,6 @@
-// The force sent to an arm, which never ends in one step: when the loop's force becomes invalid (the arm is
-// lost, not able, in the clutch; the loop stands still), the last force shrinks linearly to zero within
-// fade_s, like the safety monitor's.
+// Fade-out of the force sent to an arm, which never ends in one step: when the loop's force becomes invalid
+// (the arm is lost, not able, in the clutch; the loop stands still), the last force shrinks linearly to zero
+// within fade_s. The fade-out after a fault and the fade-in are force_guard.h's (simulation/safety).
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace osteomill {
 
-class FadingForce {
+class FadeOut {
   public:
     /// The promise is 50 ms; a fade shorter than this is felt as a knock.
     static constexpr double fade_s = 0.03;

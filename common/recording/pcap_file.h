@@ -1,4 +1,4 @@
-// Packets of a recording, each one frame of a session and when it was sent: their reader and their writer.
+// Reader and writer of a recording's pcap file: packets, each one frame of a session and when it was sent.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "imaging/dicom/slice_geometry.h"
+#include "imaging/dicom/slice_stack.h"
 
 #include <fmt/format.h>
 

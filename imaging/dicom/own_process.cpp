@@ -1,4 +1,4 @@
-#include "imaging/dicom/apart.h"
+#include "imaging/dicom/own_process.h"
 
 #include <poll.h>
 #include <signal.h>

@@ -1,4 +1,4 @@
-#include "imaging/dicom/apart.h"
+#include "imaging/dicom/own_process.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace osteomill::apart_test {
+namespace osteomill::own_process_test {
 namespace {
 
 TEST(Apart, LeavesWhatItWroteAndSaysWhetherItSucceeded) {
@@ -41,4 +41,4 @@ TEST(Apart, EndsAChildThatStandsStillAndTriesOnceMore) {
 }
 
 }  // namespace
-}  // namespace osteomill::apart_test
+}  // namespace osteomill::own_process_test

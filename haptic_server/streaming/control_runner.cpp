@@ -1,4 +1,4 @@
-#include "haptic_server/streaming/session_controls.h"
+#include "haptic_server/streaming/control_runner.h"
 
 #include <fmt/format.h>
 
@@ -27,25 +27,25 @@ bool is_stroke_action(SessionAction action) {
 
 }  // namespace
 
-void SessionControls::control(const SessionControl& control) {
+void ControlRunner::control(const SessionControl& control) {
     if (waiting_.size() < most_waiting)
         waiting_.push_back({control});
     else
         say(control, "too much was requested at once");
 }
 
-void SessionControls::begin_frame() {
+void ControlRunner::begin_frame() {
     has_changes_ = false;
     // Read before the changes are: those that it counts are then among them.
     confirmed_ = gate_.restored_changes.load(std::memory_order_acquire);
 }
 
-void SessionControls::note(const BrickChange& change, const Bone& bone) {
+void ControlRunner::note(const BrickChange& change, const Bone& bone) {
     has_changes_ = true;
     journal_.note(change, bone);
 }
 
-void SessionControls::end_frame(const Bone& bone, const ToolState& tool) {
+void ControlRunner::end_frame(const Bone& bone, const ToolState& tool) {
     time_s_ = tool.time_s;
     const bool goes_on =
         stroke_.goes_on(tool.time_s, tool.spindle_on, has_changes_, tool.force_n != glm::dvec3(0.0));
@@ -72,7 +72,7 @@ void SessionControls::end_frame(const Bone& bone, const ToolState& tool) {
     gate_.stillness.set(wants_stillness);
 }
 
-std::string SessionControls::act(const Waiting& waiting, const Bone& bone, const ToolState& tool) {
+std::string ControlRunner::act(const Waiting& waiting, const Bone& bone, const ToolState& tool) {
     const SessionControl& control = waiting.control;
     const bool needs_bone = control.action == SessionAction::save ||
                             control.action == SessionAction::finish || control.action == SessionAction::place;
@@ -113,7 +113,7 @@ std::string SessionControls::act(const Waiting& waiting, const Bone& bone, const
     return {};
 }
 
-std::string SessionControls::restore(SessionAction action, const Bone& bone, const ToolState& tool) {
+std::string ControlRunner::restore(SessionAction action, const Bone& bone, const ToolState& tool) {
     if (is_restoring()) return bone_is_under_way;
     if (tool.spindle_on || journal_.has_open_stroke()) return "the stroke under way does not end";
     const bool redoes = action == SessionAction::redo;
@@ -132,14 +132,14 @@ std::string SessionControls::restore(SessionAction action, const Bone& bone, con
     return {};
 }
 
-void SessionControls::lift_out(const Bone& bone, const ToolState& tool) {
+void ControlRunner::lift_out(const Bone& bone, const ToolState& tool) {
     if (!requests_.lift_out) return;
     const ToolPose pose{tool.burr_position_mm, tool.spindle_axis};
     if (const auto clear = requests_.lift_out(bone, pose, tool.burr))
         waiting_.push_front({.control = {.action = SessionAction::place, .pose = *clear}, .lifts_out = true});
 }
 
-std::string SessionControls::place(const Waiting& waiting, const Bone& bone, const ToolState& tool) {
+std::string ControlRunner::place(const Waiting& waiting, const Bone& bone, const ToolState& tool) {
     // The haptic loop has a frame to place the tool, and another in which it may see that it need not any
     // more.
     const int frames_left = longest_wait_frames - waiting.frames;
@@ -168,12 +168,12 @@ std::string SessionControls::place(const Waiting& waiting, const Bone& bone, con
     return fault.empty() ? "force and spindle do not go off" : fault;
 }
 
-void SessionControls::ask_for(const Placement& placement) {
+void ControlRunner::ask_for(const Placement& placement) {
     placements_.back() = placement;
     placements_.publish();
 }
 
-void SessionControls::say_placed(const Waiting& waiting) {
+void ControlRunner::say_placed(const Waiting& waiting) {
     is_being_placed_ = false;
     const SessionControl& control = waiting.control;
     const glm::dvec3& at = placement_.pose.position_mm;
@@ -185,7 +185,7 @@ void SessionControls::say_placed(const Waiting& waiting) {
     if (requests_.placed && !waiting.lifts_out) requests_.placed(placement_.pose);
 }
 
-void SessionControls::choose_speed(const SessionControl& control) {
+void ControlRunner::choose_speed(const SessionControl& control) {
     gate_.spindle_rpm.store(static_cast<std::uint32_t>(std::lround(control.spindle_rpm)),
                             std::memory_order_relaxed);
     say({.action = control.action,
@@ -193,7 +193,7 @@ void SessionControls::choose_speed(const SessionControl& control) {
                                             : fmt::format("{:.0f} rpm", control.spindle_rpm)});
 }
 
-void SessionControls::switch_fixture(const SessionControl& control) {
+void ControlRunner::switch_fixture(const SessionControl& control) {
     const auto found = std::ranges::find(requests_.fixtures, control.text);
     if (control.text.empty() || found == requests_.fixtures.end()) {
         say(control, no_such_fixture(control.text, requests_.fixtures));
@@ -209,7 +209,7 @@ void SessionControls::switch_fixture(const SessionControl& control) {
     }
 }
 
-void SessionControls::queue_restored() {
+void ControlRunner::queue_restored() {
     for (; !waits_for_room_.empty(); waits_for_room_.pop_front()) {
         const StrokeJournal::Restored& brick = waits_for_room_.front();
         if (!restored_.try_push(brick.change, brick.fractions)) return;
@@ -217,7 +217,7 @@ void SessionControls::queue_restored() {
     }
 }
 
-void SessionControls::say(const SessionControl& control, std::string refusal) {
+void ControlRunner::say(const SessionControl& control, std::string refusal) {
     const bool is_refused = !refusal.empty();
     events_.push_back({.time_s = time_s_,
                        .action = control.action,
@@ -225,7 +225,7 @@ void SessionControls::say(const SessionControl& control, std::string refusal) {
                        .is_refused = is_refused});
 }
 
-SessionStatus SessionControls::status() const {
+SessionStatus ControlRunner::status() const {
     // A stroke under way counts: undo ends it.
     const std::size_t undo_steps = journal_.undo_steps() + (journal_.has_open_stroke() ? 1 : 0);
     return {.undo_steps = static_cast<std::uint32_t>(undo_steps),

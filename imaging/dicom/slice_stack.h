@@ -1,5 +1,5 @@
-// Positions of the slices of a DICOM series, and whether together they make a volume. Pure functions of the
-// headers' values: no files.
+// Slices of a DICOM series put in order by their positions, if together they make a volume. Pure functions of
+// the headers' values: no files.
 #pragma once
 
 #include <glm/mat3x3.hpp>
