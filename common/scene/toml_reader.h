@@ -14,7 +14,7 @@
 
 namespace osteomill {
 
-/// Closed range that a number must lie in, with its unit for messages.
+/// Closed range that a number must lie in.
 struct AllowedRange {
     double low = -std::numeric_limits<double>::max();
     double high = std::numeric_limits<double>::max();

@@ -1,6 +1,6 @@
-// The protocol with a haptic arm that is plugged in, report by report, which ArmConversation (hid_arm.cpp)
-// carries: wakes it up, has it calibrated, keeps only its newest reading, and lets a force through only when
-// that is safe.
+// The protocol with a haptic arm that is plugged in: its reports' bytes, one by one, which ArmConversation
+// (hid_arm.cpp) carries: wakes it up, has it calibrated, keeps only its newest reading, and lets a force
+// through only when that is safe.
 //
 //             first report           calibrated          a small force is wanted
 //   waking ----------------> uncalibrated ----> waiting <------------------------> driving

@@ -1,6 +1,6 @@
 // The first half of a measurement: the hand rests for a while, then the arm pushes it to and fro along each
-// axis in turn, by a millimetre or so. From what is recorded come the encoder's step, noise
-// (arm_estimates.h), mass, friction and delay (arm_estimates.h).
+// axis in turn, by a millimetre or so. From what is recorded come the encoder's step, noise, mass,
+// friction and delay (arm_estimates.h).
 //
 //   waiting --pedal--> resting --rest_ticks--> pushing x, y, z --push_ticks each--> over
 //

@@ -1,9 +1,10 @@
 // The command line of haptic_server.
 //
 // The way of an option: declared in typed_server_options.cpp or, if it is a device's, in its entry in
-// haptic_server/session/devices; checked in server_options.cpp; ServerOptions here; server.cpp makes
-// SessionOptions of it (session/session_assembly.h); the part that it concerns gets it, mostly through
-// MillingSessionOptions (simulation/loop/milling_session.h).
+// haptic_server/session/devices; --device here, --tls-* in common/net/tls_options.cpp and --insecure-network
+// in haptic_server/streaming/access_options.cpp; checked in server_options.cpp; ServerOptions here;
+// server.cpp makes SessionOptions of it (session/session_assembly.h); the part that it concerns gets it,
+// mostly through MillingSessionOptions (simulation/loop/milling_session.h).
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // Connections between being accepted and being a client: the TLS handshake, with a deadline for each and a
-// bound on how many there are. Without TLS they are clients at once.
+// bound on how many there are. Without TLS they wait for their hello at once.
 //
 // A silent connection is a socket and a timer; TLS, which costs a hundred times as much, begins with the
 // first byte. ConnectionQuota says which connection goes when there are too many.

@@ -1,4 +1,5 @@
-// The frames of an image set, one after the other, in memory. DatasetRun writes them, and Python gets them.
+// The frames of an image set, one after the other, in memory. run_dataset (render_client/ui) writes them, and
+// Python gets them.
 //
 // Nothing depends on the time that it takes: the same recording and contents give the same bits on one
 // machine.

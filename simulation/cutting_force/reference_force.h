@@ -4,7 +4,7 @@
 //     F(j) = sum_i sum_k T(i,j,k) [K_t K_r K_a]^T t(i,j,k) dz      (1) force at instant j
 //     F    = (1/N_theta) sum_j F(j)                                (2) mean over a tooth period
 //
-// with the geometry of mean_force.h and t = f_t max(0, n . v/|v|) / sin kappa, f_t = |v| / (N_phi n_rev):
+// with the geometry of chip_force.h and t = f_t max(0, n . v/|v|) / sin kappa, f_t = |v| / (N_phi n_rev):
 // the chip's thickness in the burr's cylindrical coordinates, so that t dz = (normal thickness) x (arc R
 // dkappa), as in Lee and Altintas 1996. Edges that rub add (K_te, K_re, K_ae) for each mm where t > 0. T is 1
 // where the bone function says bone, else 0. Sums over k and over instants are midpoint quadratures over

@@ -28,7 +28,7 @@ class ImguiContext {
     /// Joins the panels' texts to the desktop's; it must outlive them.
     void use(Clipboard& clipboard);
 
-    /// Mouse and keys for the next frame; whether some wait for one after it (see PanelInput). Without it, as
+    /// Mouse and keys for the next frame; whether some wait for one after it (imgui_input.h). Without it, as
     /// in offscreen pictures, panels take no input.
     bool feed(const WindowInput& input, bool holds_text = false);
 

@@ -52,7 +52,7 @@ TEST(MapRun, OfForcesInterpolatedBetweenSlowStepsIsNot) {
 }
 
 TEST(MapRun, FindsTheKnownEdgeOfAWallThatIsHeldOneTickLate) {
-    // 1406 N/m for the light grip, by the eigenvalues of known_edges_test.cpp.
+    // 1406 N/m for the light grip, by the eigenvalues of hand, arm and wall one tick late.
     MapCase c{.method = "interpolate", .scene = MapScene::wall, .grip = MapGrip::light, .delay_ticks = 1};
     c.wall_n_per_mm = 1.1;
     EXPECT_TRUE(run_map_case(c).is_stable);
