@@ -13,7 +13,8 @@ endfunction()
 
 # osteomill_module(NAME [FOLDERS folder... [EXCEPT file...]] [SOURCES file...] LIBRARIES lib ... [LOOPS]): a static library of all sources in
 # these folders, but for the mains of programs (NAME_main.cpp) and those in EXCEPT, and of SOURCES. Includes are written from the
-# repository root ("common/bone/grid.h"). LIBRARIES bring their own along, which are not named again. LOOPS: it has inner loops that somebody waits for, see osteomill_optimisation.cmake.
+# repository root ("common/bone/grid.h"). LIBRARIES bring their own along, which are not named again.
+# LOOPS: it has inner loops that somebody waits for, see osteomill_optimisation.cmake.
 function(osteomill_module name)
     cmake_parse_arguments(arg "LOOPS" "" "FOLDERS;EXCEPT;SOURCES;LIBRARIES" ${ARGN})
     osteomill_sources(found *.cpp ${arg_FOLDERS} EXCEPT ${arg_EXCEPT})

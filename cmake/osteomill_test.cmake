@@ -17,7 +17,8 @@ function(osteomill_run test program filter)
 endfunction()
 
 # osteomill_test(NAME [SOURCES file...] [FOLDERS folder... [EXCEPT file...]] LIBRARIES ... [PROGRAMS program...] [DEFINES name=text...] [DRAWS]
-#                [BUSY] [LABEL name] [TIMEOUT seconds] [CLAIMS filter] [NIGHTLY filter] [ADDRESS filter] [THREADS filter] [SANITIZED_NIGHTLY] [THREADS_NIGHTLY]):
+#                [BUSY] [LABEL name] [TIMEOUT seconds] [CLAIMS filter] [NIGHTLY filter] [ADDRESS filter] [THREADS filter]
+#                [SANITIZED_NIGHTLY] [THREADS_NIGHTLY]):
 # a GoogleTest program whose tests ctest lists one by one. Filters are GoogleTest's.
 # FOLDERS: every *_test.cpp in them is a source, EXCEPT these. With neither these nor SOURCES: NAME.cpp.
 # PROGRAMS: it runs these, by support/child_process.h: HAPTIC_SERVER is the path of haptic_server; it talks to them, and reads what they write.
@@ -156,8 +157,8 @@ function(osteomill_fuzz name library)
     endforeach()
 endfunction()
 
-# osteomill_memcheck(TEST [NIGHTLY] PROGRAM FILTER): those tests of a GoogleTest program; or PROGRAM COMMAND ARGUMENTS... NIGHTLY: it takes minutes, or waits for another thread, which a busy machine lets
-# wait too long under valgrind. There a wait takes thirty times as long; --fair-sched lets each go on.
+# osteomill_memcheck(TEST [NIGHTLY] PROGRAM FILTER): those tests of a GoogleTest program; or PROGRAM COMMAND ARGUMENTS...
+# NIGHTLY: it takes minutes, or waits for another thread, which a busy machine lets wait too long under valgrind. There a wait takes thirty times as long; --fair-sched lets each go on.
 function(osteomill_memcheck test)
     cmake_parse_arguments(arg "NIGHTLY" "" "COMMAND" ${ARGN})
     list(POP_FRONT arg_UNPARSED_ARGUMENTS program filter)
