@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator, ScalarFormatter
+from matplotlib.ticker import MaxNLocator
 
 from osteomill.studies import charts
 from osteomill.studies.sessions.cases import HEADLINES, Case, Headline
@@ -79,20 +79,9 @@ def _empty(title: str, y_text: str, tr: Words) -> tuple[Figure, Any]:
     figure = charts.figure(9.5, 3.6)
     axes = figure.subplots()
     axes.set(title=title, xlabel=tr("attempt"), ylabel=y_text)
-    axes.yaxis.set_major_formatter(_Numbers(tr))
+    axes.yaxis.set_major_formatter(lambda value, _: tr.numbers(f"{value:g}"))
     axes.xaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     return figure, axes
-
-
-class _Numbers(ScalarFormatter):
-    """Numbers of an axis as the language writes them."""
-
-    def __init__(self, tr: Words) -> None:
-        super().__init__()
-        self._tr = tr
-
-    def __call__(self, x: float, pos: int | None = None) -> str:
-        return self._tr.numbers(super().__call__(x, pos))
 
 
 def _finish(axes: Any, trainees: int) -> None:
