@@ -60,6 +60,18 @@ TEST_F(StartPageTest, SendsItsWindowToThePortThatTheServerWasGiven) {
     EXPECT_FALSE(window.take_server()) << "it is there";
 }
 
+TEST_F(StartPageTest, HidesTheLastSessionWhileTheNextIsMadeReady) {
+    make_program("haptic_server", "trap 'exit 0' TERM\nwhile :; do sleep 0.01; done");
+    StartScreen screen({folder_.path(), folder_ / "home", {"127.0.0.1", 7010}});
+    EXPECT_FALSE(screen.hides_session(LinkStatus::finished)) << "what was milled may be looked at";
+    screen.page.start();
+    ASSERT_TRUE(screen.page.is_making_ready());
+    EXPECT_TRUE(screen.hides_session(LinkStatus::finished));
+    EXPECT_TRUE(screen.hides_session(LinkStatus::connecting));
+    EXPECT_FALSE(screen.stands_alone(LinkStatus::finished)) << "its server may take the window";
+    EXPECT_FALSE(screen.hides_session(LinkStatus::live));
+}
+
 TEST_F(StartPageTest, SaysThatASessionIsMadeReadyThoughTheWindowStillSeesTheEndOfTheOneBefore) {
     make_program("haptic_server", "while [ ! -e " + (folder_ / "ready").string() +
                                       " ]; do sleep 0.01; done\necho listening on 127.0.0.1:43210\n"
