@@ -160,7 +160,9 @@ class Drawing {
             commands_.ask_to_end();
             redraw_.note_change(now);
         }
-        const bool view_moves = view_motion() != glm::ivec2(0);
+        const double now_s = std::chrono::duration<double>(now - began_).count();
+        view_motion_ = is_at_a_page() ? glm::ivec2(0) : held_view_.motion(input_.keys_down, now_s);
+        const bool view_moves = view_motion_ != glm::ivec2(0);
         if (happened.has_news || view_moves || (start_ && start_->page.poll())) redraw_.note_change(now);
         input_.append(happened);
         if (start_)
@@ -277,7 +279,7 @@ class Drawing {
         move_camera(session_, commands_, panels_.wheel_notches(), !drills_);
         pan(session_.camera(),
             -view_motion_a_s * std::min(elapsed_s, longest_wait_s) * session_.size_px().y *
-                glm::dvec2(view_motion()),
+                glm::dvec2(view_motion_),
             session_.size_px());
         for (const Action action : actions_of(input_.pressed_keys(), situation()))
             if ((!has_keyboard() || action == Action::end) && !(action == Action::end && steps_back()))
@@ -324,10 +326,7 @@ class Drawing {
             bone_ahead_mm(*source_.bone(), *tool, burr != nullptr ? burr->radius_mm() : 0.0));
     }
 
-    glm::ivec2 view_motion() const {
-        const bool is_at_a_page = has_keyboard() || situation() == Situation::starting;
-        return is_at_a_page ? glm::ivec2(0) : held_view_motion(input_.keys_down);
-    }
+    bool is_at_a_page() const { return has_keyboard() || situation() == Situation::starting; }
 
     bool shows_start_page() const { return start_ && start_->is_due(session_.link().status); }
 
@@ -385,6 +384,8 @@ class Drawing {
     ImguiContext panels_;
     std::optional<StartScreen> start_;
     std::optional<gl::StorageThread> storage_;
+    HeldViewMotion held_view_;
+    glm::ivec2 view_motion_{0};
     SettingsFile settings_{home_of(options_) / "window.toml"};
     TransferFile look_{options_.look_file, options_.look.transfer};
     SessionPicture session_;

@@ -259,16 +259,13 @@ const char* why_it_awaits_release(Fault locked_by) noexcept {
     switch (locked_by) {
         case Fault::none:
             return "the spindle stays off, for the pedal was down already at the start, or after nothing was "
-                   "heard "
-                   "of it: let go of the pedal, and press it anew";
+                   "heard of it: let go of the pedal, and press it anew";
         case Fault::paused:
             return "the spindle stays off after a pause, an undo or a placing of the tool: let go of the "
-                   "pedal, "
-                   "and press it anew";
+                   "pedal, and press it anew";
         case Fault::in_bone:
             return "the spindle stays off, for the burr was inside the bone: pull it back, let go of the "
-                   "pedal, "
-                   "and press it anew";
+                   "pedal, and press it anew";
         default:
             return "the spindle stays off after a fault: let go of the pedal, and press it anew";
     }

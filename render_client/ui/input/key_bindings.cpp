@@ -163,9 +163,18 @@ Situation situation_of(bool drills, bool shows_recording) {
     return shows_recording ? Situation::playing : Situation::looking_on;
 }
 
-glm::ivec2 held_view_motion(const std::bitset<WindowInput::most_keys>& keys_down) {
-    const auto held = [&](int key) { return keys_down[static_cast<std::size_t>(key)] ? 1 : 0; };
-    return {held(GLFW_KEY_D) - held(GLFW_KEY_A), held(GLFW_KEY_Q) - held(GLFW_KEY_E)};
+glm::ivec2 HeldViewMotion::motion(const std::bitset<WindowInput::most_keys>& keys_down, double now_s) {
+    static constexpr std::array<int, 4> keys{GLFW_KEY_D, GLFW_KEY_A, GLFW_KEY_Q, GLFW_KEY_E};
+    std::array<int, keys.size()> held{};
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        std::optional<double>& since_s = down_since_s_[i];
+        if (!keys_down[static_cast<std::size_t>(keys[i])])
+            since_s.reset();
+        else if (!since_s)
+            since_s = now_s;
+        held[i] = since_s && now_s - *since_s >= shortest_hold_s ? 1 : 0;
+    }
+    return {held[0] - held[1], held[2] - held[3]};
 }
 
 std::string key_of(Action action) {

@@ -2,8 +2,10 @@
 // names the keys of its buttons.
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -82,8 +84,18 @@ struct KeyBinding {
     const char* meaning = "";
 };
 
-/// Motion of the view by held keys, in steps of one: x to the right, y down.
-glm::ivec2 held_view_motion(const std::bitset<WindowInput::most_keys>& keys_down);
+/// Motion of the view by held keys. A key that is let go sooner was typed, by somebody who took the picture
+/// for a field, and moves nothing.
+class HeldViewMotion {
+  public:
+    static constexpr double shortest_hold_s = 0.2;
+
+    /// In steps of one: x to the right, y down. `now_s`: any clock that never decreases.
+    glm::ivec2 motion(const std::bitset<WindowInput::most_keys>& keys_down, double now_s);
+
+  private:
+    std::array<std::optional<double>, 4> down_since_s_{};
+};
 
 std::span<const KeyBinding> key_bindings();
 

@@ -108,6 +108,24 @@ TEST(KeyBindings, HaveTheKeysOfTheDocuments) {
     }
 }
 
+TEST(KeyBindings, MoveTheViewIfHeldAndNotIfTyped) {
+    HeldViewMotion view;
+    double now_s = 5.0;
+    // "adeq", each key down for a tenth of a second, and the next one before it is up.
+    for (int tenth = 0; tenth < 40; ++tenth, now_s += 0.05) {
+        std::bitset<WindowInput::most_keys> down;
+        down[static_cast<std::size_t>("ADEQ"[tenth / 2 % 4])] = true;
+        down[static_cast<std::size_t>("ADEQ"[(tenth + 1) / 2 % 4])] = true;
+        EXPECT_EQ(view.motion(down, now_s), glm::ivec2(0)) << tenth;
+    }
+    std::bitset<WindowInput::most_keys> right_and_down;
+    right_and_down['D'] = right_and_down['Q'] = true;
+    view.motion({}, now_s);
+    EXPECT_EQ(view.motion(right_and_down, now_s), glm::ivec2(0));
+    EXPECT_EQ(view.motion(right_and_down, now_s + HeldViewMotion::shortest_hold_s), glm::ivec2(1, 1));
+    EXPECT_EQ(view.motion({}, now_s + 1.0), glm::ivec2(0));
+}
+
 TEST(KeyBindings, DependOnTheKindOfSession) {
     constexpr std::array<int, 1> space{' '};
     constexpr std::array<int, 2> cut_then_bracket{'X', ']'};
