@@ -81,7 +81,8 @@ Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
         co_yield 0.4;
     }
     tile_table_ = upload_tile_table(drawn.content(), places_);
-    if (codes_are_mostly_alike())
+    // Bone that is seen through has no surface whose look is blended.
+    if (codes_are_mostly_alike() && !is_translucent())
         for (Steps part = find_blocks_of_one_code(drawn); part.step();) co_yield 0.4;
 
     for (Steps wait = arrival(blocks); wait.step();) co_yield 0.4;

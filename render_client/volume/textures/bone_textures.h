@@ -119,7 +119,7 @@ class BoneTextures {
     Grid grid_;
     AtlasLayout places_;
     EmptySpace empty_space_;
-    std::vector<bool> has_one_code_;  ///< by block of empty_space_; empty if codes are not mostly alike
+    std::vector<bool> has_one_code_;  ///< by block of empty_space_; empty if no look is blended by it
     std::optional<gl::Texture3D> fraction_;
     std::optional<gl::Texture3D> blocks_;
     std::optional<gl::Texture3D> tile_table_;
