@@ -11,6 +11,10 @@ namespace osteomill {
 
 namespace {
 
+/// A slice that took less, such as one that began as undo was pressed, is undone with the one before: a
+/// person would see no change, and read 0.00.
+constexpr double least_seen_mm3 = 0.005;
+
 constexpr const char* bone_is_under_way = "the bone is still being given back";
 
 std::string no_such_fixture(const std::string& name, const std::vector<std::string>& known) {
@@ -122,12 +126,13 @@ std::string ControlRunner::restore(SessionAction action, const Bone& bone, const
         say({action}, redoes ? "nothing was undone" : "nothing was milled");
         return {};
     }
-    std::int64_t levels = 0;
+    double mm3 = 0.0;
     do {
-        levels += redoes ? journal_.redo(bone, restoration_) : journal_.undo(bone, restoration_);
-    } while (action == SessionAction::reset && steps() > 0);
+        const std::int64_t levels =
+            redoes ? journal_.redo(bone, restoration_) : journal_.undo(bone, restoration_);
+        mm3 += static_cast<double>(levels) / 255.0 * voxel_volume_mm3(bone.grid());
+    } while (steps() > 0 && (action == SessionAction::reset || (!redoes && mm3 < least_seen_mm3)));
     may_be_in_bone_ = true;
-    const double mm3 = static_cast<double>(levels) / 255.0 * voxel_volume_mm3(bone.grid());
     say({.action = action, .text = fmt::format("{:.2f} mm³", std::abs(mm3))});
     return {};
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "tests/support/random_carving.h"
@@ -62,6 +63,19 @@ class SessionControlsTest : public ::testing::Test, public ChangeSink {
         });
         controls_.end_frame(mirror_, {.time_s = time_s_ += 0.03, .spindle_on = spindle_on});
     }
+    /// Takes one level of one voxel, which nobody sees.
+    void touch_lightly() {
+        for (std::int32_t slot = 0;; ++slot) {
+            const auto fractions = milled_.fractions(slot);
+            const auto voxel = std::ranges::find_if(fractions, [](std::uint8_t left) { return left > 0; });
+            if (voxel == fractions.end()) continue;
+            --*voxel;
+            push({milled_.content().brick_of_slot[static_cast<std::size_t>(slot)],
+                  VoxelMask().set_run(static_cast<std::size_t>(voxel - fractions.begin()), 1)},
+                 fractions);
+            return;
+        }
+    }
     void stroke() {
         mill();
         frame(true);
@@ -107,6 +121,30 @@ TEST_F(SessionControlsTest, UndoesAStrokeThroughTheMillingLoop) {
     frames(60);
     EXPECT_EQ(checksum(milled_), milled);
     EXPECT_EQ(checksum(mirror_), milled);
+}
+
+TEST_F(SessionControlsTest, UndoesASliceThatNobodySeesWithTheOneBefore) {
+    const std::uint64_t whole = checksum(milled_);
+    stroke();
+    for (int i = 0; i < 2; ++i) {
+        touch_lightly();
+        frame(true);
+        frame();
+    }
+    ASSERT_EQ(controls_.status().undo_steps, 3U);
+    controls_.control({SessionAction::undo});
+    frames(60);
+    EXPECT_EQ(checksum(milled_), whole);
+    EXPECT_EQ(controls_.status(), (SessionStatus{.undo_steps = 0, .redo_steps = 3}));
+    const auto events = controls_.take_events();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_NE(events[0].text, "0.00 mm\u00b3");
+    touch_lightly();
+    frame(true);
+    frame();
+    controls_.control({SessionAction::undo});
+    frames(60);
+    EXPECT_EQ(checksum(milled_), whole) << "nothing was before it";
 }
 
 TEST_F(SessionControlsTest, MakesAPauseThatEndsInTheSameFrameOne) {
