@@ -6,7 +6,8 @@
 //     const bool  bone_shows_through                                   given ahead of this file
 
 uniform sampler3D bone_seen;        // by place of the lattice: nearness of the next tissue, its number
-uniform sampler2D bone_seen_looks;  // by number: linear RGB and strength; depth in voxels
+uniform sampler2D bone_seen_looks;  // by number, in bytes, which cost a software rasteriser less: square roots of linear RGB, and
+                                    // strength; depth, as a part of the farthest
 uniform float seen_step, seen_per_voxel;  // voxels between places, and the inverse
 uniform vec3 seen_scale, seen_shift;      // texture coordinates: scale * point + shift
 uniform float seen_farthest, seen_span;
@@ -88,13 +89,14 @@ vec4 look_through(vec3 point, vec3 direction, inout vec3 place) {
         bool is_alone = corner < 0 && row != 0 && abs(number - found.number) < 0.4 / 255.0;
         vec3 weights = mix(1.0 - (from - low), from - low, side);
         float weight = row == 0 || (corner < 0 && !is_alone) ? 0.0 : weights.x * weights.y * weights.z + 1e-5;
-        look += weight * texelFetch(bone_seen_looks, ivec2(row, 0), 0);
+        vec4 one = texelFetch(bone_seen_looks, ivec2(row, 0), 0);
+        look += weight * vec4(one.rgb * one.rgb, one.a);
         depth += weight * texelFetch(bone_seen_looks, ivec2(row, 1), 0).r;
         known += weight;
         if (is_alone) break;
     }
     float part = 1.0 / max(known, 1e-5);
-    float ways = max(found.way, 0.0) * known / max(depth, 1e-3);
+    float ways = max(found.way, 0.0) * known / max(depth * seen_farthest, 1e-3);
     const float least_light = exp(-seen_absorption);
     float share = part * look.a * max((exp(-seen_absorption * ways) - least_light) / (1.0 - least_light), 0.0);
     float cover = found.left <= bare ? 1.0 : smoothstep(bare, covered, found.left);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -129,16 +130,20 @@ Steps BoneTextures::fill(const Bone& bone, gl::StorageThread* storage) {
 }
 
 void BoneTextures::store_seen_looks() {
-    std::vector<glm::vec4> looks(2 * table_.seen->size());
-    for (std::size_t label = 0; label < table_.seen->size(); ++label) {
+    const std::size_t numbers = table_.seen->size();
+    std::vector<glm::u8vec4> looks(2 * numbers);
+    const auto as_bytes = [](const glm::vec4& parts) {
+        return glm::u8vec4(glm::round(255.0f * glm::clamp(parts, 0.0f, 1.0f)));
+    };
+    for (std::size_t label = 0; label < numbers; ++label) {
         const std::uint8_t number = seen_->number_of(static_cast<std::uint8_t>(label));
         if (number == 0) continue;
         const SeenTissue& tissue = (*table_.seen)[label];
-        looks[number] = glm::vec4(tissue.colour, tissue.strength);
-        looks[table_.seen->size() + number] =
-            glm::vec4(static_cast<float>(seen_->depth_voxels(tissue)), 0.0f, 0.0f, 0.0f);
+        looks[number] = as_bytes(glm::vec4(glm::sqrt(tissue.colour), tissue.strength));
+        const double depth = seen_->depth_voxels(tissue) / seen_->farthest_voxels();
+        looks[numbers + number] = as_bytes(glm::vec4(static_cast<float>(depth)));
     }
-    seen_looks_.store({256, 2}, GL_RGBA32F, GL_RGBA, GL_FLOAT, looks.data(), GL_NEAREST, GL_NEAREST);
+    seen_looks_.store({256, 2}, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, looks.data(), GL_NEAREST, GL_NEAREST);
 }
 
 void BoneTextures::add_structure(std::uint8_t label, StructureMask structure) {
