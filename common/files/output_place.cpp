@@ -37,6 +37,10 @@ int locked(const fs::path& file) {
     }
 }
 
+fs::path lock_file_of(const fs::path& target) {
+    return folder_of(target) / ("." + target.filename().string() + ".lock");
+}
+
 /// The present path of a folder that was renamed, as the kernel knows it; nothing if it was removed.
 std::optional<fs::path> moved_to(int folder) {
     struct stat facts {};
@@ -78,7 +82,7 @@ OutputPlace::OutputPlace(fs::path file) : file_(std::move(file)), target_(file_)
     if (target.is_direct) return;
     std::error_code failed;
     target_ = fs::absolute(target.path, failed);
-    lock_file_ = folder_of(target_) / ("." + target_.filename().string() + ".lock");
+    lock_file_ = lock_file_of(target_);
     lock_ = locked(lock_file_);
     if (lock_ < 0)
         throw std::runtime_error(
@@ -86,6 +90,14 @@ OutputPlace::OutputPlace(fs::path file) : file_(std::move(file)), target_(file_)
                 ? fmt::format("{}: another session will write it; choose another name", file_.string())
                 : fmt::format("{}: cannot be written: {}", file_.string(), std::strerror(errno)));
     folder_ = ::open(folder_of(target_).c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+}
+
+bool is_reserved(const fs::path& file) {
+    const int lock = ::open(lock_file_of(file).c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (lock < 0) return false;
+    const bool is_held = ::flock(lock, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(lock);
+    return is_held;
 }
 
 OutputPlace::~OutputPlace() {

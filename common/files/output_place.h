@@ -43,4 +43,7 @@ class OutputPlace {
     bool was_there_ = true;                                ///< its folder, at the last check
 };
 
+/// Whether a program that runs now has reserved the file.
+bool is_reserved(const std::filesystem::path& file);
+
 }  // namespace osteomill

@@ -77,6 +77,7 @@ EndPlaces::EndPlaces(const OutputFiles& files) : files_(files) {
     if (files.save_bone) save_bone_.emplace(*files.save_bone);
     if (files.json) json_.emplace(*files.json);
     if (files.json_histograms) histograms_.emplace(*files.json_histograms);
+    if (files.report) report_.emplace(*files.report / "report.html");
 }
 
 OutputFiles EndPlaces::now() const {
@@ -142,7 +143,11 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
         output.out->say("the session has ended; its report is being made");
         speak(files.report_language);
         const std::string error = write_report(recording_in(*files.report), *files.report, [](double) {});
-        if (!error.empty()) throw std::runtime_error(error);
+        if (!error.empty()) {
+            spdlog::error("{0} is whole: packet_replay {0} --report {1} makes the report",
+                          recording_in(*files.report).string(), files.report->string());
+            throw std::runtime_error(error);
+        }
         output.out->say(fmt::format("report: {}", (*files.report / "report.html").string()));
     });
     if (shown) shown->server().stop();

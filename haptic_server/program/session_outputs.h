@@ -56,6 +56,7 @@ class EndPlaces {
     std::optional<OutputPlace> save_bone_{};
     std::optional<OutputPlace> json_{};
     std::optional<OutputPlace> histograms_{};
+    std::optional<OutputPlace> report_{};  ///< reserved, so that a list of sessions sees that it comes
     std::chrono::steady_clock::time_point next_check_{};
     bool source_is_lost_ = false;
 };

@@ -24,12 +24,14 @@ void draw_sessions(StartPage& page) {
         const KeptSession session = page.sessions()[i];  // a click may list them anew
         ImGui::PushID(static_cast<int>(i));
         if (button(session.has_report ? tr("Report") : tr("Make report"),
-                   session.has_report || !page.is_working()))
+                   session.has_report || (!page.is_working() && !session.is_under_way)))
             page.open_report_of(session);
         ImGui::SameLine();
         if (ImGui::Button(tr("Replay"))) page.replay(session.recording);
         ImGui::SameLine();
-        const std::string title = session.is_whole ? session.title : session.title + tr(", broken off");
+        const std::string title = session.title + (session.is_under_way ? tr(", still being written")
+                                                   : session.is_whole   ? ""
+                                                                        : tr(", broken off"));
         ImGui::PushTextWrapPos(0.0f);
         ImGui::TextUnformatted(title.c_str());
         ImGui::PopTextWrapPos();

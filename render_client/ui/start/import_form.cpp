@@ -89,7 +89,7 @@ std::string specks_said(const std::string& said) {
         R"((\d+) parts? of bone of less than (\S+) mm3, (\S+) mm3 in all, touch\w* nothing else; (left out)?)");
     std::smatch found;
     if (!std::regex_search(said, found, words)) return {};
-    const std::string parts = trf("loose parts of bone of less than {} mm3 each: {}, {} mm3 in all",
+    const std::string parts = trf("loose parts of bone of less than {} mm³ each: {}, {} mm³ in all",
                                   found.str(2), found.str(1), found.str(3));
     return parts + (found[4].matched ? tr(", left out") : tr(", kept"));
 }

@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <exception>
+#include <iomanip>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
 #include "common/files/input_file.h"
+#include "common/files/output_place.h"
 #include "common/scene/scene.h"
 #include "common/text/foreign_json.h"
 #include "common/text/foreign_text.h"
@@ -27,6 +31,10 @@ std::string month(int number) {
                            tr("May"),       tr("June"),     tr("July"),     tr("August"),
                            tr("September"), tr("October"),  tr("November"), tr("December")};
     return names[static_cast<std::size_t>(number - 1)];
+}
+
+std::string words_of_time(int day, int month_number, const std::string& hour_and_minute) {
+    return trf("{} {} {}", day, month(month_number), hour_and_minute);
 }
 
 /// A folder's name, parsed: "CASE-TRAINEE", and the local time as text.
@@ -46,8 +54,8 @@ std::optional<NamedFolder> parts_of(const std::string& name) {
     const int month_number = std::stoi(stamp.substr(5, 2));
     if (month_number < 1 || month_number > 12) return std::nullopt;
     return NamedFolder{name.substr(0, name.size() - pattern.size()),
-                       trf("{} {} {}:{}", std::stoi(stamp.substr(7, 2)), month(month_number),
-                           stamp.substr(10, 2), stamp.substr(12, 2))};
+                       words_of_time(std::stoi(stamp.substr(7, 2)), month_number,
+                                     stamp.substr(10, 2) + ":" + stamp.substr(12, 2))};
 }
 
 /// "Anna, jaw" of "jaw-Anna", if the case is built in; a name of another may have dashes of its own.
@@ -78,8 +86,25 @@ std::string rating_text(const nlohmann::json& metrics) {
     return text;
 }
 
-/// "Anna, jaw" and the verdict, of a report; empty if there is none of ours.
-std::pair<std::string, std::string> said_by_report(const fs::path& folder) {
+/// The local time of "2026-11-28 13:05 UTC"; empty for another text.
+std::string local_time_words(const std::string& utc) {
+    std::tm time{};
+    std::istringstream text(utc);
+    if (!(text >> std::get_time(&time, "%Y-%m-%d %H:%M UTC"))) return {};
+    const std::time_t seconds = ::timegm(&time);
+    if (::localtime_r(&seconds, &time) == nullptr) return {};
+    return words_of_time(time.tm_mday, time.tm_mon + 1,
+                         fmt::format("{:02}:{:02}", time.tm_hour, time.tm_min));
+}
+
+struct SaidByReport {
+    std::string whose{};  ///< "Anna, jaw"
+    std::string when{};
+    std::string verdict{};
+};
+
+/// Empty texts if there is no report of ours.
+SaidByReport said_by_report(const fs::path& folder) {
     try {
         const auto json = parse_foreign_json(read_text(folder / "metrics.json", json_kind), "");
         const auto& session = json.at("session");
@@ -93,7 +118,7 @@ std::pair<std::string, std::string> said_by_report(const fs::path& folder) {
         if (const std::string points = rating_text(metrics); !points.empty())
             verdict += (verdict.empty() ? "" : ", ") + points;
         if (trainee.empty()) trainee = tr("nobody");
-        return {one_line(trainee + ", " + tr(of)), verdict};
+        return {one_line(trainee + ", " + tr(of)), local_time_words(session.value("began", "")), verdict};
     } catch (const std::exception&) {
         return {};
     }
@@ -111,10 +136,12 @@ std::optional<fs::path> recording_in(const fs::path& folder) {
 std::string title_of_session(const fs::path& folder) {
     const std::string name = folder.filename().string();
     const auto named = parts_of(name);
-    const auto [whose, verdict] = said_by_report(folder);
-    std::string title = !whose.empty() ? whose : one_line(named ? without_dashes(named->whose) : name);
-    if (named) title += ", " + named->when;
-    if (!verdict.empty()) title += ", " + verdict;
+    const SaidByReport report = said_by_report(folder);
+    std::string title =
+        !report.whose.empty() ? report.whose : one_line(named ? without_dashes(named->whose) : name);
+    if (const std::string when = named && report.when.empty() ? named->when : report.when; !when.empty())
+        title += ", " + when;
+    if (!report.verdict.empty()) title += ", " + report.verdict;
     return title;
 }
 
@@ -129,7 +156,8 @@ std::vector<KeptSession> sessions_in(const fs::path& reports, std::size_t most_t
                          {.folder = entry->path(),
                           .recording = *recording,
                           .is_whole = recording->filename() == "session.pcap",
-                          .has_report = fs::exists(entry->path() / "report.html", ignored)}});
+                          .has_report = fs::exists(entry->path() / "report.html", ignored),
+                          .is_under_way = is_reserved(entry->path() / "report.html")}});
     }
     std::ranges::sort(found, [](const auto& a, const auto& b) {
         return std::pair(b.first, a.second.folder) < std::pair(a.first, b.second.folder);

@@ -10,12 +10,13 @@ namespace osteomill {
 struct KeptSession {
     std::filesystem::path folder{};
     std::filesystem::path recording{};  ///< in it
-    /// "Anna, jaw, 28 November 14:05, not passed, 14 of 20 points"; without a report, only the values in the
-    /// folder's name.
+    /// "Anna, jaw, 28 November 14:05, not passed, 14 of 20 points", with the local time at which the report
+    /// says that it began; without a report, only the values in the folder's name.
     std::string title{};
     bool is_whole =
         true;  ///< else its program was ended in the middle, and the recording is whole until then
-    bool has_report = false;  ///< report.html, in the folder
+    bool has_report = false;    ///< report.html, in the folder
+    bool is_under_way = false;  ///< a server that runs now writes it, or its report
 
     bool operator==(const KeptSession&) const = default;
 };

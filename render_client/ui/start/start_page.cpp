@@ -105,6 +105,18 @@ StartPage::StartPage(StartPlaces places) : places_(std::move(places)) {
 void StartPage::look_at_home() {
     cases_ = cases_in(cases_of(places_));
     sessions_ = sessions_in(places_.home / "reports");
+    listed_ = std::chrono::steady_clock::now();
+}
+
+/// The report of a session of a window that was closed, or of another one's, is there by and by.
+bool StartPage::look_after_others_sessions() {
+    constexpr std::chrono::seconds between_looks{1};
+    if (view_ != View::cases || std::ranges::none_of(sessions_, &KeptSession::is_under_way) ||
+        std::chrono::steady_clock::now() - listed_ < between_looks)
+        return false;
+    const std::vector<KeptSession> before = sessions_;
+    look_at_home();
+    return sessions_ != before;
 }
 
 void StartPage::show(View view) {
@@ -182,7 +194,6 @@ void StartPage::start() {
 
 void StartPage::click_card(std::size_t index) {
     chosen = index;
-    if (!may_start()) return;
     if (std::exchange(clicked_, index) == index) start();
 }
 
@@ -303,8 +314,10 @@ void StartPage::look_at_scan(bool is_another_scan) {
 std::string StartPage::wrong_with_form() const {
     if (std::string wrong = wrong_with_name(form.name, cases_of(places_)); !wrong.empty()) return wrong;
     if (voxels_of(form) <= most_imported_voxels) return {};
-    return trf("the region has {:.1f} thousand million voxels; {:.1f} are the most: drag a smaller one",
-               1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
+    return trf(
+        "the region has {:.1f} thousand million voxels; {:.1f} are the most: drag a smaller one, or "
+        "choose larger voxels",
+        1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
 }
 
 void StartPage::import() {
@@ -426,6 +439,7 @@ bool StartPage::poll() {
     }
     has_news = count_loose_parts() || has_news;
     has_news = poll_reports() || has_news;
+    has_news = look_after_others_sessions() || has_news;
     if (server_ && server_->poll()) {
         has_news = true;
         if (!server_->is_running()) {

@@ -133,6 +133,7 @@ class StartPage {
     void open_page(const std::filesystem::path& page);
     void look_at_scan(bool is_another_scan);
     void look_at_home();
+    bool look_after_others_sessions();
     void take_in_look(const std::string& said);
     void end_of_work();
 
@@ -141,6 +142,7 @@ class StartPage {
     std::string message_;
     std::vector<ShelvedCase> cases_;
     std::vector<KeptSession> sessions_;
+    std::chrono::steady_clock::time_point listed_{};      // the sessions
     std::vector<std::unique_ptr<ChildProgram>> players_;  // close with this window
     FolderListing listing_;
     std::string wrong_path_;              // written last, and not there

@@ -62,6 +62,18 @@ TEST_F(OutputPlaceTest, IsOneSessionsAtATime) {
     EXPECT_FALSE(fs::exists(lab_ / ".carved.nrrd.lock")) << "nothing is left";
 }
 
+TEST_F(OutputPlaceTest, IsReservedWhileItsProgramRuns) {
+    EXPECT_FALSE(is_reserved(file_));
+    {
+        const OutputPlace place(file_);
+        EXPECT_TRUE(is_reserved(file_));
+        expect_taken(file_);
+    }
+    EXPECT_FALSE(is_reserved(file_));
+    std::ofstream(lab_ / ".carved.nrrd.lock") << "";
+    EXPECT_FALSE(is_reserved(file_)) << "a killed program left it";
+}
+
 TEST_F(OutputPlaceTest, IsFreeAfterAProgramWasKilled) {
     const pid_t child = ::fork();
     if (child == 0) {

@@ -64,10 +64,10 @@ TEST(ImportForm, SaysWhatSmallPartsWereFoundWithoutTheNamesOfOptions) {
     EXPECT_EQ(specks_said("bone_import: ct: 3 files of no image were skipped\n"), "");
     EXPECT_EQ(specks_said("bone_import: a: b: 7 parts of bone of less than 2 mm3, 4.1 mm3 in all, touch "
                           "nothing else; --leave-out-specks leaves them out\nbone_import: wrote case\n"),
-              "loose parts of bone of less than 2 mm3 each: 7, 4.1 mm3 in all, kept");
+              "loose parts of bone of less than 2 mm³ each: 7, 4.1 mm³ in all, kept");
     EXPECT_EQ(specks_said("ct: 1 part of bone of less than 2 mm3, 0.5 mm3 in all, touches nothing else; "
                           "left out\n"),
-              "loose parts of bone of less than 2 mm3 each: 1, 0.5 mm3 in all, left out");
+              "loose parts of bone of less than 2 mm³ each: 1, 0.5 mm³ in all, left out");
 }
 
 TEST(ImportForm, OfAWholeHeadBeginsWithAsManyVoxelsAsAMachineHolds) {

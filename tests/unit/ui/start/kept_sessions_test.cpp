@@ -1,10 +1,13 @@
 #include "render_client/ui/start/kept_sessions.h"
 
 #include <gmock/gmock.h>
+#include <stdlib.h>
+#include <time.h>
 
 #include <chrono>
 #include <fstream>
 
+#include "common/files/output_place.h"
 #include "tests/support/temporary_folder.h"
 
 namespace osteomill {
@@ -36,6 +39,16 @@ TEST(KeptSessions, AreTheNewestFirstAndThoseThatWereEndedInTheMiddleToo) {
     EXPECT_TRUE(sessions_in(folder / "nowhere").empty());
 }
 
+TEST(KeptSessions, AreUnderWayUntilTheReportIsWritten) {
+    const testing::TemporaryFolder folder;
+    write(folder / "a/session.pcap");
+    {
+        const OutputPlace report(folder / "a/report.html");
+        EXPECT_TRUE(sessions_in(folder / ".").at(0).is_under_way);
+    }
+    EXPECT_FALSE(sessions_in(folder / ".").at(0).is_under_way);
+}
+
 TEST(KeptSessions, HaveNamesAsAPersonWritesThem) {
     const testing::TemporaryFolder folder;
     const auto named = folder / "jaw-anna_b-20261128-140509";
@@ -58,6 +71,15 @@ TEST(KeptSessions, HaveNamesAsAPersonWritesThem) {
     write(named / "metrics.json",
           R"({"session": {"trainee": "", "case": "", "scene": "tooth"}, "metrics": {}})");
     EXPECT_EQ(title_of_session(named), "nobody, tooth, 28 November 14:05");
+    ::setenv("TZ", "LAB-1", 1);  // an hour east
+    ::tzset();
+    write(named / "metrics.json",
+          R"({"session": {"trainee": "Bo", "case": "jaw", "scene": "jaw", "began": "2026-11-30 23:30 UTC"},
+          "metrics": {}})");
+    EXPECT_EQ(title_of_session(named), "Bo, jaw, 1 December 00:30") << "the report's time";
+    write(named / "metrics.json", R"({"session": {"trainee": "Bo", "case": "jaw", "scene": "jaw",
+        "began": "yesterday"}, "metrics": {}})");
+    EXPECT_EQ(title_of_session(named), "Bo, jaw, 28 November 14:05");
     write(named / "metrics.json", R"({"session": "hostile)");
     EXPECT_EQ(title_of_session(named), "anna_b, jaw, 28 November 14:05");
     EXPECT_EQ(title_of_session(folder / "jaw-x-20261399-140509"), "jaw-x-20261399-140509");

@@ -187,6 +187,19 @@ TEST_F(StartPageTest, StartsACaseAtTheSecondClickOnItsCardHoweverLateAndNoOther)
     EXPECT_THAT(window.message(), HasSubstr(window.cases()[1].name));
 }
 
+TEST_F(StartPageTest, CountsTheFirstClickOnACardWhileTheLastSessionIsSaved) {
+    make_program("haptic_server", "while [ ! -e " + (folder_ / "saved").string() + " ]; do sleep 0.01; done");
+    StartPage window = page();
+    window.start();
+    ASSERT_FALSE(window.may_start());
+    window.click_card(1);
+    std::ofstream(folder_ / "saved") << "";
+    ASSERT_TRUE(comes_true(window, [&] { return window.may_start(); }));
+    std::filesystem::remove(folder_ / "saved");
+    window.click_card(1);
+    EXPECT_TRUE(window.is_session_running());
+}
+
 TEST_F(StartPageTest, ComparesInTheWindowsLanguageWhatWasFinished) {
     make_program("osteomill_study", "echo \"$@\" > " + (folder_ / "arguments").string());
     const auto session = folder_ / "home" / "reports" / "jaw-anna-20261128-140500";
