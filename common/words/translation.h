@@ -8,8 +8,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <concepts>
 #include <map>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace osteomill {
@@ -42,12 +45,6 @@ std::string tr_filled(const std::string& english);
 std::string tr_about_file(const std::string& english);
 /// A tissue's or case's name as a person writes it: files write "Facial_Nerve".
 std::string tissue_words(std::string name);
-/// The translation of a text with places for values, filled in as fmt::format does.
-template <typename... Values>
-std::string trf(const char* english, const Values&... values) {
-    return fmt::format(fmt::runtime(tr(english)), values...);
-}
-
 // Numbers as a person's language writes them: German ones with a decimal comma. Only for what people read:
 // CSV, JSON and what a program reads again keep the point.
 
@@ -55,4 +52,39 @@ std::string trf(const char* english, const Values&... values) {
 /// stay as they are.
 std::string with_decimal_sign(std::string text, const std::string& language = spoken_language());
 
+/// A number among a text's values: formatted as by fmt, then with the language's decimal sign.
+template <std::floating_point Number>
+struct ReadNumber {
+    Number value;
+};
+
+/// The translation of a text with places for values, filled in as fmt::format does, with the language's
+/// decimal sign in numbers.
+template <typename... Values>
+std::string trf(const char* english, const Values&... values) {
+    const auto read = []<typename Value>(const Value& value) -> decltype(auto) {
+        if constexpr (std::is_floating_point_v<Value>)
+            return ReadNumber<Value>{value};
+        else
+            return (value);
+    };
+    return fmt::format(fmt::runtime(tr(english)), read(values)...);
+}
+
 }  // namespace osteomill
+
+template <std::floating_point Number>
+struct fmt::formatter<osteomill::ReadNumber<Number>> {
+    auto parse(fmt::format_parse_context& context) {
+        const auto* const end = std::find(context.begin(), context.end(), '}');
+        spec_.append(context.begin(), end);
+        return end;
+    }
+    auto format(const osteomill::ReadNumber<Number>& number, fmt::format_context& context) const {
+        const std::string text = fmt::format(fmt::runtime("{:" + spec_ + "}"), number.value);
+        return fmt::format_to(context.out(), "{}", osteomill::with_decimal_sign(text));
+    }
+
+  private:
+    std::string spec_;
+};

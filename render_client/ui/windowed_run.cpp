@@ -24,6 +24,7 @@
 #include "render_client/ui/input/input_mailbox.h"
 #include "render_client/ui/input/operator_hand.h"
 #include "render_client/ui/input/window_input.h"
+#include "render_client/ui/panels/sight_panel.h"
 #include "render_client/ui/panels/start_panel.h"
 #include "render_client/ui/view/drawing_thread.h"
 #include "render_client/ui/view/kept_settings.h"
@@ -184,7 +185,7 @@ class Drawing {
         const LinkUpdate& link = session_.link();
         if (start_)
             start_->page.link_line = options_.names_server && link.status == LinkStatus::connecting
-                                         ? link.status_line
+                                         ? link.status_line + ". " + advice_before_first_answer()
                                          : std::string();
         session_over_ = options_.until_server_ends && link.status == LinkStatus::finished;
         commands_.tell(link.events, std::chrono::duration<double>(now - began_).count());

@@ -41,15 +41,20 @@ std::string switched_words(const std::string& text) {
     return end == std::string::npos ? text : text.substr(0, end + 1) + tr(text.substr(end + 1));
 }
 
+bool gives_bone_back(SessionAction action) {
+    return action == SessionAction::undo || action == SessionAction::reset;
+}
+
 /// In the window's language.
 std::string words_of(const ControlEvent& event) {
     if (event.action == SessionAction::mark) return event.text;
     if (event.action == SessionAction::fixture && !event.is_refused) return switched_words(event.text);
-    return tr_filled(event.text);
-}
-
-bool gives_bone_back(SessionAction action) {
-    return action == SessionAction::undo || action == SessionAction::reset;
+    // The others of these have names of files.
+    const bool has_only_numbers = gives_bone_back(event.action) || event.action == SessionAction::redo ||
+                                  event.action == SessionAction::place ||
+                                  event.action == SessionAction::speed;
+    const std::string text = tr_filled(event.text);
+    return has_only_numbers ? with_decimal_sign(text) : text;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "render_client/ui/panels/cuts_panel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -26,8 +28,9 @@ void draw_row(CutSettings& cuts, std::size_t index, const Camera& camera) {
     ImGui::BeginDisabled(!cut.is_on);
     const float flip_width = 5.5f * ImGui::GetFontSize();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - flip_width - ImGui::GetStyle().ItemSpacing.x);
-    if (ImGui::SliderFloat("##position", &position_mm, -reach_mm, reach_mm, "%.1f mm",
-                           ImGuiSliderFlags_NoInput))
+    const std::string shown = with_decimal_sign(fmt::format("{:.1f} mm", position_mm));
+    if (ImGui::SliderFloat("##position", &position_mm, -reach_mm, reach_mm, shown.c_str(),
+                           ImGuiSliderFlags_NoInput | ImGuiSliderFlags_NoRoundToFormat))
         cuts.move_to(index, position_mm);
     ImGui::SameLine();
     if (ImGui::Button(tr("turn over"), {flip_width, 0.0f})) cuts.turn_over(index);

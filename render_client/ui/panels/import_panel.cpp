@@ -172,7 +172,7 @@ void draw_marks(ImportForm& form) {
     const std::array<MarkField, 5> fields{
         {{"time_s", tr("s at most"), 600.0},
          {"plan_removed_share", tr("% of the target at least"), 0.9, 0.01},
-         {"plan_excess_mm3", tr("mm3 beside the target at most"), 10.0},
+         {"plan_excess_mm3", tr("mm³ beside the target at most"), 10.0},
          {"structure_touches", tr("touches of what is protected at most"), 0.0},
          {"peak_force_n", tr("N at most"), 5.0}}};
     ImGui::TextUnformatted(tr("A session passes with:"));
@@ -245,14 +245,17 @@ void draw_import(StartPage& page, StartPicture& picture) {
         }
         ImGui::SameLine();
         ImGui::Checkbox(tr("leave out small loose parts"), &form.leaves_out_specks);
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s", tr("bone of less than 2 mm3 that touches nothing else, such as noise"));
+        if (ImGui::IsItemHovered()) {
+            // Above: the count stands beside it.
+            ImGui::SetNextWindowPos(ImGui::GetItemRectMin(), ImGuiCond_Always, {0.0f, 1.0f});
+            ImGui::SetTooltip("%s", tr("bone of less than 2 mm³ that touches nothing else, such as noise"));
+        }
         if (!form.are_labels) {
             ImGui::SameLine();
             const auto loose = page.loose_parts();
             ImGui::TextDisabled(
                 "%s", !loose ? tr("(being counted ...)")
-                             : trf("(about {}, {:.1f} mm3 in all)", loose->count, loose->mm3).c_str());
+                             : trf("(about {}, {:.1f} mm³ in all)", loose->count, loose->mm3).c_str());
         }
         ImGui::BeginChild("segments", list_size(3.5f), false);
         if (button(tr("Add a segmentation ..."), !page.is_working()))

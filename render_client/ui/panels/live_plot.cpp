@@ -127,7 +127,7 @@ class PlotColumn {
   private:
     /// Writes the label of a grid line, left of the plot and within its height.
     void label(double value, const glm::vec2& at, const PlotRange& range) const {
-        const std::string text = fmt::format("{:g}", value);
+        const std::string text = with_decimal_sign(fmt::format("{:g}", value));
         const float height = small_print * ImGui::GetFontSize();
         const float up = value == range.low ? height : value == range.high ? 0.0f : 0.5f * height;
         painter_.draw_text(

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common/words/translation.h"
 #include "render_client/ui/panels/round_number.h"
 #include "render_client/volume/surface_points.h"
 #include "render_client/volume/tool/tool_renderer.h"
@@ -19,8 +20,8 @@ namespace osteomill {
 ScaleBar scale_bar(double mm_per_px, double longest_px) {
     const double length_mm = round_number_up_to(mm_per_px * longest_px);
     const std::string label =
-        length_mm < 0.999 ? fmt::format("{:g} um", 1e3 * length_mm) : fmt::format("{:g} mm", length_mm);
-    return {length_mm, length_mm / mm_per_px, label};
+        length_mm < 0.999 ? fmt::format("{:g} µm", 1e3 * length_mm) : fmt::format("{:g} mm", length_mm);
+    return {length_mm, length_mm / mm_per_px, with_decimal_sign(label)};
 }
 
 ScaleBar scale_bar_of(const Camera& camera, const glm::ivec2& size_px) {
@@ -59,7 +60,7 @@ void draw_force_label(const PanelPainter& painter, const ToolState& tool, double
     const double force_n = glm::length(tool.force_n);
     const glm::vec2 head(pixel_of(camera, arrow->head_mm, size_px));
     const float beside = 8.0f * painter.scale();
-    const std::string text = fmt::format("{:.2f} N", force_n);
+    const std::string text = with_decimal_sign(fmt::format("{:.2f} N", force_n));
     const glm::vec2 size(painter.width_of(text), ImGui::GetFontSize());
     const glm::vec2 middle = head - 0.5f * size;
     const glm::vec2 across(0.5f * size.x + beside, 0.0f), along(0.0f, size.y + beside);

@@ -70,9 +70,11 @@ void draw_playback_panel(RecordingPlayer& player, const PanelPainter& painter, c
     ImGui::SameLine();
     auto speed = static_cast<float>(player.speed());
     ImGui::SetNextItemWidth(speed_width * letter);
-    if (ImGui::SliderFloat("##speed", &speed, static_cast<float>(RecordingPlayer::slowest),
-                           static_cast<float>(RecordingPlayer::fastest), "%.1f x",
-                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput))
+    if (ImGui::SliderFloat(
+            "##speed", &speed, static_cast<float>(RecordingPlayer::slowest),
+            static_cast<float>(RecordingPlayer::fastest),
+            with_decimal_sign(fmt::format("{:.1f} x", speed)).c_str(),
+            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput | ImGuiSliderFlags_NoRoundToFormat))
         player.set_speed(speed);
 }
 

@@ -23,7 +23,9 @@ Question question_of(SessionQuestion question, bool started_session) {
         case SessionQuestion::reset:
             return {tr("Undo every stroke? Each can be redone."), tr("Reset")};
         case SessionQuestion::finish:
-            return {tr("Finish the session, for everybody? All is saved."), tr("Finish")};
+            return {started_session ? tr("Finish the session? All is saved.")
+                                    : tr("Finish the session, for everybody? All is saved."),
+                    tr("Finish")};
         case SessionQuestion::surface:
             return {tr("Save the surface of the bone as it is, beside the bone that the server saves, as:"),
                     "STL"};

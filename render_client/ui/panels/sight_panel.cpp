@@ -29,14 +29,17 @@ float height_of(const std::string& text, float width) {
 
 }  // namespace
 
+std::string advice_before_first_answer() {
+    return tr(
+        "This window joins as soon as it answers. See whether the server runs, and whether the address is "
+        "right.");
+}
+
 SightWords words_of_sight(const SeenSession& session, std::optional<int> preparation_percent) {
     const LinkUpdate& link = session.link;
     switch (session.sight) {
         case SessionSight::none:
-            return {
-                tr("No server has answered yet"), link.status_line,
-                tr("This window joins as soon as it answers. See whether the server runs, and whether the "
-                   "address is right.")};
+            return {tr("No server has answered yet"), link.status_line, advice_before_first_answer()};
         case SessionSight::coming:
             return {percent_received(link), link.status_line, {}};
         case SessionSight::preparing:

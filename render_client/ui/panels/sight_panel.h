@@ -18,6 +18,8 @@ struct SightWords {
     std::string advice;  ///< may be empty
 };
 
+/// Where no server has answered.
+std::string advice_before_first_answer();
 /// The text for a sight that has one. `preparation_percent`: of the bone's textures, as far as known.
 SightWords words_of_sight(const SeenSession& session, std::optional<int> preparation_percent);
 

@@ -30,11 +30,9 @@ struct ToolButton {
 };
 
 std::string burr_words(const Burr& burr) {
-    return burr.is_ball()
-               ? fmt::format("{:.1f} mm", burr.diameter_mm)
-               : fmt::format("{} {:.1f} mm",
-                             tr(std::string(head_shape_names[static_cast<std::size_t>(burr.head.shape)])),
-                             burr.diameter_mm);
+    const std::string size = with_decimal_sign(fmt::format("{:.1f} mm", burr.diameter_mm));
+    const auto shape = static_cast<std::size_t>(burr.head.shape);
+    return burr.is_ball() ? size : tr(std::string(head_shape_names[shape])) + " " + size;
 }
 
 /// The burr that the operator of this window chose; the burr in the tool if the tool is not theirs.
@@ -140,7 +138,7 @@ std::vector<ToolButton> buttons(const SeenSession& session, const ViewSettings& 
     buttons.push_back({.action = Action::finish,
                        .sign = "\u25A0",
                        .word = tr("Finish"),
-                       .tip = tr("ends the session for everybody; all is saved"),
+                       .tip = tr("ends the session; all is saved"),
                        .is_enabled = may});
     return buttons;
 }
@@ -288,10 +286,13 @@ void draw_tool_bar(const SeenSession& session, ViewSettings& view, const PanelPl
     for (const ToolButton& button : place.choice < 2 ? all : without_least_used(all)) {
         if (!std::exchange(is_first, false)) ImGui::SameLine();
         ImGui::BeginDisabled(!button.is_enabled);
+        // One that is on looks so under the mouse, too.
+        const int colours = button.is_on ? 2 : 0;
         if (button.is_on)
-            ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+            for (const ImGuiCol of : {ImGuiCol_Button, ImGuiCol_ButtonHovered})
+                ImGui::PushStyleColor(of, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
         if (ImGui::Button(text_of(button, has_words).c_str())) press(button, view, requests);
-        if (button.is_on) ImGui::PopStyleColor();
+        ImGui::PopStyleColor(colours);
         ImGui::EndDisabled();
         if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
             std::string tip = button.word + ": " + button.tip;

@@ -117,7 +117,7 @@ void draw_axes(const PanelPainter& painter, const Field& field) {
         canvas.AddLine({at.x - tick, at.y}, to_imgui(at), ink, painter.scale());
         write({at.x - 1.5f * tick,
                std::clamp(at.y - 0.5f * letter, field.first().y, field.first().y + field.size().y - letter)},
-              1.0f, fmt::format("{:g}", opacity));
+              1.0f, with_decimal_sign(fmt::format("{:g}", opacity)));
     }
 }
 
@@ -192,7 +192,9 @@ void draw_transfer_panel(const PanelPainter& painter, ViewSettings& view, const 
         if (ImGui::Button(tr("save"), {save_width, 0.0f})) view.transfer_save_wanted = true;
     }
     ImGui::SetNextItemWidth(-3.0f * letter);
-    ImGui::SliderFloat(tr("wet"), &view.specular, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat(tr("wet"), &view.specular, 0.0f, 1.0f,
+                       with_decimal_sign(fmt::format("{:.2f}", view.specular)).c_str(),
+                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
     if (!editor.function()) {
         ImGui::TextDisabled("%s",
                             tr("tissues, or stiffness, in their own\ncolours; choose a preset to edit it"));

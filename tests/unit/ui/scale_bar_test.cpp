@@ -15,7 +15,7 @@ TEST(ScaleBar, IsTheLongestRoundLengthThatFits) {
 }
 
 TEST(ScaleBar, CountsInMicrometresBelowAMillimetre) {
-    EXPECT_EQ(scale_bar(0.002, 130.0).label, "200 um");
+    EXPECT_EQ(scale_bar(0.002, 130.0).label, "200 µm");
     EXPECT_EQ(scale_bar(0.01, 100.0).label, "1 mm");
 }
 

@@ -410,7 +410,12 @@ TEST(Translation, AreEnglishUntilAnotherLanguageIsSpoken) {
     EXPECT_STREQ(tr("Finish"), "Finish");
     speak("de");
     EXPECT_STREQ(tr("Finish"), "Beenden");
-    EXPECT_EQ(trf("depth {:.2f} mm", 1.234), "Tiefe 1.23 mm");
+    EXPECT_EQ(trf("depth {:.2f} mm", 1.234), "Tiefe 1,23 mm");
+    EXPECT_EQ(trf("{:.0f} million voxels, {:.0f} MB at most, some {:.0f} s (estimated)", 1.0, 2.0, 3.0F),
+              "1 Millionen Voxel, höchstens 2 MB, etwa 3 s (geschätzt)");
+    EXPECT_EQ(trf("cannot reach {}: {}", "127.0.0.1:9999", "v1.5"),
+              "127.0.0.1:9999 ist nicht zu erreichen: v1.5")
+        << "names keep their points";
     EXPECT_STREQ(tr("no such words"), "no such words");
     speak("en");
     EXPECT_STREQ(tr("Finish"), "Finish");
