@@ -137,15 +137,22 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
         if (files.json_histograms) write_json(histograms_us(report), *files.json_histograms);
     });
     failure.of([&] {
-        if (recording && !recording->error.empty()) throw std::runtime_error(ending_of(*recording));
+        const auto say_how_to_report = [&](const std::filesystem::path& of) {
+            if (files.report && std::filesystem::exists(of))
+                spdlog::error("once there is room on the disk, packet_replay {} --report {} makes the report",
+                              of.string(), files.report->string());
+        };
+        if (recording && !recording->error.empty()) {
+            say_how_to_report(recording->file);
+            throw std::runtime_error(ending_of(*recording));
+        }
         if (!files.report) return;
         // Clients have had the end by now, and all else lies on the disk.
         output.out->say("the session has ended; its report is being made");
         speak(files.report_language);
         const std::string error = write_report(recording_in(*files.report), *files.report, [](double) {});
         if (!error.empty()) {
-            spdlog::error("{0} is whole: packet_replay {0} --report {1} makes the report",
-                          recording_in(*files.report).string(), files.report->string());
+            say_how_to_report(recording_in(*files.report));
             throw std::runtime_error(error);
         }
         output.out->say(fmt::format("report: {}", (*files.report / "report.html").string()));
