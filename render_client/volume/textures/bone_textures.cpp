@@ -195,29 +195,22 @@ std::vector<TextureSize> BoneTextures::sizes() const {
 }
 
 Steps BoneTextures::find_blocks_of_one_code(const Bone& drawn) {
-    const glm::ivec3& size = empty_space_.size_blocks();
-    has_one_code_.resize(VoxelBox{{}, size}.count());
+    has_one_code_.resize(empty_space_.distance().size());
     for (const BrickIndex index : drawn.content().brick_of_slot) {
         const glm::ivec3 brick = brick_position(drawn.content().size_bricks, index);
         const auto are_one = blocks_of_one_code(drawn, table_.codes, brick);
-        const glm::ivec3 first = (brick * brick_edge_voxels - box().first) / block_edge_voxels + 1;
-        for (std::size_t number = 0; number < blocks_per_brick; ++number) {
-            const glm::ivec3 block =
-                first + glm::ivec3(number & 3, number >> 2 & 3, static_cast<int>(number >> 4));
-            has_one_code_[(static_cast<std::size_t>(block.z) * size.y + block.y) * size.x + block.x] =
-                are_one[number];
-        }
+        for (std::size_t number = 0; number < blocks_per_brick; ++number)
+            has_one_code_[empty_space_.index(empty_space_.block_of(brick, number))] = are_one[number];
         co_yield 0.0;
     }
 }
 
 void BoneTextures::upload_blocks(const VoxelBox& blocks) {
-    const glm::ivec3& size = empty_space_.size_blocks();
     scratch_.resize(2 * blocks.count());
     std::uint8_t* texel = scratch_.data();
     for (int z = blocks.first.z; z < blocks.first.z + blocks.size.z; ++z)
         for (int y = blocks.first.y; y < blocks.first.y + blocks.size.y; ++y) {
-            std::size_t block = (static_cast<std::size_t>(z) * size.y + y) * size.x + blocks.first.x;
+            std::size_t block = empty_space_.index({blocks.first.x, y, z});
             for (int x = 0; x < blocks.size.x; ++x, ++block) {
                 *texel++ = empty_space_.mean_fraction()[block];
                 const bool has_one_code = !has_one_code_.empty() && has_one_code_[block];

@@ -160,11 +160,9 @@ std::span<const VoxelBox> EmptySpace::update(const Bone& bone, std::span<const B
 
 void EmptySpace::take_in(const Bone& bone, const glm::ivec3& brick, std::int32_t slot) {
     const BrickSummary summary = summary_of_brick(bone.fractions(slot));
-    const glm::ivec3 first = (brick * brick_edge_voxels - box_.first) / block_edge_voxels + 1;
     auto& known_reach = reach_of_slot_[static_cast<std::size_t>(slot)];
     for (std::size_t number = 0; number < blocks_per_brick; ++number) {
-        const glm::ivec3 block =
-            first + glm::ivec3(number & 3, number >> 2 & 3, static_cast<int>(number >> 4));
+        const glm::ivec3 block = block_of(brick, number);
         std::uint8_t& mean = mean_fraction_[index(block)];
         if (mean != summary.mean_fraction[number]) {
             mean = summary.mean_fraction[number];

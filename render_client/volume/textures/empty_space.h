@@ -65,6 +65,15 @@ class EmptySpace {
     std::span<const VoxelBox> update(const Bone& bone, std::span<const BrickChange> changes);
 
     const glm::ivec3& size_blocks() const { return size_blocks_; }
+    /// Place of a block in both maps.
+    std::size_t index(const glm::ivec3& block) const {
+        return (static_cast<std::size_t>(block.z) * size_blocks_.y + block.y) * size_blocks_.x + block.x;
+    }
+    /// The block with that number in the summary of a brick, a position in bricks.
+    glm::ivec3 block_of(const glm::ivec3& brick, std::size_t number) const {
+        return (brick * brick_edge_voxels - box_.first) / block_edge_voxels + 1 +
+               glm::ivec3(number & 3, number >> 2 & 3, static_cast<int>(number >> 4));
+    }
     const std::vector<std::uint8_t>& distance() const { return distance_; }
     const std::vector<std::uint8_t>& mean_fraction() const { return mean_fraction_; }
 
@@ -73,9 +82,6 @@ class EmptySpace {
     Steps spread_everywhere();
     void spread_from_reached();
     void mark_changed(const glm::ivec3& block);
-    std::size_t index(const glm::ivec3& block) const {
-        return (static_cast<std::size_t>(block.z) * size_blocks_.y + block.y) * size_blocks_.x + block.x;
-    }
 
     VoxelBox box_;
     glm::ivec3 size_blocks_;
