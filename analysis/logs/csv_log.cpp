@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t capacity_bytes = 8 * 1024 * 1024;
 
 /// Closes it once it has a duplicate.
-BackgroundWriter writer_to(const SessionFile& file) {
+TextWriter writer_to(const SessionFile& file) {
     const int opened = ::open(file.part().c_str(), O_WRONLY | O_CLOEXEC);
     if (opened < 0)
         throw std::runtime_error(
@@ -24,7 +24,7 @@ BackgroundWriter writer_to(const SessionFile& file) {
         int descriptor;
         ~Close() { ::close(descriptor); }
     } const close{opened};
-    return BackgroundWriter(opened, capacity_bytes);
+    return TextWriter(opened, capacity_bytes);
 }
 
 }  // namespace
@@ -46,8 +46,8 @@ void CsvFile::write(const fmt::memory_buffer& text) {
 
 void CsvFile::close() {
     if (is_closed_) return;
-    if (!writer_.finish()) fail("the disk does not answer");
-    if (writer_.error() != 0) fail(std::strerror(writer_.error()));
+    writer_.finish();
+    if (writer_.has_failed()) fail(writer_.error());
     if (error_.empty()) {
         try {
             file_.commit();

@@ -4,13 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "common/files/session_file.h"
-#include "common/log/background_writer.h"
+#include "common/log/text_writer.h"
 #include "common/session/tick_sample.h"
 #include "simulation/exchange/sample_log.h"
 #include "simulation/loop/milling_loop.h"
@@ -31,12 +32,12 @@ class CsvFile {
 
     /// Whether all that was written has reached the disk.
     bool is_idle() const { return writer_.is_idle(); }
-    /// Waits until it is.
-    void wait_until_idle() const { writer_.wait_until_idle(); }
+    /// Waits until it has, without limit.
+    void wait_until_idle() { writer_.wait_until_written(std::chrono::nanoseconds::max()); }
     /// Does not wait for the disk.
     void write(const fmt::memory_buffer& text);
     /// Failures to store lines show here at the latest. Waits for the disk, but not for ever (see
-    /// BackgroundWriter::finish).
+    /// TextWriter::finish).
     void close();
     /// One line, empty while all is well.
     const std::string& error() const { return error_; }
@@ -49,7 +50,7 @@ class CsvFile {
     std::string where_it_lies() const;
 
     SessionFile file_;
-    BackgroundWriter writer_;
+    TextWriter writer_;
     bool has_samples_ = false;
     bool is_closed_ = false;
     std::string error_;

@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/log/background_writer.h"
+#include "common/log/text_writer.h"
 
 namespace osteomill {
 
@@ -43,14 +43,14 @@ class LineStream {
     bool has_caught_up() const { return writer_.is_idle(); }
     /// Whether a line can be overwritten.
     bool is_terminal() const { return is_terminal_ && !is_json_; }
-    /// Waits as BackgroundWriter::finish does; later lines are discarded.
+    /// Waits as TextWriter::finish does; later lines are discarded.
     void finish();
 
   private:
     void push(std::string text);
     void say_dropped();
 
-    BackgroundWriter writer_;
+    TextWriter writer_;
     const bool is_terminal_;
     bool is_json_ = false;
     std::mutex mutex_;

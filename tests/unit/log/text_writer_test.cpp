@@ -1,9 +1,10 @@
-#include "common/log/background_writer.h"
+#include "common/log/text_writer.h"
 
 #include <gtest/gtest.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <thread>
 #include <vector>
 
@@ -18,24 +19,24 @@ using testing::UnreadPipe;
 
 constexpr std::size_t capacity_bytes = 100;
 
-TEST(BackgroundWriter, WritesAllInOrderAlsoToADescriptorThatItsOwnerCloses) {
+TEST(TextWriter, WritesAllInOrderAlsoToADescriptorThatItsOwnerCloses) {
     UnreadPipe pipe;
-    BackgroundWriter writer(pipe.writer(), capacity_bytes);
+    TextWriter writer(pipe.writer(), capacity_bytes);
     pipe.close_writer();
     EXPECT_TRUE(writer.push("one "));
     EXPECT_TRUE(writer.push("two "));
-    writer.wait_until_idle();
+    writer.wait_until_written();
     EXPECT_EQ(pipe.read(100), "one two ");
     EXPECT_TRUE(writer.push("three"));
     EXPECT_TRUE(writer.finish());
     EXPECT_EQ(pipe.read(100), "three");
-    EXPECT_EQ(writer.error(), 0);
+    EXPECT_EQ(writer.error(), "");
 }
 
-TEST(BackgroundWriter, NeverWaitsForAPipeThatNobodyReadsAndHoldsNoMoreThanItMay) {
+TEST(TextWriter, NeverWaitsForAPipeThatNobodyReadsAndHoldsNoMoreThanItMay) {
     const UnreadPipe pipe;
     pipe.fill();
-    BackgroundWriter writer(pipe.writer(), capacity_bytes);
+    TextWriter writer(pipe.writer(), capacity_bytes);
     int taken = 0;
     while (writer.push("ten bytes\n")) ++taken;
     EXPECT_EQ(taken, 10);
@@ -48,19 +49,19 @@ TEST(BackgroundWriter, NeverWaitsForAPipeThatNobodyReadsAndHoldsNoMoreThanItMay)
     EXPECT_EQ(pipe.read(200).size(), 110U);
 }
 
-TEST(BackgroundWriter, TakesATextLongerThanItsCapacityWhereNothingElseWaits) {
+TEST(TextWriter, TakesATextLongerThanItsCapacityWhereNothingElseWaits) {
     const UnreadPipe pipe;
-    BackgroundWriter writer(pipe.writer(), capacity_bytes);
+    TextWriter writer(pipe.writer(), capacity_bytes);
     EXPECT_TRUE(writer.push(std::string(1000, 'x')));
     EXPECT_TRUE(writer.finish());
     EXPECT_EQ(pipe.read(2000).size(), 1000U);
 }
 
-TEST(BackgroundWriter, IsDoneAfterABoundedTimeWithAThreadThatIsStillBlocked) {
+TEST(TextWriter, IsDoneAfterABoundedTimeWithAThreadThatIsStillBlocked) {
     const UnreadPipe pipe;
     pipe.fill();
     {
-        BackgroundWriter writer(pipe.writer(), capacity_bytes);
+        TextWriter writer(pipe.writer(), capacity_bytes);
         EXPECT_TRUE(writer.push("never"));
         EXPECT_FALSE(writer.finish());
         EXPECT_TRUE(writer.push("forgotten"));
@@ -70,29 +71,29 @@ TEST(BackgroundWriter, IsDoneAfterABoundedTimeWithAThreadThatIsStillBlocked) {
     EXPECT_EQ(pipe.read(100), "never");
 }
 
-TEST(BackgroundWriter, GivesUpADescriptorThatFails) {
+TEST(TextWriter, GivesUpADescriptorThatFails) {
     std::signal(SIGPIPE, SIG_IGN);
     UnreadPipe pipe;
     pipe.close_reader();
-    BackgroundWriter writer(pipe.writer(), capacity_bytes);
+    TextWriter writer(pipe.writer(), capacity_bytes);
     EXPECT_TRUE(writer.push("nobody reads this"));
-    writer.wait_until_idle();
-    EXPECT_EQ(writer.error(), EPIPE);
+    writer.wait_until_written();
+    EXPECT_EQ(writer.error(), std::strerror(EPIPE));
     for (int i = 0; i < 100; ++i) EXPECT_TRUE(writer.push("ten bytes\n")) << "forgotten";
     EXPECT_TRUE(writer.finish());
 }
 
-TEST(BackgroundWriter, TakesAClosedDescriptorForOneThatFails) {
-    BackgroundWriter writer(-1, capacity_bytes);
-    EXPECT_EQ(writer.error(), EBADF);
+TEST(TextWriter, TakesAClosedDescriptorForOneThatFails) {
+    TextWriter writer(-1, capacity_bytes);
+    EXPECT_EQ(writer.error(), std::strerror(EBADF));
     EXPECT_TRUE(writer.push("forgotten"));
     EXPECT_TRUE(writer.finish());
 }
 
-TEST(BackgroundWriter, TakesWhatManyThreadsSayWhole) {
+TEST(TextWriter, TakesWhatManyThreadsSayWhole) {
     const UnreadPipe pipe;
     {
-        BackgroundWriter writer(pipe.writer(), 65'536);
+        TextWriter writer(pipe.writer(), 65'536);
         std::vector<std::thread> threads;
         for (int i = 0; i < 4; ++i)
             threads.emplace_back([&writer] {
