@@ -1,27 +1,24 @@
-// Writer of a recording on a thread of its own, for loops that must not wait for a disk.
+// Writer of a recording on a thread of its own (background_writer.h), for loops that must not wait for a
+// disk.
 //
-// A full disk may have space later. A recorder that can send its news later treats it as a slow disk: the
-// frame that did not fit is tried again at intervals, later frames wait, and once the buffer is full no more
-// is accepted until there is space. So no frame is missing, and the file continues where it stopped. A
-// recorder that cannot wait, because its frames come from elsewhere, ends the recording.
-//
-// A disk that does not answer at all (a pulled drive, a lost server, a pipe whose reader has stopped) holds
-// up only that thread: callers wait a bounded time, then the recording is given up. The thread cannot be
-// joined; it is abandoned, and touches only its own data until the program ends.
+// A full disk may have space later. A recorder that can send its news later treats it as a slow disk: it
+// sends no more once the buffer is full, until there is space. So no frame is missing, and the file continues
+// where it stopped. A recorder that cannot wait, because its frames come from elsewhere, ends the recording.
 //
 // Until the recording is complete it is the part beside the requested file (session_file.h). The part can be
 // read at any time, and remains if the recording is torn.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 
+#include "common/files/background_writer.h"
 #include "common/recording/pcap_file.h"
 
 namespace osteomill {
@@ -52,15 +49,18 @@ enum class WhenDiskIsFull {
     try_again,  ///< until it succeeds or the recording is closed
 };
 
-class RecordingWriter {
+struct RecordedFrame {
+    Stamp stamp;
+    std::string message;
+
+    std::size_t size() const { return message.size(); }
+};
+
+/// finish() leaves the part as it is.
+class RecordingWriter final : public BackgroundWriter<RecordedFrame> {
   public:
     /// Between two attempts to go on. A full disk costs a system call in that time.
     static constexpr std::chrono::milliseconds retry_period{500};
-    /// How long the end waits for a disk that takes nothing,
-    static constexpr std::chrono::seconds longest_standstill{2};
-    /// and how long before the end, and until data in the system's memory reach the disk.
-    static constexpr std::chrono::seconds longest_wait{30};
-
     /// Limit of the data that wait for the disk: a second of the fastest loopback snapshot. A caller that
     /// finds it full sends its news later, as to a slow client.
     static constexpr std::size_t capacity_bytes = 8 * 1024 * 1024;
@@ -70,40 +70,22 @@ class RecordingWriter {
 
     /// Begins the file; throws RecordingError.
     RecordingWriter(const std::filesystem::path& file, OnNews on_news, WhenDiskIsFull when_full);
-    /// Closes first, if need be. A recording that was not committed stays as a part, if anything is in it.
-    ~RecordingWriter();
-    RecordingWriter(const RecordingWriter&) = delete;
-    RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-    /// Whether push() would take a frame. After the end of the recording it accepts every frame, and drops
-    /// it.
-    bool has_room() const;
-    /// Waits until there is space, or the disk is full: for callers that may wait for a disk. Gives the
-    /// recording up once the disk has accepted nothing for so long.
-    void wait_for_room(std::chrono::milliseconds longest = longest_wait);
-    /// Waits until all that was pushed is in the file, or the disk is full; gives up alike.
-    void wait_until_written(std::chrono::milliseconds longest = longest_wait);
-    /// Never waits for the disk. Call only if has_room().
+    /// Takes the frame even beyond the capacity. Call only if has_room().
     void push(Stamp stamp, std::string message);
-    /// Whether the last attempt to write has failed.
-    bool has_failed() const;
-
-    /// Writes the waiting frames, with one last attempt if the disk is full, and ends the thread; gives the
-    /// recording up if the disk stands still. Later pushes are discarded.
-    void close();
-    /// Closes first, and makes the part the file, unless frames are missing. Failures show in the report.
+    /// Finishes first, and makes the part the file, unless frames are missing. Failures show in the report.
     void commit();
-    /// Closes first; the destructor then deletes the file: it is worthless.
+    /// Finishes first; the destructor then deletes the file: it is worthless.
     void discard();
     RecordingReport report() const;
     /// The new place of a recording that an earlier, killed session left under the part's name.
     const std::optional<std::filesystem::path>& torn() const;
 
   private:
-    struct Shared;
+    struct Part;
+    explicit RecordingWriter(std::shared_ptr<Part> part);
 
-    std::shared_ptr<Shared> shared_;
-    std::thread thread_;
+    std::shared_ptr<Part> part_;
 };
 
 }  // namespace osteomill

@@ -101,7 +101,7 @@ void SessionRecorder::finish(SessionState state, const std::string& reason) {
     outgoing_.finish(reason, has_said_all);
     hand_over(Wait::a_moment);
     if (outgoing_.is_finished()) writer_.commit();
-    writer_.close();
+    writer_.finish();
 }
 
 RecordingReport SessionRecorder::report() const {

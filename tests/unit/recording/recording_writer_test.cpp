@@ -50,7 +50,7 @@ TEST(RecordingWriter, SaysOnceThatTheDiskIsFullAndGoesOnWithoutIt) {
     EXPECT_TRUE(writer.has_failed());
     EXPECT_TRUE(writer.has_room());
     writer.push(Stamp{}, "forgotten");
-    writer.close();
+    writer.finish();
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_EQ(writer.report().error, lines[0]);
     EXPECT_EQ(writer.report().frames, 4U);
@@ -93,7 +93,7 @@ TEST(RecordingWriter, TriesOnceMoreWhenItIsClosedAndThenSaysWhatIsMissing) {
     RecordingWriter writer(folder / "a.pcap", {}, WhenDiskIsFull::try_again);
     const testing::FileSizeLimit disk(5'000);
     for (int i = 0; i < 10; ++i) writer.push(Stamp{}, std::string(1000, 'x'));
-    writer.close();
+    writer.finish();
     EXPECT_EQ(writer.report().frames, 4U);
     EXPECT_THAT(writer.report().error, ::testing::HasSubstr("no more than 4 frames"));
     EXPECT_EQ(writer.report().pauses, 0U);
@@ -180,7 +180,7 @@ TEST(RecordingWriter, NeverWaitsForASlowDiskAndHoldsNoMoreThanItMay) {
                 [[maybe_unused]] const auto ignored = ::read(reader, bytes.data(), bytes.size());
         });
         writer.wait_for_room();
-        writer.close();
+        writer.finish();
         draining.join();
         EXPECT_EQ(writer.report().error, "");
     }
