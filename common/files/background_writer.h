@@ -120,8 +120,9 @@ class BackgroundWriter {
         shared_->wait_or_give_up([](Shared& now) { return now.has_ended || now.is_completing; },
                                  longest_standstill, longest_block);
         shared_->wait_or_give_up([](Shared& now) { return now.has_ended; }, longest_wait);
-        shared_->is_given_up ? thread_.detach() : thread_.join();
-        return !shared_->is_given_up;
+        const bool is_whole = !is_given_up();
+        is_whole ? thread_.join() : thread_.detach();
+        return is_whole;
     }
 
   protected:
@@ -132,6 +133,11 @@ class BackgroundWriter {
 
   private:
     using Lock = std::unique_lock<std::mutex>;
+
+    bool is_given_up() const {
+        const Lock lock(shared_->mutex);
+        return shared_->is_given_up;
+    }
 
     /// State that the thread and its owner share; it lives as long as either of them.
     struct Shared {
