@@ -191,7 +191,8 @@ void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, con
     for (int axis = 0; axis < 3; ++axis) {
         const auto index = static_cast<std::size_t>(axis);
         components.push_back(
-            {axis_tones[index], fmt::format("{} {:+.2f}   ", tr(axis_names[index]), tool.force_n[axis])});
+            {axis_tones[index],
+             with_decimal_sign(fmt::format("{} {:+.2f}   ", tr(axis_names[index]), tool.force_n[axis]))});
     }
     column.write(components);
     if (detail == PlotDetail::numbers) return;

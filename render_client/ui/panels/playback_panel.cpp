@@ -59,7 +59,8 @@ void draw_playback_panel(RecordingPlayer& player, const PanelPainter& painter, c
 
     ImGui::SameLine();
     auto time_s = static_cast<float>(player.time_s());
-    const std::string shown = clock_text(player.time_s()) + " / " + clock_text(player.duration_s());
+    const std::string shown =
+        with_decimal_sign(clock_text(player.time_s()) + " / " + clock_text(player.duration_s()));
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - speed_width * letter -
                             ImGui::GetStyle().ItemSpacing.x);
     if (ImGui::SliderFloat("##time", &time_s, 0.0f, static_cast<float>(player.duration_s()), shown.c_str(),
