@@ -123,7 +123,7 @@ std::string ControlRunner::restore(SessionAction action, const Bone& bone, const
     const bool redoes = action == SessionAction::redo;
     const auto steps = [&] { return redoes ? journal_.redo_steps() : journal_.undo_steps(); };
     if (steps() == 0) {
-        say({action}, redoes ? "nothing was undone" : "nothing was milled");
+        say({action}, redoes ? "nothing is left to redo" : "nothing is left to undo");
         return {};
     }
     double mm3 = 0.0;
@@ -133,7 +133,9 @@ std::string ControlRunner::restore(SessionAction action, const Bone& bone, const
         mm3 += static_cast<double>(levels) / 255.0 * voxel_volume_mm3(bone.grid());
     } while (steps() > 0 && (action == SessionAction::reset || (!redoes && mm3 < least_seen_mm3)));
     may_be_in_bone_ = true;
-    say({.action = action, .text = fmt::format("{:.2f} mm³", std::abs(mm3))});
+    say({.action = action,
+         .text = std::abs(mm3) < least_seen_mm3 ? fmt::format("less than {} mm³", 0.01)
+                                                : fmt::format("{:.2f} mm³", std::abs(mm3))});
     return {};
 }
 

@@ -145,6 +145,7 @@ TEST_F(SessionControlsTest, UndoesASliceThatNobodySeesWithTheOneBefore) {
     controls_.control({SessionAction::undo});
     frames(60);
     EXPECT_EQ(checksum(milled_), whole) << "nothing was before it";
+    EXPECT_EQ(controls_.take_events().at(0).text, "less than 0.01 mm\u00b3");
 }
 
 TEST_F(SessionControlsTest, MakesAPauseThatEndsInTheSameFrameOne) {
@@ -305,8 +306,8 @@ TEST_F(SessionControlsTest, RefusesWhatThereIsNothingOf) {
     frame();
     const auto events = controls_.take_events();
     ASSERT_EQ(events.size(), 3U);
-    EXPECT_EQ(events[0].text, "nothing was milled");
-    EXPECT_EQ(events[1].text, "nothing was undone");
+    EXPECT_EQ(events[0].text, "nothing is left to undo");
+    EXPECT_EQ(events[1].text, "nothing is left to redo");
     for (const ControlEvent& event : events) EXPECT_TRUE(event.is_refused);
     EXPECT_FALSE(holds_still());
 }

@@ -26,8 +26,9 @@ TEST(ControlNotices, AreOfOneEventOtherwise) {
         << "a person placed it later";
     notices.notice_of({.action = undo, .text = "6.09 mm³"}, 30.0);
     EXPECT_EQ(notices.notice_of({.action = SessionAction::mark, .text = "nerve"}, 30.1), "marked nerve");
-    EXPECT_EQ(notices.notice_of({.action = undo, .text = "nothing was milled", .is_refused = true}, 40.0),
-              "no undo: nothing was milled");
+    EXPECT_EQ(
+        notices.notice_of({.action = undo, .text = "nothing is left to undo", .is_refused = true}, 40.0),
+        "no undo: nothing is left to undo");
     EXPECT_EQ(notices.notice_of({.action = place, .text = "at 1.0, 2.0, 3.0 mm LPS"}, 40.1),
               "the tool is at 1.0, 2.0, 3.0 mm LPS");
 }
