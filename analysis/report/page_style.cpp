@@ -74,7 +74,12 @@ std::string shown_unit(std::string_view unit) {
 }
 
 ShownValue shown_value(std::string_view key, double value, std::string_view unit) {
-    if (const Headline* known = headline(key)) return {number_text(known->scale * value), known->unit};
+    if (const Headline* known = headline(key)) {
+        const double shown = known->scale * value;
+        // Nobody reads 1.8e-05 %.
+        const bool is_tiny_share = known->unit == std::string_view("%") && std::abs(shown) < 0.01;
+        return {number_text(is_tiny_share ? 0.0 : shown), known->unit};
+    }
     return {number_text(value), shown_unit(unit)};
 }
 

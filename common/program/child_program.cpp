@@ -110,6 +110,10 @@ void ChildProgram::ask_to_end() const {
     if (is_running()) ::kill(pid_, SIGTERM);
 }
 
+void ChildProgram::kill() const {
+    if (is_running()) ::kill(pid_, SIGKILL);
+}
+
 void ChildProgram::yield_to_others() const {
     constexpr int nice = 15;
     if (is_running()) ::setpriority(PRIO_PROCESS, static_cast<id_t>(pid_), nice);

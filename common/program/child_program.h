@@ -30,6 +30,8 @@ class ChildProgram {
     const std::optional<int>& status() const { return status_; }
     /// Asks it to end, the way CTRL-C does.
     void ask_to_end() const;
+    /// Ends it at once, though it stands still.
+    void kill() const;
     /// From now on it gets little of a processor that another program wants.
     void yield_to_others() const;
 

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <regex>
 #include <string_view>
+#include <system_error>
 
 #include "common/words/embedded_words.h"
 
@@ -157,6 +160,17 @@ bool is_digit(char letter) {
 }
 
 }  // namespace
+
+std::optional<double> number_written(std::string text) {
+    std::erase(text, ' ');
+    std::ranges::replace(text, ',', '.');
+    const char* const first = text.data() + (text.starts_with('+') ? 1 : 0);
+    const char* const end = text.data() + text.size();
+    double number = 0.0;
+    const auto [rest, error] = std::from_chars(first, end, number);
+    if (error != std::errc() || rest != end || !std::isfinite(number)) return std::nullopt;
+    return number;
+}
 
 std::string with_decimal_sign(std::string text, const std::string& language) {
     if (std::ranges::find(languages_with_comma, language) == languages_with_comma.end()) return text;

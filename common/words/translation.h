@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <concepts>
 #include <map>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -51,6 +52,9 @@ std::string tissue_words(std::string name);
 /// Every number of a text with the decimal sign of a language. Numbers with several points, such as versions,
 /// stay as they are.
 std::string with_decimal_sign(std::string text, const std::string& language = spoken_language());
+
+/// A number that a person wrote, with a point or a comma, whatever the language; nothing if the text is none.
+std::optional<double> number_written(std::string text);
 
 /// A number among a text's values: formatted as by fmt, then with the language's decimal sign.
 template <std::floating_point Number>

@@ -190,7 +190,8 @@ class Drawing {
         session_over_ = options_.until_server_ends && link.status == LinkStatus::finished;
         commands_.tell(link.events, std::chrono::duration<double>(now - began_).count());
         drills_ = source_.player() == nullptr && session_.elements().controls && session_.tool() &&
-                  session_.session() && session_.session()->accepts_operator;
+                  session_.session() && session_.session()->accepts_operator &&
+                  (!asks() || session_.view().question == SessionQuestion::mark);
         shared_.desk.show({.drills = drills_,
                            .burr_count = session_.session() ? session_.session()->burrs.size() : 0,
                            .reach_mm = session_.session() ? session_.session()->reach_mm : longest_reach_mm,
@@ -275,6 +276,7 @@ class Drawing {
         if (panels_.feed(input_, opens_note_field())) redraw_.note_change(start);
         commands_.work_clutch();
         camera_.aim(session_);
+        had_popup_ = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
         const gl::Framebuffer& framebuffer = session_.draw(elapsed_s);
         // Dear ImGui took the input in while the panels were drawn; it takes effect in the next frame.
         move_camera(session_, commands_, panels_.wheel_notches(), !drills_);
@@ -283,8 +285,7 @@ class Drawing {
                 glm::dvec2(view_motion_),
             session_.size_px());
         for (const Action action : actions_of(input_.pressed_keys(), situation()))
-            if ((!has_keyboard() || action == Action::end) && !(action == Action::end && steps_back()))
-                commands_.take(action);
+            if (may_act(action) && !(action == Action::end && steps_back())) commands_.take(action);
         if (session_.view().click_places && ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
             !ImGui::GetIO().WantCaptureMouse)
             commands_.place_at({ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y},
@@ -331,13 +332,21 @@ class Drawing {
 
     bool shows_start_page() const { return start_ && start_->is_due(session_.link().status); }
 
+    /// Keys belong to a question that is asked, or to a field that is written in; ESC goes back from either.
+    bool may_act(Action action) const { return action == Action::end || (!has_keyboard() && !asks()); }
+    bool asks() const { return session_.view().question != SessionQuestion::none; }
+
     /// Closes a panel over the picture, or shows the hidden page again. Only if there is neither does ESC end
     /// the window.
     bool steps_back() {
         ViewSettings& view = session_.view();
-        if (view.question != SessionQuestion::none) return false;
-        if (shows_start_page() && start_->page.tour_card)
+        if (asks()) return false;
+        if (has_keyboard() || had_popup_)
+            return true;  // ESC left the field, or closed the list
+        else if (shows_start_page() && start_->page.tour_card)
             start_->page.tour_card.reset();
+        else if (view.click_places || view.moves_bone)
+            view.click_places = view.moves_bone = false;
         else if (view.help_shown)
             view.help_shown = false;
         else if (start_ && start_->is_hidden(session_.link().status))
@@ -400,6 +409,7 @@ class Drawing {
     Clock::time_point drawn_ = began_;
     Clock::time_point view_told_{};
     bool drills_ = false;
+    bool had_popup_ = false;  // before this frame, whose ESC closes it
     bool page_stands_alone_ = false;
     bool is_note_field_open_ = false;
     bool session_over_ = false;

@@ -23,12 +23,19 @@ namespace {
 constexpr double mm_per_notch = 1.0;  // of the wheel
 
 /// True if a person changes it.
+/// `format`: of fmt. True if another number was written; a text that is none changes nothing.
 bool number_field(const char* label, double& number, const char* format) {
     // Six of them stand in a row, with words for two more.
     const float letter = ImGui::GetFontSize();
     ImGui::SetNextItemWidth(std::clamp((ImGui::GetWindowContentRegionMax().x - 12.0f * letter) / 6.0f,
                                        3.0f * letter, 5.0f * letter));
-    return ImGui::InputDouble(label, &number, 0.0, 0.0, format);
+    // Dear ImGui's own field drops a comma, so that 0,5 became 5.
+    std::array<char, 32> text{};
+    with_decimal_sign(fmt::format(fmt::runtime(format), number)).copy(text.data(), text.size() - 1);
+    if (!ImGui::InputText(label, text.data(), text.size(), ImGuiInputTextFlags_AutoSelectAll)) return false;
+    const auto written = number_written(text.data());
+    if (written) number = *written;
+    return written.has_value();
 }
 
 void upload(const StartPage& page, StartPicture& picture) {
@@ -142,7 +149,7 @@ void draw_segments(ImportForm& form) {
         ImGui::Checkbox(tr("protect"), &segment.is_protected);
         ImGui::SameLine();
         if (segment.is_protected) {
-            number_field("mm", segment.warn_mm, "%.1f");
+            number_field("mm", segment.warn_mm, "{:.1f}");
             segment.warn_mm = std::clamp(segment.warn_mm, 0.0, most_warn_mm);
             if (ImGui::IsItemHovered())
                 ImGui::SetTooltip("%s", tr("the window warns of a burr that is nearer"));
@@ -190,7 +197,7 @@ void draw_marks(ImportForm& form) {
         ImGui::SameLine();
         ImGui::BeginDisabled(!is_set);
         double shown = (is_set ? form.pass[field.metric] : field.first) / field.unit;
-        if (number_field(field.label, shown, "%g") && is_set)
+        if (number_field(field.label, shown, "{:g}") && is_set)
             form.pass[field.metric] = std::clamp(shown * field.unit, kind.low, kind.high);
         ImGui::EndDisabled();
         ImGui::PopID();
@@ -206,7 +213,7 @@ void draw_region(ImportForm& form) {
         for (int axis = 0; axis < 3; ++axis) {
             ImGui::SameLine();
             number_field(axes[static_cast<std::size_t>(axis)],
-                         (is_low ? form.region.low_mm : form.region.high_mm)[axis], "%.1f");
+                         (is_low ? form.region.low_mm : form.region.high_mm)[axis], "{:.1f}");
         }
         ImGui::SameLine();
         ImGui::PopID();
@@ -233,11 +240,11 @@ void draw_import(StartPage& page, StartPicture& picture) {
         draw_slices(page, picture, {all.x, std::max(all.y - 9.0f * line, 4.0f * line)});
         draw_region(form);
         if (!form.are_labels) {
-            number_field(tr("HU threshold"), form.threshold_hu, "%.0f");
+            number_field(tr("HU threshold"), form.threshold_hu, "{:.0f}");
             ImGui::SameLine();
         }
         if (!form.is_spacing_chosen) form.spacing_mm = default_spacing_mm(form, *page.look());
-        if (number_field(tr("mm a voxel"), form.spacing_mm, "%.2f")) form.is_spacing_chosen = true;
+        if (number_field(tr("mm a voxel"), form.spacing_mm, "{:.2f}")) form.is_spacing_chosen = true;
         form.spacing_mm = std::clamp(form.spacing_mm, 0.02, 10.0);
         if (!form.are_labels) {
             ImGui::SameLine();

@@ -222,12 +222,15 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
                             draw_start_panel(content.start->page, content.start->picture, place);
                         });
     if (elements.has_words && !starts && !view.help_shown && view.question == SessionQuestion::none) {
-        const bool has_buttons = session.sight == SessionSight::none && content.requests != nullptr;
-        const auto buttons = has_buttons
-                                 ? std::optional(SightButtons{*content.requests,
-                                                              content.start ? &content.start->page : nullptr})
-                                 : std::nullopt;
-        const SightWords words = words_of_sight(session, content.picture.preparation_percent);
+        StartPage* const page = content.start != nullptr ? &content.start->page : nullptr;
+        const bool is_own = page != nullptr && page->is_session_running();
+        const bool stands_still =
+            session.sight == SessionSight::silent && is_own && session.link.silent_s > longest_silence_s;
+        const bool has_buttons =
+            content.requests != nullptr && (session.sight == SessionSight::none || stands_still);
+        const auto buttons =
+            has_buttons ? std::optional(SightButtons{*content.requests, page, stands_still}) : std::nullopt;
+        const SightWords words = words_of_sight(session, content.picture.preparation_percent, is_own);
         panels.add_page(Anchor::middle, sight_panel_size(words, has_buttons, picture - 2.0f * margin),
                         [=](const PanelPlace& place) { draw_sight_panel(words, buttons, place); });
     }

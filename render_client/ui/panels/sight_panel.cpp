@@ -35,7 +35,7 @@ std::string advice_before_first_answer() {
         "right.");
 }
 
-SightWords words_of_sight(const SeenSession& session, std::optional<int> preparation_percent) {
+SightWords words_of_sight(const SeenSession& session, std::optional<int> preparation_percent, bool is_own) {
     const LinkUpdate& link = session.link;
     switch (session.sight) {
         case SessionSight::none:
@@ -51,8 +51,11 @@ SightWords words_of_sight(const SeenSession& session, std::optional<int> prepara
             return {
                 tr("The server is silent"),
                 tr("What you see is of before: how the tool is now is not known."),
-                tr("Hold still: it goes on by itself. If it does not, see whether the server's machine runs "
-                   "and the network cable is in.")};
+                is_own
+                    ? tr("Hold still: it goes on by itself. If it does not, break the session off, and start "
+                         "anew: what was recorded is kept.")
+                    : tr("Hold still: it goes on by itself. If it does not, see whether the server's machine "
+                         "runs and the network cable is in.")};
         case SessionSight::lost:
             if (link.status == LinkStatus::refused)
                 return {tr("The server does not take this window"), link.status_line,
@@ -89,6 +92,10 @@ void draw_sight_panel(const SightWords& words, const std::optional<SightButtons>
         if (!text.empty()) ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     if (!buttons) return;
+    if (buttons->break_off) {
+        if (ImGui::Button(tr("Break it off"))) buttons->page->break_off();
+        return;
+    }
     if (buttons->page != nullptr) {
         if (ImGui::Button(tr("Back to the cases"))) buttons->page->is_hidden = false;
         ImGui::SameLine();

@@ -20,14 +20,19 @@ struct SightWords {
 
 /// Where no server has answered.
 std::string advice_before_first_answer();
-/// The text for a sight that has one. `preparation_percent`: of the bone's textures, as far as known.
-SightWords words_of_sight(const SeenSession& session, std::optional<int> preparation_percent);
+/// The text for a sight that has one. `preparation_percent`: of the bone's textures, as far as known;
+/// `is_own`: this window started the session.
+SightWords words_of_sight(const SeenSession& session, std::optional<int> preparation_percent,
+                          bool is_own = false);
 
-/// Buttons to end the program and to go back to the page of cases.
+/// Buttons to end the program and to go back to the page of cases; or to break a session off.
 struct SightButtons {
     SessionRequests& requests;
     StartPage* page = nullptr;  ///< null if no session is started from here
+    bool break_off = false;     ///< its program stands still; `page` is not null
 };
+/// A program that has been silent for so long stands still.
+inline constexpr double longest_silence_s = 3.0;
 /// `buttons`: nothing if nobody can press them, or none are needed.
 glm::vec2 sight_panel_size(const SightWords& words, bool has_buttons, const glm::vec2& available);
 void draw_sight_panel(const SightWords& words, const std::optional<SightButtons>& buttons,

@@ -70,6 +70,16 @@ std::string failure_in_words(const ChildProgram& program) {
               "kept");
 }
 
+/// "refining 40 %, 12 s left", as a program says that works, or another line, in the window's language.
+std::string progress_in_words(const std::string& line) {
+    const std::size_t unit = line.find(" %");
+    const std::size_t title = unit == std::string::npos ? unit : line.rfind(' ', unit - 1);
+    if (title == std::string::npos) return tr_filled(line);
+    const std::string left = line.substr(unit + 2);
+    return tr(line.substr(0, title)) + line.substr(title, unit + 2 - title) +
+           (left.starts_with(", ") ? ", " + tr_filled(left.substr(2)) : left);
+}
+
 /// How a session's program ended, for a trainee; empty if all went well. The technician finds the rest in the
 /// log.
 std::string end_in_words(const ChildProgram& server, bool is_recorded) {
@@ -435,7 +445,7 @@ bool StartPage::poll() {
         if (!worker_->is_running())
             end_of_work();
         else if (const std::string line = without_program(worker_->last_line()); !line.empty())
-            message_ = line;
+            message_ = progress_in_words(line);
     }
     has_news = count_loose_parts() || has_news;
     has_news = poll_reports() || has_news;

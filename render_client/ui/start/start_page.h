@@ -94,6 +94,10 @@ class StartPage {
     bool has_served() const { return !report_folder_.empty() && server_ == nullptr; }
     /// The last session's report, once it is written.
     const std::optional<std::filesystem::path>& report() const { return report_; }
+    /// Ends the session's program at once, for it stands still; its recording stays.
+    void break_off() {
+        if (server_) server_->kill();
+    }
     /// Opens the report in the user's browser.
     void open_report() {
         if (report_) open_page(*report_);

@@ -20,6 +20,7 @@
 #include "analysis/report/headlines.h"
 #include "analysis/report/motion_metrics.h"
 #include "analysis/report/session_metrics.h"
+#include "common/program/progress.h"
 #include "common/scene/burr.h"
 #include "common/scene/rating_quantities.h"
 #include "common/scene/scene_file.h"
@@ -212,6 +213,9 @@ std::set<std::string> server_words() {
                 const std::string text = literal_at(source, at);
                 words.insert({text, in_recording + text});
             }
+    // How far a program of the start page is (common/program/progress.h).
+    for (const double left_s : {5.0, 200.0, 7500.0}) words.insert(with_places_for_numbers(time_left(left_s)));
+    words.insert({"reading", "looking for specks", "refining"});
     words.insert("cannot be written: {}");  // of an output file (common/files)
     words.insert("no more than {} frames could be written: " + std::generic_category().message(ENOSPC));
     for (const int error :
@@ -367,7 +371,7 @@ TEST(Translation, SayWhatIsWrongWithARecordingBehindItsName) {
               "x.pcap, Paket 3 ab Byte 812: die Prüfsumme stimmt nicht, es ist beschädigt");
     EXPECT_EQ(tr_about_file("x.pcap, packet 3 at byte 812: the scene has no burr"),
               "x.pcap, Paket 3 ab Byte 812: the scene has no burr");
-    EXPECT_EQ(tr_about_file("nothing was milled"), "nichts wurde gefräst");
+    EXPECT_EQ(tr_about_file("nothing is left to undo"), "nichts ist mehr zurückzunehmen");
     EXPECT_EQ(tr_about_file("x.pcap: nothing like that"), "x.pcap: nothing like that");
     speak("en");
     EXPECT_EQ(tr_about_file("x.pcap: ends before the bone is complete"),
@@ -386,7 +390,7 @@ TEST(Translation, KeepTheNumbersOfWhatTheServerSays) {
     speak("de");
     EXPECT_EQ(tr_filled("that is 12 mm away from the bone; choose a place within 100 mm of it"),
               "das ist 12 mm vom Knochen entfernt; wählen Sie eine Stelle höchstens 100 mm davon");
-    EXPECT_EQ(tr_filled("nothing was milled"), "nichts wurde gefräst");
+    EXPECT_EQ(tr_filled("nothing is left to undo"), "nichts ist mehr zurückzunehmen");
     EXPECT_EQ(tr_filled("no such text of -1.5 mm"), "no such text of -1.5 mm");
     speak("en");
     EXPECT_EQ(tr_filled("that is 12 mm away"), "that is 12 mm away");

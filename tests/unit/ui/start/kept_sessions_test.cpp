@@ -77,6 +77,8 @@ TEST(KeptSessions, HaveNamesAsAPersonWritesThem) {
           R"({"session": {"trainee": "Bo", "case": "jaw", "scene": "jaw", "began": "2026-11-30 23:30 UTC"},
           "metrics": {}})");
     EXPECT_EQ(title_of_session(named), "Bo, jaw, 1 December 00:30") << "the report's time";
+    ::unsetenv("TZ");
+    ::tzset();
     write(named / "metrics.json", R"({"session": {"trainee": "Bo", "case": "jaw", "scene": "jaw",
         "began": "yesterday"}, "metrics": {}})");
     EXPECT_EQ(title_of_session(named), "Bo, jaw, 28 November 14:05");

@@ -200,6 +200,31 @@ TEST_F(StartPageTest, CountsTheFirstClickOnACardWhileTheLastSessionIsSaved) {
     EXPECT_TRUE(window.is_session_running());
 }
 
+TEST_F(StartPageTest, SaysInTheWindowsLanguageHowFarAReportIs) {
+    const auto session = folder_ / "home" / "reports" / "jaw-anna-20261128-140500";
+    std::filesystem::create_directories(session);
+    std::ofstream(session / "session.pcap") << "x";
+    make_program("packet_replay", "echo 'refining 40 %, 12 s left'\nwhile [ ! -e " +
+                                      (folder_ / "on").string() + " ]; do sleep 0.01; done");
+    speak("de");
+    StartPage window = page();
+    window.open_report_of(window.sessions().at(0));
+    EXPECT_TRUE(comes_true(window, [&] { return window.message() == "wird feiner 40 %, noch 12 s"; }))
+        << window.message();
+    speak("en");
+    std::ofstream(folder_ / "on") << "";
+}
+
+TEST_F(StartPageTest, BreaksOffASessionWhoseProgramStandsStill) {
+    make_program("haptic_server", "trap '' TERM INT\nwhile :; do sleep 0.01; done");
+    StartPage window = page();
+    window.start();
+    ASSERT_TRUE(window.is_session_running());
+    window.break_off();
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_session_running(); }));
+    EXPECT_THAT(window.message(), HasSubstr("The session was broken off"));
+}
+
 TEST_F(StartPageTest, ComparesInTheWindowsLanguageWhatWasFinished) {
     make_program("osteomill_study", "echo \"$@\" > " + (folder_ / "arguments").string());
     const auto session = folder_ / "home" / "reports" / "jaw-anna-20261128-140500";
