@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -341,9 +342,9 @@ class Drawing {
     bool steps_back() {
         ViewSettings& view = session_.view();
         if (asks()) return false;
-        if (has_keyboard() || had_popup_)
-            return true;  // ESC left the field, or closed the list
-        else if (shows_start_page() && start_->page.tour_card)
+        if (had_popup_) ImGui::ClosePopupToLevel(0, false);
+        if (had_popup_ || has_keyboard()) return true;  // Dear ImGui leaves a field by itself
+        if (shows_start_page() && start_->page.tour_card)
             start_->page.tour_card.reset();
         else if (view.click_places || view.moves_bone)
             view.click_places = view.moves_bone = false;

@@ -225,7 +225,8 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         StartPage* const page = content.start != nullptr ? &content.start->page : nullptr;
         const bool is_own = page != nullptr && page->is_session_running();
         const bool stands_still =
-            session.sight == SessionSight::silent && is_own && session.link.silent_s > longest_silence_s;
+            is_own && ((session.sight == SessionSight::silent && session.link.silent_s > longest_silence_s) ||
+                       (session.sight == SessionSight::lost && session.link.status == LinkStatus::lost));
         const bool has_buttons =
             content.requests != nullptr && (session.sight == SessionSight::none || stands_still);
         const auto buttons =

@@ -14,6 +14,12 @@ namespace {
 
 constexpr float widest_letters = 34.0f;
 
+std::string advice_of_own_session() {
+    return tr(
+        "Hold still: it goes on by itself. If it does not, break the session off, and start anew: what was "
+        "recorded is kept.");
+}
+
 std::string percent_received(const LinkUpdate& link) {
     if (link.snapshot_bricks_total == 0) return tr("The bone is on its way");
     return trf("The bone is on its way: {} %",
@@ -52,8 +58,7 @@ SightWords words_of_sight(const SeenSession& session, std::optional<int> prepara
                 tr("The server is silent"),
                 tr("What you see is of before: how the tool is now is not known."),
                 is_own
-                    ? tr("Hold still: it goes on by itself. If it does not, break the session off, and start "
-                         "anew: what was recorded is kept.")
+                    ? advice_of_own_session()
                     : tr("Hold still: it goes on by itself. If it does not, see whether the server's machine "
                          "runs and the network cable is in.")};
         case SessionSight::lost:
@@ -61,9 +66,11 @@ SightWords words_of_sight(const SeenSession& session, std::optional<int> prepara
                 return {tr("The server does not take this window"), link.status_line,
                         tr("Show this to whoever looks after the simulator.")};
             return {tr("The link to the server is lost"), link.status_line,
-                    tr("What you see is of before. This window joins again by itself. If it does not, see "
-                       "whether "
-                       "the server runs and the network cable is in. What was recorded until now is kept.")};
+                    is_own
+                        ? advice_of_own_session()
+                        : tr("What you see is of before. This window joins again by itself. If it does not, "
+                             "see whether the server runs and the network cable is in. What was recorded "
+                             "until now is kept.")};
         case SessionSight::now:
         case SessionSight::over:
             break;

@@ -250,7 +250,6 @@ void draw_speed(const SeenSession& session, SessionRequests& requests) {
 
 void draw_burr_list(const SeenSession& session, SessionRequests& requests) {
     if (!ImGui::BeginPopup("burrs")) return;
-    if (ImGui::IsKeyPressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
     const float height = 2.6f * ImGui::GetFontSize();
     const float mm_per_px = 1.15f * largest_mm(session.info->burrs) / height;
     for (std::size_t i = 0; i < session.info->burrs.size(); ++i) {
