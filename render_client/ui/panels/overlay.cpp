@@ -223,7 +223,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
                         });
     if (elements.has_words && !starts && !view.help_shown && view.question == SessionQuestion::none) {
         StartPage* const page = content.start != nullptr ? &content.start->page : nullptr;
-        const bool is_own = page != nullptr && page->is_session_running();
+        const bool is_own = page != nullptr && !page->may_start();  // and it has not ended yet
         const bool stands_still =
             is_own && ((session.sight == SessionSight::silent && session.link.silent_s > longest_silence_s) ||
                        (session.sight == SessionSight::lost && session.link.status == LinkStatus::lost));
