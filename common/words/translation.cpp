@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <regex>
 #include <string_view>
-#include <system_error>
 
+#include "common/text/words.h"
 #include "common/words/embedded_words.h"
 
 namespace osteomill {
@@ -164,12 +162,7 @@ bool is_digit(char letter) {
 std::optional<double> number_written(std::string text) {
     std::erase(text, ' ');
     std::ranges::replace(text, ',', '.');
-    const char* const first = text.data() + (text.starts_with('+') ? 1 : 0);
-    const char* const end = text.data() + text.size();
-    double number = 0.0;
-    const auto [rest, error] = std::from_chars(first, end, number);
-    if (error != std::errc() || rest != end || !std::isfinite(number)) return std::nullopt;
-    return number;
+    return finite_number(std::string_view(text).substr(text.starts_with('+') ? 1 : 0));
 }
 
 std::string with_decimal_sign(std::string text, const std::string& language) {
