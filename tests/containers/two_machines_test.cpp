@@ -70,9 +70,10 @@ Progress progress_of(const ChildProcess& server) {
     return newest;
 }
 
-/// Drills a hole by pecking, because a loop that gets no core stops for safety and mills on once it is clear
-/// of the bone; then takes the burr out of the picture. The burr rests until both viewers are there, which
-/// open on the tool, or their pictures would differ by its place. Returns the time when it is out.
+/// Drills a hole by pecking and lets go of the pedal above each peck: a loop that gets no core stops for
+/// safety, and mills on once it is clear of the bone and the pedal is pressed anew. Then takes the burr out
+/// of the picture. The burr rests until both viewers are there, which open on the tool, or their pictures
+/// would differ by its place. Returns the time when it is out.
 double write_drilling(const std::filesystem::path& file) {
     constexpr int pecks = 15;
     constexpr double first_peck_s = 12.0;
@@ -82,7 +83,8 @@ double write_drilling(const std::filesystem::path& file) {
     out << "t_s,x_mm,y_mm,z_mm,axis_x,axis_y,axis_z,pedal\n0,0.5,0.2,5.5,0,0,1,0\n"
         << first_peck_s - 0.5 << ",0.5,0.2,5.5,0,0,1,0\n";
     for (int peck = 0; peck < pecks; ++peck)
-        out << first_peck_s + peck << ",0.5,0.2," << clear_mm << ",0,0,1,1\n"
+        out << first_peck_s + peck << ",0.5,0.2," << clear_mm << ",0,0,1,0\n"
+            << first_peck_s + peck + 0.1 << ",0.5,0.2," << clear_mm << ",0,0,1,1\n"
             << first_peck_s + peck + 0.6 << ",0.5,0.2," << 3.2 - 0.06 * peck << ",0,0,1,1\n";
     out << first_peck_s + pecks << ",0.5,0.2," << clear_mm << ",0,0,1,0\n"
         << out_s << ",0.5,0.2,60,0,0,1,0\n120,0.5,0.2,60,0,0,1,0\n";
