@@ -323,10 +323,12 @@ class Drawing {
     double step_of_wheel_mm() const {
         const std::optional<ToolState> tool = session_.tool();
         if (!drills_ || !tool || source_.bone() == nullptr) return HandInputPicture{}.wheel_step_mm;
+        const double mm_per_px = mm_per_px_at(session_.camera(), tool->burr_position_mm, session_.size_px());
+        // Then the burr is to come clear, and goes no deeper.
+        if (!tool->fault.empty()) return wheel_step_mm(mm_per_px, std::nullopt);
         const Burr* burr = session_.session()->burr_of(tool->burr);
         return wheel_step_mm(
-            mm_per_px_at(session_.camera(), tool->burr_position_mm, session_.size_px()),
-            bone_ahead_mm(*source_.bone(), *tool, burr != nullptr ? burr->radius_mm() : 0.0));
+            mm_per_px, bone_ahead_mm(*source_.bone(), *tool, burr != nullptr ? burr->radius_mm() : 0.0));
     }
 
     bool is_at_a_page() const { return has_keyboard() || situation() == Situation::starting; }
