@@ -17,18 +17,25 @@ namespace osteomill {
 
 namespace {
 
-/// Edges of a slice's picture, in heights of a letter.
-constexpr std::array<float, 3> edges{17.0f, 13.0f, 9.0f};
+/// Arrangement of the slices: three in a row over the settings, or two over one, which has the settings
+/// beside it.
+struct Arrangement {
+    float edge;  ///< of a slice's picture, in heights of a letter
+    bool is_square = false;
+};
+
+constexpr std::array<Arrangement, 5> arrangements{{{17.0f}, {13.0f}, {9.0f}, {10.5f, true}, {8.0f, true}}};
 constexpr double window_hu_per_px = 8.0;
 constexpr float narrowest_window_hu = 50.0f;
 constexpr float widest_window_hu = 5000.0f;
 
-int edge_px(std::size_t choice) {
-    return static_cast<int>(std::round(edges[std::min(choice, edges.size() - 1)] * ImGui::GetFontSize()));
+/// The smallest, too, for a panel that scrolls.
+const Arrangement& arrangement_of(std::size_t choice) {
+    return arrangements[std::min(choice, arrangements.size() - 1)];
 }
 
-float rows() {
-    return 2.0f * ImGui::GetFrameHeightWithSpacing();
+int edge_px(const Arrangement& arrangement) {
+    return static_cast<int>(std::round(arrangement.edge * ImGui::GetFontSize()));
 }
 
 const char* name_of(SlicePlane plane) {
@@ -108,20 +115,29 @@ void take_mouse(SlicesView& slices, const SliceView& view, const ImVec2& first) 
                         static_cast<double>(io.MouseWheel) * slices.ct()->grid.spacing_mm * view.across());
 }
 
-void draw_settings(SlicesView& slices, const SeenSession& session, SessionRequests* requests) {
-    const float letter = ImGui::GetFontSize();
+void draw_hu_window(SlicesView& slices, float width_px, bool is_in_a_row) {
     auto level = static_cast<float>(slices.window().level_hu);
     auto width = static_cast<float>(slices.window().window_hu);
-    ImGui::SetNextItemWidth(10.0f * letter);
+    ImGui::SetNextItemWidth(width_px);
     if (ImGui::SliderFloat("##level", &level, -1000.0f, 3000.0f, trf("level {:.0f} HU", level).c_str(),
                            ImGuiSliderFlags_NoInput))
         slices.window().level_hu = level;
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(10.0f * letter);
+    if (is_in_a_row) ImGui::SameLine();
+    ImGui::SetNextItemWidth(width_px);
     if (ImGui::SliderFloat("##window", &width, narrowest_window_hu, widest_window_hu,
                            trf("window {:.0f} HU", width).c_str(), ImGuiSliderFlags_NoInput))
         slices.window().window_hu = width;
-    ImGui::SameLine();
+}
+
+/// Beside the button, which is to be seen whole.
+float slider_width() {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float button = ImGui::CalcTextSize(tr("Place the tool here")).x + 2.0f * style.FramePadding.x;
+    const float room = ImGui::GetContentRegionAvail().x - button - 2.0f * style.ItemSpacing.x;
+    return std::min(0.5f * room, 10.0f * ImGui::GetFontSize());
+}
+
+void draw_place_button(SlicesView& slices, const SeenSession& session, SessionRequests* requests) {
     const bool may = requests != nullptr && session.link.controls.may_control && session.tool;
     ImGui::BeginDisabled(!may);
     if (ImGui::Button(tr("Place the tool here")) && may)
@@ -136,10 +152,13 @@ void draw_settings(SlicesView& slices, const SeenSession& session, SessionReques
 std::vector<glm::vec2> slices_panel_sizes(const PanelPainter&) {
     const ImGuiStyle& style = ImGui::GetStyle();
     std::vector<glm::vec2> sizes;
-    for (std::size_t choice = 0; choice < edges.size(); ++choice) {
-        const auto edge = static_cast<float>(edge_px(choice));
-        sizes.emplace_back(3.0f * edge + 2.0f * style.ItemSpacing.x + 2.0f * style.WindowPadding.x,
-                           edge + rows() + style.ItemSpacing.y + 2.0f * style.WindowPadding.y);
+    for (const Arrangement& arrangement : arrangements) {
+        const auto edge = static_cast<float>(edge_px(arrangement));
+        const glm::vec2 pictures = arrangement.is_square ? glm::vec2(2.0f, 2.0f) : glm::vec2(3.0f, 1.0f);
+        const glm::vec2 between(style.ItemSpacing.x, style.ItemSpacing.y);
+        sizes.push_back(pictures * edge + (pictures - 1.0f) * between +
+                        glm::vec2(0.0f, 2.0f * ImGui::GetFrameHeightWithSpacing() + between.y) +
+                        2.0f * glm::vec2(style.WindowPadding.x, style.WindowPadding.y));
     }
     return sizes;
 }
@@ -148,18 +167,19 @@ void draw_slices_panel(SlicesView& slices, const SeenSession& session, const Sli
                        const PanelPlace& place, SessionRequests* requests) {
     const WidgetPanel window(
         "slices", place, WidgetPanel::Background::filled,
-        place.choice < edges.size() ? WidgetPanel::Size::whole : WidgetPanel::Size::scrolls);
+        place.choice < arrangements.size() ? WidgetPanel::Size::whole : WidgetPanel::Size::scrolls);
     if (slices.ct() == nullptr) {
         const bool has_ct = !session.is_recording && session.info != nullptr && session.info->has_ct;
         ImGui::TextWrapped("%s", has_ct ? tr("the CT is on its way")
                                         : tr("there is no CT to show: a recording, or a bone without one"));
         return;
     }
-    const int edge = edge_px(place.choice);
-    bool is_first = true;
+    const Arrangement& arrangement = arrangement_of(place.choice);
+    const int edge = edge_px(arrangement);
     for (const SlicePlane plane : SlicesView::planes) {
-        if (!is_first) ImGui::SameLine();
-        is_first = false;
+        const bool begins_row = plane == SlicesView::planes.front() ||
+                                (arrangement.is_square && plane == SlicesView::planes.back());
+        if (!begins_row) ImGui::SameLine();
         const SliceView view = slices.view(plane, edge);
         const ImVec2 first = ImGui::GetCursorScreenPos();
         const GLuint id = slices.picture(plane, edge, bone.bone, bone.version).id();
@@ -169,10 +189,20 @@ void draw_slices_panel(SlicesView& slices, const SeenSession& session, const Sli
         draw_marks(*slices.cross_mm(), session, view, first);
         take_mouse(slices, view, first);
     }
+    if (arrangement.is_square) {
+        ImGui::SameLine();
+        ImGui::BeginGroup();
+        draw_hu_window(slices, static_cast<float>(edge), false);
+        ImGui::EndGroup();
+    }
     ImGui::TextUnformatted(
         fmt::format("{}   {:.0f} HU", lps_text(*slices.cross_mm()), slices.ct()->hu_at(*slices.cross_mm()))
             .c_str());
-    draw_settings(slices, session, requests);
+    if (!arrangement.is_square) {
+        draw_hu_window(slices, slider_width(), true);
+        ImGui::SameLine();
+    }
+    draw_place_button(slices, session, requests);
 }
 
 void draw_slices_cross(const SlicesView& slices, const Camera& camera, const PanelPainter& painter,

@@ -1,5 +1,7 @@
 #include "render_client/ui/panels/overlay.h"
 
+#include <imgui_internal.h>
+
 #include "render_client/ui/view/session_picture.h"
 #include "tests/unit/ui/scripted_session.h"
 #include "tests/unit/volume/offscreen_test.h"
@@ -34,6 +36,22 @@ TEST_F(OverlayTest, LeavesTheMiddleToTheBurrInEveryWindow) {
                                                 << box.first.x << ", " << box.first.y;
                 }
             }
+}
+
+TEST_F(OverlayTest, ShowsTheSlicesWholeInASmallWindow) {
+    ScriptedSession session(1000, true);
+    ImguiContext panels;
+    for (const glm::ivec2 size_px : {glm::ivec2(800, 600), glm::ivec2(1280, 800)}) {
+        SessionPicture picture(session, panels, size_px);
+        picture.view().slices_shown = true;
+        picture.offer_controls();
+        picture.take_in();
+        picture.draw(1.0 / 30.0);
+        picture.draw(1.0 / 30.0);
+        const ImGuiWindow* const slices = ImGui::FindWindowByName("slices");
+        ASSERT_NE(slices, nullptr) << size_px.x;
+        EXPECT_TRUE((slices->Flags & ImGuiWindowFlags_NoScrollbar) != 0) << size_px.x;
+    }
 }
 
 }  // namespace
