@@ -27,6 +27,7 @@ struct ToolButton {
     std::string tip;  ///< without the key, which is the action's
     bool is_enabled = true;
     bool is_on = false;
+    bool opens_burrs = false;  ///< their list
 };
 
 std::string burr_words(const Burr& burr) {
@@ -65,7 +66,8 @@ std::vector<ToolButton> buttons(const SeenSession& session, const ViewSettings& 
                            .tip = trf("choose a burr (1 to 9, {} {}) and the spindle's speed ({} {})",
                                       key_of(Action::previous_burr), key_of(Action::next_burr),
                                       key_of(Action::slower), key_of(Action::faster)),
-                           .is_enabled = may});
+                           .is_enabled = may,
+                           .opens_burrs = true});
     if (session.operator_command) {
         buttons.push_back({.action = Action::tilt,
                            .sign = "\u2197",
@@ -248,7 +250,26 @@ void draw_speed(const SeenSession& session, SessionRequests& requests) {
     if (ImGui::Button(trf("its own: {:.0f}", own_rpm).c_str())) choose(0.0);
 }
 
-void draw_burr_list(const SeenSession& session, SessionRequests& requests) {
+/// The next window, `width` wide, stands below the tool bar, whose buttons it leaves free, under `x`.
+void place_below_bar(float x, float width) {
+    const float below = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
+    const float last = ImGui::GetIO().DisplaySize.x - width;
+    ImGui::SetNextWindowPos({std::max(std::min(x, last), 0.0f), below + 2.0f}, ImGuiCond_Always);
+}
+
+void draw_tip(const std::string& tip, float x) {
+    const float widest = 34.0f * ImGui::GetFontSize();
+    const float width = ImGui::CalcTextSize(tip.c_str(), nullptr, false, widest).x;
+    place_below_bar(x, width + 2.0f * ImGui::GetStyle().WindowPadding.x);
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(widest);
+    ImGui::TextUnformatted(tip.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void draw_burr_list(const SeenSession& session, SessionRequests& requests, float x) {
+    place_below_bar(x, 30.0f * ImGui::GetFontSize());
     if (!ImGui::BeginPopup("burrs")) return;
     const float height = 2.6f * ImGui::GetFontSize();
     const float mm_per_px = 1.15f * largest_mm(session.info->burrs) / height;
@@ -282,6 +303,7 @@ void draw_tool_bar(const SeenSession& session, ViewSettings& view, const PanelPl
     const WidgetPanel window("tool bar", place);
     const bool has_words = place.choice == 0;
     bool is_first = true;
+    float burr_x = place.first.x;
     const auto all = buttons(session, view);
     for (const ToolButton& button : place.choice < 2 ? all : without_least_used(all)) {
         if (!std::exchange(is_first, false)) ImGui::SameLine();
@@ -292,16 +314,17 @@ void draw_tool_bar(const SeenSession& session, ViewSettings& view, const PanelPl
             for (const ImGuiCol of : {ImGuiCol_Button, ImGuiCol_ButtonHovered})
                 ImGui::PushStyleColor(of, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
         if (ImGui::Button(text_of(button, has_words).c_str())) press(button, view, requests);
+        if (button.opens_burrs) burr_x = ImGui::GetItemRectMin().x;
         ImGui::PopStyleColor(colours);
         ImGui::EndDisabled();
         if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
             std::string tip = button.word + ": " + button.tip;
             if (const std::string key = key_of(button.action); !key.empty()) tip += " (" + key + ")";
-            ImGui::SetTooltip("%s%s", tip.c_str(),
-                              session.link.controls.may_control ? "" : tr("\nanother client has the seat"));
+            if (!session.link.controls.may_control) tip += tr("\nanother client has the seat");
+            draw_tip(tip, ImGui::GetItemRectMin().x);
         }
     }
-    draw_burr_list(session, requests);
+    draw_burr_list(session, requests, burr_x);
 }
 
 }  // namespace osteomill
