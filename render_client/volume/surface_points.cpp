@@ -37,10 +37,7 @@ std::optional<SurfacePoint> pick_surface(const Bone& bone, const Camera& camera,
     RaySpan span = span_within(ray, grid);
     span.from = std::max(span.from, 0.0);
     const auto position_mm = [&](double t) { return grid.origin_mm + grid.spacing_mm * ray.at(t); };
-    const auto is_shown = [&](double t) {
-        return std::ranges::none_of(
-            cuts, [&](const CutPlane& cut) { return glm::dot(cut.normal, position_mm(t)) > cut.offset_mm; });
-    };
+    const auto is_shown = [&](double t) { return !is_cut_away(position_mm(t), cuts); };
     const auto met = BoneSampler(bone).first_surface(ray, span, is_shown);
     if (!met) return std::nullopt;
     return SurfacePoint{position_mm(*met),
@@ -59,7 +56,13 @@ std::optional<double> bone_ahead_mm(const Bone& bone, const ToolState& tool, dou
     return std::max(0.0, *met * grid.spacing_mm - burr_radius_mm);
 }
 
-bool is_behind_bone(const Bone& bone, const glm::dvec3& eye_mm, const glm::dvec3& place_mm) {
+bool is_cut_away(const glm::dvec3& place_mm, std::span<const CutPlane> cuts) {
+    return std::ranges::any_of(
+        cuts, [&](const CutPlane& cut) { return glm::dot(cut.normal, place_mm) > cut.offset_mm; });
+}
+
+bool is_behind_bone(const Bone& bone, const glm::dvec3& eye_mm, const glm::dvec3& place_mm,
+                    std::span<const CutPlane> cuts) {
     constexpr double own_surface_voxels = 3.0;
     const Grid& grid = bone.grid();
     const glm::dvec3 eye = to_voxel_coordinates(grid, eye_mm);
@@ -68,7 +71,10 @@ bool is_behind_bone(const Bone& bone, const glm::dvec3& eye_mm, const glm::dvec3
     RaySpan span = span_within(ray, grid);
     span.from = std::max(span.from, 0.0);
     span.to = std::min(span.to, glm::length(way) - own_surface_voxels);
-    return !span.is_empty() && BoneSampler(bone).first_surface(ray, span, [](double) { return true; });
+    const auto is_shown = [&](double t) {
+        return !is_cut_away(grid.origin_mm + grid.spacing_mm * ray.at(t), cuts);
+    };
+    return !span.is_empty() && BoneSampler(bone).first_surface(ray, span, is_shown);
 }
 
 }  // namespace osteomill

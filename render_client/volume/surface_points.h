@@ -31,7 +31,11 @@ inline constexpr double farthest_ahead_mm = 20.0;
 /// if there is no bone within farthest_ahead_mm of the centre.
 std::optional<double> bone_ahead_mm(const Bone& bone, const ToolState& tool, double burr_radius_mm);
 
-/// Whether bone lies between an eye and a place on the surface of bone.
-bool is_behind_bone(const Bone& bone, const glm::dvec3& eye_mm, const glm::dvec3& place_mm);
+/// Whether bone that no cut hides lies between an eye and a place on the surface of bone.
+bool is_behind_bone(const Bone& bone, const glm::dvec3& eye_mm, const glm::dvec3& place_mm,
+                    std::span<const CutPlane> cuts = {});
+
+/// Whether one of the cuts hides what is there.
+bool is_cut_away(const glm::dvec3& place_mm, std::span<const CutPlane> cuts);
 
 }  // namespace osteomill

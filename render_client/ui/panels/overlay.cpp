@@ -262,8 +262,9 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         add_readings(panels, content, painter, size_px, side_width);
     }
     if (session.tool && content.is_bone_drawn && content.bone && session.operator_command && !starts)
-        draw_touch_ring(painter, *content.bone, *session.tool, session.burr_radius_mm(), content.camera,
-                        size_px);
+        if (const auto ring = touch_ring(*content.bone, *session.tool, session.burr_radius_mm(),
+                                         content.camera.eye_mm(), view.cuts.planes()))
+            draw_touch_ring(painter, *ring, content.camera, size_px);
     const auto places = panels.draw_in(picture, margin, burr_in(content, size_px));
     if (session.tool && content.is_bone_drawn && shows_panels)
         draw_force_label(painter, *session.tool, session.burr_radius_mm(), content.camera, size_px, places);

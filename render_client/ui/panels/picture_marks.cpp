@@ -70,29 +70,52 @@ void draw_force_label(const PanelPainter& painter, const ToolState& tool, double
     if (const auto place = free_place(places, size, panels, size_px)) painter.draw_on_picture(*place, text);
 }
 
-void draw_touch_ring(const PanelPainter& painter, const Bone& bone, const ToolState& tool,
-                     double burr_radius_mm, const Camera& camera, const glm::ivec2& size_px) {
-    constexpr int corners = 32;
+namespace {
+
+/// Whether the burr's head stands between an eye and a place. What of the shank could is seen through.
+bool is_behind_burr(const glm::dvec3& burr_mm, double radius_mm, const glm::dvec3& eye_mm,
+                    const glm::dvec3& place_mm) {
+    const glm::dvec3 way = place_mm - eye_mm;
+    const double nearest = glm::dot(burr_mm - eye_mm, way) / glm::dot(way, way);
+    return nearest > 0.0 && nearest < 1.0 && glm::distance(eye_mm + nearest * way, burr_mm) < radius_mm;
+}
+
+}  // namespace
+
+std::optional<TouchRing> touch_ring(const Bone& bone, const ToolState& tool, double burr_radius_mm,
+                                    const glm::dvec3& eye_mm, std::span<const CutPlane> cuts) {
     const auto ahead_mm = bone_ahead_mm(bone, tool, burr_radius_mm);
-    if (!ahead_mm || *ahead_mm <= bone.grid().spacing_mm) return;
+    if (!ahead_mm || *ahead_mm <= bone.grid().spacing_mm) return std::nullopt;
     const glm::dvec3 middle_mm = tool.burr_position_mm - (burr_radius_mm + *ahead_mm) * tool.spindle_axis;
     // Over the bone, not through it.
-    if (is_behind_bone(bone, camera.eye_mm(), middle_mm)) return;
+    if (is_cut_away(middle_mm, cuts) || is_behind_bone(bone, eye_mm, middle_mm, cuts)) return std::nullopt;
     const glm::dvec3 beside = std::abs(tool.spindle_axis.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(tool.spindle_axis, beside));
     const glm::dvec3 v = glm::cross(tool.spindle_axis, u);
-    std::array<ImVec2, corners> points;
-    for (int i = 0; i < corners; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / corners;
+    TouchRing ring;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / ring.size();
         const glm::dvec3 at_mm = middle_mm + burr_radius_mm * (std::cos(angle) * u + std::sin(angle) * v);
-        if (!camera.has_in_front(at_mm)) return;
-        points[static_cast<std::size_t>(i)] = to_imgui(glm::vec2(pixel_of(camera, at_mm, size_px)));
+        if (!is_cut_away(at_mm, cuts) &&
+            !is_behind_burr(tool.burr_position_mm, burr_radius_mm, eye_mm, at_mm))
+            ring[i] = at_mm;
     }
+    return ring;
+}
+
+void draw_touch_ring(const PanelPainter& painter, const TouchRing& ring, const Camera& camera,
+                     const glm::ivec2& size_px) {
     painter.canvas().AddDrawCmd();
     for (const auto& [colour, width_px] :
          {std::pair{painter.theme().behind_letter, 4.0f}, std::pair{painter.theme()[Tone::back], 2.0f}})
-        painter.canvas().AddPolyline(points.data(), corners, colour_of(colour), ImDrawFlags_Closed,
-                                     width_px * painter.scale());
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const auto& from_mm = ring[i];
+            const auto& to_mm = ring[(i + 1) % ring.size()];
+            if (from_mm && to_mm && camera.has_in_front(*from_mm) && camera.has_in_front(*to_mm))
+                painter.canvas().AddLine(to_imgui(glm::vec2(pixel_of(camera, *from_mm, size_px))),
+                                         to_imgui(glm::vec2(pixel_of(camera, *to_mm, size_px))),
+                                         colour_of(colour), width_px * painter.scale());
+        }
 }
 
 void draw_veil(const PanelPainter& painter, const glm::ivec2& size_px) {

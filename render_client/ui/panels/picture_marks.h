@@ -1,9 +1,13 @@
 // Marks that belong to the picture: a scale bar, and the force in newtons at the head of its arrow.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "render_client/ui/panels/panel_painter.h"
+#include "render_client/volume/scene_appearance.h"
 
 namespace osteomill {
 
@@ -29,10 +33,17 @@ void draw_force_label(const PanelPainter& painter, const ToolState& tool, double
                       const Camera& camera, const glm::ivec2& size_px,
                       std::span<const std::optional<PanelPlace>> panels);
 
-/// A circle of the burr's size on the bone that the burr's centre would meet along its spindle; none if that
-/// is more than 20 mm away or the burr touches it.
-void draw_touch_ring(const PanelPainter& painter, const Bone& bone, const ToolState& tool,
-                     double burr_radius_mm, const Camera& camera, const glm::ivec2& size_px);
+/// Corners of a circle round the place on the bone that the burr's centre would meet along its spindle,
+/// patient LPS; nothing for those that the burr hides, or a cut.
+inline constexpr std::size_t touch_ring_corners = 32;
+using TouchRing = std::array<std::optional<glm::dvec3>, touch_ring_corners>;
+
+/// As large as the burr; nothing if the bone is more than 20 mm away or touches the burr, and where a cut or
+/// other bone hides the place.
+std::optional<TouchRing> touch_ring(const Bone& bone, const ToolState& tool, double burr_radius_mm,
+                                    const glm::dvec3& eye_mm, std::span<const CutPlane> cuts);
+void draw_touch_ring(const PanelPainter& painter, const TouchRing& ring, const Camera& camera,
+                     const glm::ivec2& size_px);
 
 /// Marks the whole picture as not current.
 void draw_veil(const PanelPainter& painter, const glm::ivec2& size_px);

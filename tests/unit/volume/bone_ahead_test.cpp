@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "render_client/volume/surface_points.h"
 #include "studies/render/made_bone.h"
@@ -34,6 +35,9 @@ TEST(BoneAhead, HidesWhatLiesBehindIt) {
     EXPECT_FALSE(is_behind_bone(bone, eye_mm, centre_mm + glm::dvec3(0.0, 0.0, radius_mm)));
     EXPECT_TRUE(is_behind_bone(bone, eye_mm, centre_mm - glm::dvec3(0.0, 0.0, radius_mm)));
     EXPECT_FALSE(is_behind_bone(bone, eye_mm, centre_mm + glm::dvec3(9.0, 0.0, 0.0)));
+    const std::vector<CutPlane> cuts{{.normal = {0.0, 0.0, 1.0}, .offset_mm = centre_mm.z - 4.5}};
+    EXPECT_FALSE(is_behind_bone(bone, eye_mm, centre_mm - glm::dvec3(0.0, 0.0, radius_mm), cuts))
+        << "what a cut hides, hides nothing";
 }
 
 }  // namespace
