@@ -40,6 +40,7 @@ const std::vector<KeyBinding>& table() {
         {hand, drilling, {}, Action::none, "with the pedal down", "it goes as the pointer moves"},
         {hand, drilling, {GLFW_KEY_W, GLFW_KEY_S}, Action::none, "W, S, wheel", "into the bone, out of it"},
         {hand, drilling, {GLFW_KEY_SPACE}, Action::none, "SPACE (held)", "pedal: the spindle turns"},
+        {hand, drilling, {}, Action::none, "Pedal, on top", "holds it down until the next click"},
         {hand,
          drilling,
          {GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_UP, GLFW_KEY_DOWN},
