@@ -152,6 +152,7 @@ class Drawing {
         }
         RenderReport report = session_.report();
         report.frame_times = std::move(frame_times_);
+        shared_.is_over = true;  // what a session of this window still saves is waited for without it
         return report;
     }
 
@@ -455,6 +456,7 @@ RenderReport run_in_window(const RenderOptions& options, SessionSource& source,
         shared.mailbox.post(input);
         previous = now;
     }
+    if (shared.is_over) window.hide();
     drawing.finish();
     return report;
 }

@@ -259,6 +259,10 @@ WindowInput Window::take_input() {
     return taken;
 }
 
+void Window::hide() {
+    if (!system_.has_gone()) glfwHideWindow(window_);
+}
+
 void Window::fill_screen(bool wanted) {
     if (wanted == (glfwGetWindowMonitor(window_) != nullptr)) return;
     if (!wanted) {

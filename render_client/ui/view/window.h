@@ -79,6 +79,8 @@ class Window {
     void serve(Clipboard& clipboard);
     /// Whether the user has tried to close it since the last call.
     bool take_close_request();
+    /// Nothing more is drawn in it, though the program goes on.
+    void hide();
 
     // Any thread.
 
