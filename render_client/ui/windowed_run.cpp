@@ -287,7 +287,8 @@ class Drawing {
                 glm::dvec2(view_motion_),
             session_.size_px());
         for (const Action action : actions_of(input_.pressed_keys(), situation()))
-            if (may_act(action) && !(action == Action::end && steps_back())) commands_.take(action);
+            if (may_act(action) && !(action == Action::end && (steps_back() || asks_at_page())))
+                commands_.take(action);
         if (session_.view().click_places && ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
             !ImGui::GetIO().WantCaptureMouse)
             commands_.place_at({ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y},
@@ -336,8 +337,11 @@ class Drawing {
 
     bool shows_start_page() const { return start_ && start_->is_due(session_.link().status); }
 
-    /// Keys belong to a question that is asked, or to a field that is written in; ESC goes back from either.
-    bool may_act(Action action) const { return action == Action::end || (!has_keyboard() && !asks()); }
+    /// Keys belong to a question that is asked, or to a field that is written in; ESC goes back from either,
+    /// and a field has no use for F1.
+    bool may_act(Action action) const {
+        return action == Action::end || (!asks() && (action == Action::help || !has_keyboard()));
+    }
     bool asks() const { return session_.view().question != SessionQuestion::none; }
 
     /// Closes a panel over the picture, or shows the hidden page again. Only if there is neither does ESC end
@@ -349,6 +353,8 @@ class Drawing {
         if (had_popup_ || has_keyboard()) return true;  // Dear ImGui leaves a field by itself
         if (shows_start_page() && start_->page.tour_card)
             start_->page.tour_card.reset();
+        else if (shows_start_page() && !view.help_shown && !start_->page.shows_cases())
+            start_->page.go_back();
         else if (view.click_places || view.moves_bone)
             view.click_places = view.moves_bone = false;
         else if (view.help_shown)
@@ -357,6 +363,13 @@ class Drawing {
             start_->page.is_hidden = false;
         else
             return false;
+        return true;
+    }
+
+    /// The start page asks before it ends the window, too.
+    bool asks_at_page() {
+        if (!shows_start_page() || asks()) return false;
+        session_.view().question = SessionQuestion::end;
         return true;
     }
 

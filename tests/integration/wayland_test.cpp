@@ -130,7 +130,11 @@ TEST_P(WaylandTest, ShowsEveryPixelOfWhatAnOffscreenRunDrawsAndAnswersMouseAndKe
 
     server_->send_signal(SIGINT);
     ASSERT_EQ(server_->wait(), 0);
+    ASSERT_TRUE(stands_still());
+    const Picture page = screen();
     press("Escape");
+    EXPECT_TRUE(shows_otherwise_than(page, 0.005)) << "the page asks first";
+    press("Return");
     EXPECT_EQ(window_->wait(), 0) << window_->err();
 }
 

@@ -138,7 +138,7 @@ const std::vector<KeyBinding>& table() {
         {panels, always, {GLFW_KEY_F12}, Action::details, "F12", "figures of picture, link and solver"},
         {panels, always, {GLFW_KEY_P}, Action::screenshot, "P", "write this picture as PNG"},
         {panels, always, {GLFW_KEY_O}, Action::export_frames, "O", "write every frame as PNG: begin, end"},
-        {panels, always, {GLFW_KEY_ESCAPE}, Action::end, "ESC", "back; then end, asking first in a session"},
+        {panels, always, {GLFW_KEY_ESCAPE}, Action::end, "ESC", "back; then end, asking first"},
     };
     return bindings;
 }

@@ -294,7 +294,7 @@ void draw_import(StartPage& page, StartPicture& picture) {
         if (page.is_working())
             page.give_up_work();
         else
-            page.show(page.look() ? StartPage::View::cases : StartPage::View::scan_browser);
+            page.go_back();
     }
     draw_message(page);
 }

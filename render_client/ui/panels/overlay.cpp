@@ -219,7 +219,8 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
     if (starts)
         panels.add_page(Anchor::middle, start_panel_size(content.start->page, picture - 2.0f * margin),
                         [&](const PanelPlace& place) {
-                            draw_start_panel(content.start->page, content.start->picture, place);
+                            draw_start_panel(content.start->page, content.start->picture, place, view,
+                                             content.requests);
                         });
     if (elements.has_words && !starts && !view.help_shown && view.question == SessionQuestion::none) {
         StartPage* const page = content.start != nullptr ? &content.start->page : nullptr;
@@ -249,11 +250,13 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         !warnings.empty())
         panels.add_text(painter, Anchor::top, warnings, picture.x - 2.0f * margin,
                         alarms ? banner_letters : 1.0f);
-    if (view.question != SessionQuestion::none && content.requests != nullptr) {
-        const bool started_session = content.start != nullptr && content.start->page.is_session_running();
-        panels.add_page(Anchor::middle, session_dialog_size(view, started_session),
-                        [&, started_session](const PanelPlace& place) {
-                            draw_session_dialog(view, started_session, place, *content.requests);
+    if (view.question != SessionQuestion::none && content.requests != nullptr && !starts) {
+        const SessionAtHand at_hand = content.start != nullptr && content.start->page.is_session_running()
+                                          ? SessionAtHand::own
+                                          : SessionAtHand::of_others;
+        panels.add_page(Anchor::middle, session_dialog_size(view, at_hand),
+                        [&, at_hand](const PanelPlace& place) {
+                            draw_session_dialog(view, at_hand, place, *content.requests);
                         });
     }
     if (content.inset != nullptr && session.tool && !starts) add_inset(panels, content, painter, size_px);

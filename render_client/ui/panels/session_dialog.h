@@ -8,11 +8,16 @@
 
 namespace osteomill {
 
-/// The size of the dialog for view.question, which must be set. `started_session`: this program runs a
-/// session, which ends with it.
-glm::vec2 session_dialog_size(const ViewSettings& view, bool started_session);
+/// The session that is there while a question is asked: one that this program runs, and that ends with it, or
+/// one that others are in, too.
+enum class SessionAtHand { none, own, of_others };
+
+/// The size of the dialog for view.question, which must be set.
+glm::vec2 session_dialog_size(const ViewSettings& view, SessionAtHand session);
 /// An answer goes into `requests` and ends the question.
-void draw_session_dialog(ViewSettings& view, bool started_session, const PanelPlace& place,
+void draw_session_dialog(ViewSettings& view, SessionAtHand session, const PanelPlace& place,
                          SessionRequests& requests);
+/// Its contents, in the ImGui window that is open.
+void draw_question(ViewSettings& view, SessionAtHand session, SessionRequests& requests);
 
 }  // namespace osteomill

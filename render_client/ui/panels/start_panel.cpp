@@ -12,14 +12,87 @@
 #include "render_client/ui/input/key_bindings.h"
 #include "render_client/ui/panels/card_view.h"
 #include "render_client/ui/panels/import_panel.h"
+#include "render_client/ui/panels/session_dialog.h"
 #include "render_client/ui/panels/widget_panel.h"
 
 namespace osteomill {
 
 namespace {
 
+// Sessions that are listed, and for which the page grows.
+constexpr std::size_t most_shown = 20, most_grown = 9;
+
+struct CardGrid {
+    std::size_t columns = 1;
+    ImVec2 card{};
+    float height = 0.0f;  ///< of all cards
+};
+
+CardGrid card_grid(const StartPage& page, float scroll_bar) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float room = ImGui::GetContentRegionAvail().x - 2.0f * style.WindowPadding.x - scroll_bar;
+    CardGrid grid;
+    grid.columns =
+        static_cast<std::size_t>(std::clamp(static_cast<int>(room / (26.0f * ImGui::GetFontSize())), 1, 3));
+    const auto columns = static_cast<float>(grid.columns);
+    const float width = (room - (columns - 1.0f) * style.ItemSpacing.x) / columns;
+    grid.card = {width, case_card_height(page, width)};
+    const std::size_t rows = (page.cases().size() + grid.columns - 1) / grid.columns;
+    grid.height =
+        static_cast<float>(rows) * (grid.card.y + style.ItemSpacing.y) + style.WindowPadding.y * 2.0f;
+    return grid;
+}
+
+/// Goal of a case with its marks to pass; empty without marks.
+std::string goal_of(const ShelvedCase& shelved) {
+    if (shelved.marks.empty()) return {};
+    return trf("{}: {} To pass: {}.", shelved.is_built_in ? tr(shelved.name) : shelved.name,
+               tr(shelved.description), shelved.marks);
+}
+
+float wrapped_height(const std::string& text) {
+    return ImGui::CalcTextSize(text.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y;
+}
+
+/// The same for every case: nothing moves under the pointer when another is chosen.
+float goal_height(const StartPage& page) {
+    float height = 0.0f;
+    for (const ShelvedCase& shelved : page.cases())
+        if (!shelved.marks.empty()) height = std::max(height, wrapped_height(goal_of(shelved)));
+    return height;
+}
+
+void draw_goal(const StartPage& page) {
+    const float height = goal_height(page);
+    if (height == 0.0f) return;
+    const float end = ImGui::GetCursorPosY() + height + ImGui::GetStyle().ItemSpacing.y;
+    if (page.chosen < page.cases().size())
+        ImGui::TextWrapped("%s", goal_of(page.cases()[page.chosen]).c_str());
+    ImGui::SetCursorPosY(end);
+}
+
+struct ListHeights {
+    float cases, sessions;
+};
+
+/// The sessions have what the cards leave, and a quarter at least.
+ListHeights list_heights(const StartPage& page, const CardGrid& grid) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float between = style.ItemSpacing.y, line = ImGui::GetFrameHeightWithSpacing();
+    const bool has_sessions = !page.sessions().empty();
+    const float goal = goal_height(page);
+    const float others = 3.0f * line + (goal > 0.0f ? goal + between : 0.0f) + message_height(page) +
+                         between + (has_sessions ? ImGui::GetTextLineHeightWithSpacing() + between : 0.0f) +
+                         between;
+    const float room = std::max(ImGui::GetContentRegionAvail().y - others, 4.0f * line);
+    if (!has_sessions) return {room, 0.0f};
+    const float wanted = static_cast<float>(std::min(page.sessions().size(), most_shown)) * line - between +
+                         2.0f * style.WindowPadding.y;
+    const float sessions = std::min(wanted, std::max(room - grid.height, 0.27f * room));
+    return {room - sessions, sessions};
+}
+
 void draw_sessions(StartPage& page) {
-    constexpr std::size_t most_shown = 20;
     for (std::size_t i = 0; i < std::min(page.sessions().size(), most_shown); ++i) {
         const KeptSession session = page.sessions()[i];  // a click may list them anew
         ImGui::PushID(static_cast<int>(i));
@@ -39,27 +112,24 @@ void draw_sessions(StartPage& page) {
     }
 }
 
-void draw_cases(StartPage& page, StartPicture& pictures) {
+void draw_cases(StartPage& page, StartPicture& pictures, bool is_asked) {
     const float letter = ImGui::GetFontSize();
-    ImGui::BeginDisabled(page.tour_card.has_value());
     ImGui::TextUnformatted(tr("Choose a case: drill it with the mouse, for as long as you like."));
     ImGui::TextDisabled("%s", tr("Forces are those of milling bone; at the end there is a report."));
-    const float lines_below = (page.sessions().empty() ? 4.0f : 8.0f) + more_message_lines(page);
-    ImGui::BeginChild("cases", list_size(lines_below), true, ImGuiWindowFlags_NavFlattened);
-    const float room = ImGui::GetContentRegionAvail().x;
-    const int columns = std::clamp(static_cast<int>(room / (26.0f * letter)), 1, 3);
-    const float between = ImGui::GetStyle().ItemSpacing.x;
-    const float width = (room - static_cast<float>(columns - 1) * between) / static_cast<float>(columns);
-    const ImVec2 card{width, case_card_height(page, width)};
+    CardGrid grid = card_grid(page, 0.0f);
+    const ListHeights heights = list_heights(page, grid);
+    if (grid.height > heights.cases) grid = card_grid(page, ImGui::GetStyle().ScrollbarSize);
+    ImGui::BeginChild("cases", {0.0f, heights.cases}, true, ImGuiWindowFlags_NavFlattened);
     for (std::size_t i = 0; i < page.cases().size(); ++i) {
-        if (i % static_cast<std::size_t>(columns) != 0) ImGui::SameLine();
-        draw_case_card(page, pictures.of_cases, i, card);
+        if (i % grid.columns != 0) ImGui::SameLine();
+        draw_case_card(page, pictures.of_cases, i, grid.card);
     }
     ImGui::EndChild();
+    draw_goal(page);
+    draw_message(page);
     if (!page.sessions().empty()) {
         ImGui::TextUnformatted(tr("Sessions so far"));
-        ImGui::BeginChild("sessions", list_size(4.0f + more_message_lines(page)), true,
-                          ImGuiWindowFlags_NavFlattened);
+        ImGui::BeginChild("sessions", {0.0f, heights.sessions}, true, ImGuiWindowFlags_NavFlattened);
         draw_sessions(page);
         ImGui::EndChild();
     }
@@ -85,12 +155,9 @@ void draw_cases(StartPage& page, StartPicture& pictures) {
     if (ImGui::Button(tr("Tour"))) page.tour_card = 0;
     ImGui::SameLine();
     ImGui::TextDisabled("%s", trf("{} help", key_of(Action::help)).c_str());
-    draw_message(page);
     // The chosen card has the keyboard before anything is gone to.
     const bool is_return = ImGui::IsKeyPressed(ImGuiKey_Enter, false);
-    if (is_return && !ImGui::IsAnyItemFocused() && !page.tour_card) page.start();
-    ImGui::EndDisabled();
-    draw_tour(page);
+    if (is_return && !ImGui::IsAnyItemFocused() && !page.tour_card && !is_asked) page.start();
 }
 
 /// A path to write; true once it is written.
@@ -131,41 +198,8 @@ void draw_browser(StartPage& page) {
         if (button(tr("This folder"), !listing.files.empty())) page.take(listing.folder);
         ImGui::SameLine();
     }
-    const bool was_on_import = !is_for_scan && page.view() != StartPage::View::recording_browser;
-    if (ImGui::Button(tr("Back")))
-        page.show(was_on_import ? StartPage::View::import : StartPage::View::cases);
+    if (ImGui::Button(tr("Back"))) page.go_back();
 }
-
-}  // namespace
-
-glm::vec2 start_panel_size(const StartPage& page, const glm::vec2& available) {
-    // A region is chosen in slices, the larger the better.
-    const glm::vec2 letters =
-        page.view() == StartPage::View::import ? glm::vec2(96.0f, 56.0f) : glm::vec2(86.0f, 44.0f);
-    return glm::min(available, ImGui::GetFontSize() * letters);
-}
-
-void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place) {
-    const WidgetPanel window("start", place, WidgetPanel::Background::filled, WidgetPanel::Size::whole,
-                             WidgetPanel::Keys::reach_it);
-    switch (page.view()) {
-        case StartPage::View::cases:
-            draw_cases(page, picture);
-            break;
-        case StartPage::View::import:
-            draw_import(page, picture);
-            break;
-        case StartPage::View::scan_browser:
-        case StartPage::View::labels_browser:
-        case StartPage::View::segmentation_browser:
-        case StartPage::View::colours_browser:
-        case StartPage::View::recording_browser:
-            draw_browser(page);
-            break;
-    }
-}
-
-namespace {
 
 struct TourCard {
     std::string title, text;
@@ -228,6 +262,24 @@ void draw_paper() {
     list.PopClipRect();
 }
 
+/// A page of its own in the middle, over the rest.
+void begin_card(const char* name, const ImVec2& size) {
+    const ImVec2 room = ImGui::GetWindowSize();
+    ImGui::SetCursorPos({0.5f * (room.x - size.x), 0.5f * (room.y - size.y)});
+    ImGui::BeginChild(name, size, false,
+                      ImGuiWindowFlags_NavFlattened | ImGuiWindowFlags_AlwaysUseWindowPadding);
+    draw_paper();
+}
+
+/// As a session asks (session_dialog.h).
+void draw_end_question(const StartPage& page, ViewSettings& view, SessionRequests& requests) {
+    const SessionAtHand session = page.is_session_running() ? SessionAtHand::own : SessionAtHand::none;
+    const glm::vec2 size = session_dialog_size(view, session);
+    begin_card("end", {size.x, size.y});
+    draw_question(view, session, requests);
+    ImGui::EndChild();
+}
+
 }  // namespace
 
 void draw_tour(StartPage& page) {
@@ -236,12 +288,47 @@ void draw_tour(StartPage& page) {
     const ImVec2 room = ImGui::GetWindowSize();
     const ImVec2 size{std::min(36.0f * letter, 0.9f * room.x),
                       7.0f * letter + 3.0f * ImGui::GetFrameHeightWithSpacing()};
-    ImGui::SetCursorPos({0.5f * (room.x - size.x), 0.5f * (room.y - size.y)});
-    ImGui::BeginChild("tour", size, false,
-                      ImGuiWindowFlags_NavFlattened | ImGuiWindowFlags_AlwaysUseWindowPadding);
-    draw_paper();
+    begin_card("tour", size);
     draw_card(page);
     ImGui::EndChild();
+}
+
+glm::vec2 start_panel_size(const StartPage& page, const glm::vec2& available) {
+    const float letter = ImGui::GetFontSize();
+    // A region is chosen in slices, the larger the better.
+    if (page.view() == StartPage::View::import) return glm::min(available, letter * glm::vec2(96.0f, 56.0f));
+    glm::vec2 size = letter * glm::vec2(86.0f, 44.0f);
+    if (page.shows_cases())
+        size.y += ImGui::GetFrameHeightWithSpacing() *
+                  static_cast<float>(std::min(page.sessions().size(), most_grown));
+    return glm::min(available, size);
+}
+
+void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place, ViewSettings& view,
+                      SessionRequests* requests) {
+    const WidgetPanel window("start", place, WidgetPanel::Background::filled, WidgetPanel::Size::whole,
+                             WidgetPanel::Keys::reach_it);
+    if (view.question != SessionQuestion::end || requests == nullptr) view.question = SessionQuestion::none;
+    const bool asks = view.question != SessionQuestion::none;
+    ImGui::BeginDisabled(page.tour_card.has_value() || asks);
+    switch (page.view()) {
+        case StartPage::View::cases:
+            draw_cases(page, picture, asks);
+            break;
+        case StartPage::View::import:
+            draw_import(page, picture);
+            break;
+        case StartPage::View::scan_browser:
+        case StartPage::View::labels_browser:
+        case StartPage::View::segmentation_browser:
+        case StartPage::View::colours_browser:
+        case StartPage::View::recording_browser:
+            draw_browser(page);
+            break;
+    }
+    ImGui::EndDisabled();
+    if (page.shows_cases()) draw_tour(page);
+    if (asks) draw_end_question(page, view, *requests);
 }
 
 }  // namespace osteomill

@@ -14,7 +14,9 @@
 #include "render_client/ui/panels/card_view.h"
 #include "render_client/ui/panels/layout.h"
 #include "render_client/ui/panels/panel_painter.h"
+#include "render_client/ui/panels/seen_session.h"
 #include "render_client/ui/start/start_page.h"
+#include "render_client/ui/view/view_settings.h"
 #include "render_client/volume/gl/texture.h"
 
 namespace osteomill {
@@ -59,7 +61,10 @@ struct StartScreen {
 /// The panel's size: as large as is useful for the page's contents, within `available`.
 glm::vec2 start_panel_size(const StartPage& page, const glm::vec2& available);
 
-void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place);
+/// With the question whether to end the program, if it is asked; any other is of a session that is over, and
+/// is dropped. `requests`: null if nobody can answer.
+void draw_start_panel(StartPage& page, StartPicture& picture, const PanelPlace& place, ViewSettings& view,
+                      SessionRequests* requests);
 
 // The tour of the start page: three cards over it that explain it.
 
@@ -90,23 +95,23 @@ inline ImVec2 list_size(float lines) {
     return {0.0f, ImGui::GetContentRegionAvail().y - lines * ImGui::GetFrameHeightWithSpacing()};
 }
 
-inline const std::string& words_below(const StartPage& page) {
+inline const std::string& words_of_page(const StartPage& page) {
     return page.message().empty() ? page.link_line : page.message();
 }
 
-/// Room that the message takes beyond its first line, in lines of widgets.
-inline float more_message_lines(const StartPage& page) {
+/// Height of the message, a line at least: little moves when one comes or goes.
+inline float message_height(const StartPage& page) {
     const float room = ImGui::GetContentRegionAvail().x;
-    const float height = ImGui::CalcTextSize(words_below(page).c_str(), nullptr, false, room).y;
-    return std::max(0.0f, height - ImGui::GetTextLineHeight()) / ImGui::GetFrameHeightWithSpacing();
+    return std::max(ImGui::CalcTextSize(words_of_page(page).c_str(), nullptr, false, room).y,
+                    ImGui::GetTextLineHeight());
 }
 
+/// In a colour that is seen among the page's other words.
 inline void draw_message(const StartPage& page) {
-    const bool is_of_link = page.message().empty();
     ImGui::PushTextWrapPos(0.0f);
-    if (is_of_link) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_NavHighlight));
-    ImGui::TextUnformatted(words_below(page).c_str());
-    if (is_of_link) ImGui::PopStyleColor();
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_NavHighlight));
+    ImGui::TextUnformatted(words_of_page(page).c_str());
+    ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <system_error>
 
@@ -33,6 +34,20 @@ std::vector<std::filesystem::path> folders_with(const std::filesystem::path& fol
     return found;
 }
 
+std::string mark_in_words(std::string_view metric, double mark) {
+    if (metric == "rating_share") return trf("at least {:.0f} % of the points", 100.0 * mark);
+    if (metric == "time_s")
+        return std::fmod(mark, 60.0) == 0.0 ? trf("at most {:.0f} min", mark / 60.0)
+                                            : trf("at most {:.0f} s", mark);
+    if (metric == "plan_removed_share") return trf("at least {:.0f} % of the target removed", 100.0 * mark);
+    if (metric == "plan_excess_mm3") return trf("at most {:g} mm³ beside the target", mark);
+    if (metric == "structure_touches")
+        return mark < 1.0 ? tr("nothing touched that is protected")
+                          : trf("at most {:.0f} touches of what is protected", mark);
+    if (metric == "peak_force_n") return trf("at most {:g} N", mark);
+    return {};
+}
+
 template <typename Read>
 void describe(ShelvedCase& shelved, const Read& read) {
     try {
@@ -42,6 +57,7 @@ void describe(ShelvedCase& shelved, const Read& read) {
         for (const Tissue& tissue : scene.tissues)
             if (tissue.is_protected) names.push_back(tissue_words(tissue.name));
         shelved.protected_names = fmt::format("{}", fmt::join(names, ", "));
+        shelved.marks = marks_in_words(scene.pass);
     } catch (const SceneError& error) {
         shelved.description = error.what();
     }
@@ -67,6 +83,14 @@ std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder) {
         describe(cases.back(), [&] { return read_scene(path / "case.toml"); });
     }
     return cases;
+}
+
+std::string marks_in_words(const PassMarks& marks) {
+    std::vector<std::string> words;
+    for (const PassMarkKind& kind : pass_mark_kinds)
+        if (const auto mark = marks.find(kind.metric); mark != marks.end())
+            words.push_back(mark_in_words(kind.metric, mark->second));
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 std::string wrong_with_name(const std::string& name, const std::filesystem::path& folder) {

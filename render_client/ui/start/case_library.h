@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/scene/rating.h"
+
 namespace osteomill {
 
 /// Pictures of the built-in cases for their cards on the start page, as PNG files in the program.
@@ -26,6 +28,7 @@ struct ShelvedCase {
     bool is_built_in = false;
     std::string description{};      ///< a sentence, or the error in its scene
     std::string protected_names{};  ///< names of its protected tissues, "pulp, nerve canal"; empty: none
+    std::string marks{};            ///< marks_in_words()
 
     bool operator==(const ShelvedCase&) const = default;
 };
@@ -37,6 +40,10 @@ std::filesystem::path home_of_cases();
 /// The built-in ones, then every folder of `folder` with a case.toml, by name. A folder that is not there has
 /// none.
 std::vector<ShelvedCase> cases_in(const std::filesystem::path& folder);
+
+/// The marks that a session must reach, in the window's language: "at most 10 min, at most 3 N"; empty if no
+/// mark is set.
+std::string marks_in_words(const PassMarks& marks);
 
 /// Why a case cannot have this name, in one line; empty if it can: a name of a file in any language, no
 /// dot first, no blank at its ends, none like it in `folder`.

@@ -140,6 +140,15 @@ void StartPage::show(View view) {
     browse(!listing_.folder.empty() ? listing_.folder : home != nullptr && *home != '\0' ? home : "/");
 }
 
+void StartPage::go_back() {
+    if (view_ == View::import && is_working()) return;
+    if (view_ == View::import)
+        show(look_ ? View::cases : form.are_labels ? View::labels_browser : View::scan_browser);
+    else
+        show(view_ == View::segmentation_browser || view_ == View::colours_browser ? View::import
+                                                                                   : View::cases);
+}
+
 void StartPage::browse(const std::filesystem::path& folder) {
     wrong_path_.clear();
     // DICOM files have any name, or none.

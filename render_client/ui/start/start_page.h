@@ -55,6 +55,8 @@ class StartPage {
     View view() const { return view_; }
     bool shows_cases() const { return view_ == View::cases; }
     void show(View view);
+    /// From an import or a browser to where it was called, unless a scan is imported or looked at.
+    void go_back();
     /// One line about an error or current work; empty: nothing.
     const std::string& message() const { return message_; }
     std::string

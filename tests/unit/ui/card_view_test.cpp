@@ -60,12 +60,13 @@ class CaseCardTest : public OffscreenTest {
     StartPage page_{{folder_.path(), folder_ / "home", {"127.0.0.1", 7010}}};
 };
 
-TEST_F(CaseCardTest, LeavesRoomBelowForAMessageOfSeveralLines) {
-    EXPECT_EQ(more_message_lines(page_), 0.0f);
+TEST_F(CaseCardTest, LeavesRoomForAMessageOfSeveralLines) {
+    const float line = ImGui::GetTextLineHeight();
+    EXPECT_EQ(message_height(page_), line) << "one line is always there";
     page_.go_to("/" + std::string(20, 'x'));
-    EXPECT_EQ(more_message_lines(page_), 0.0f) << "one line is always there";
+    EXPECT_EQ(message_height(page_), line);
     page_.go_to("/" + std::string(200, 'x'));
-    EXPECT_GT(more_message_lines(page_), 0.5f);
+    EXPECT_GT(message_height(page_), 1.5f * line);
 }
 
 TEST_F(CaseCardTest, IsAsHighAsTheLongestTextNeeds) {

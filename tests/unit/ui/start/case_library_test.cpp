@@ -43,6 +43,18 @@ TEST(CaseLibrary, HasTheBuiltInCasesAndWhatWasImported) {
     EXPECT_EQ(cases_in(folder / "not there").size(), 5U);
 }
 
+TEST(CaseLibrary, SaysWhatASessionMustReachToPass) {
+    const auto cases = cases_in("nowhere");
+    EXPECT_EQ(cases[1].marks,
+              "at most 30 min, at least 80 % of the target removed, at most 200 mm³ beside the "
+              "target, nothing touched that is protected, at most 5 N");
+    EXPECT_EQ(std::ranges::find(cases, "cube", &ShelvedCase::name)->marks, "");
+    EXPECT_EQ(marks_in_words({{"time_s", 90.0}, {"structure_touches", 2.0}, {"rating_share", 0.75}}),
+              "at least 75 % of the points, at most 90 s, at most 2 touches of what is protected");
+    for (const PassMarkKind& kind : pass_mark_kinds)
+        EXPECT_NE(marks_in_words({{kind.metric, kind.low}}), "") << kind.metric;
+}
+
 TEST(CaseLibrary, RefusesNamesThatWouldBeNoFolderOrAreTaken) {
     const testing::TemporaryFolder folder;
     std::filesystem::create_directories(folder / "taken");

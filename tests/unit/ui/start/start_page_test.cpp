@@ -291,6 +291,20 @@ TEST_F(StartPageTest, LooksAtAScanOnceAndGoesThroughItsSlices) {
     EXPECT_FALSE(std::getline(file, again)) << again;
 }
 
+TEST_F(StartPageTest, GoesBackToWhereAPageWasCalled) {
+    StartPage window = page();
+    window.show(StartPage::View::recording_browser);
+    window.go_back();
+    EXPECT_TRUE(window.shows_cases());
+    window.show(StartPage::View::segmentation_browser);
+    window.go_back();
+    EXPECT_EQ(window.view(), StartPage::View::import);
+    window.go_back();
+    EXPECT_EQ(window.view(), StartPage::View::scan_browser) << "no scan has been looked at";
+    window.go_back();
+    EXPECT_TRUE(window.shows_cases());
+}
+
 TEST_F(StartPageTest, ChoosesTheCaseThatItImportedAndBringsItIntoSight) {
     const auto made = folder_ / "home" / "cases" / "scan";
     make_program("bone_import", "case \"$*\" in *--case*) mkdir -p " + made.string() + "; touch " +
