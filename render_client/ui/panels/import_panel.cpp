@@ -221,6 +221,43 @@ void draw_region(ImportForm& form) {
     ImGui::TextUnformatted(tr("mm LPS"));
 }
 
+/// Behind the widgets before, or below them where it would be cut off.
+void draw_loose_parts(StartPage& page) {
+    const char* const label = tr("leave out small loose parts");
+    std::string count;
+    if (!page.form.are_labels) {
+        const auto loose = page.loose_parts();
+        count = !loose ? tr("(being counted ...)")
+                       : trf("(about {}, {:.1f} mm³ in all)", loose->count, loose->mm3);
+    }
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float width = ImGui::GetFrameHeight() + ImGui::CalcTextSize((label + count).c_str()).x +
+                        style.ItemInnerSpacing.x + 2.0f * style.ItemSpacing.x;
+    if (ImGui::GetItemRectMax().x + width <= ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x)
+        ImGui::SameLine();
+    ImGui::Checkbox(label, &page.form.leaves_out_specks);
+    if (ImGui::IsItemHovered()) {
+        // Above: the count stands beside it.
+        ImGui::SetNextWindowPos(ImGui::GetItemRectMin(), ImGuiCond_Always, {0.0f, 1.0f});
+        ImGui::SetTooltip("%s", tr("bone of less than 2 mm³ that touches nothing else, such as noise"));
+    }
+    if (count.empty()) return;
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", count.c_str());
+}
+
+/// The size of the bone that it makes, or why that is too much.
+void draw_size(const ImportForm& form, const ScanPreview& look) {
+    const std::string wrong = wrong_with_size(form);
+    const std::string size =
+        trf("{:.0f} million voxels, {:.0f} MB at most, some {:.0f} s (estimated)", 1e-6 * voxels_of(form),
+            1e-6 * most_memory_bytes(form), std::ceil(estimated_s(form, look)));
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(wrong.empty() ? ImGuiCol_TextDisabled
+                                                                                : ImGuiCol_NavHighlight));
+    ImGui::TextWrapped("%s", (wrong.empty() ? size : wrong).c_str());
+    ImGui::PopStyleColor();
+}
+
 }  // namespace
 
 void draw_import(StartPage& page, StartPicture& picture) {
@@ -237,6 +274,8 @@ void draw_import(StartPage& page, StartPicture& picture) {
     if (page.look() && page.voxels()) {
         const float line = ImGui::GetFrameHeightWithSpacing();
         const ImVec2 all = ImGui::GetContentRegionAvail();
+        // An import that is under way has the form as it was when it began.
+        ImGui::BeginDisabled(page.is_importing());
         draw_slices(page, picture, {all.x, std::max(all.y - 9.0f * line, 4.0f * line)});
         draw_region(form);
         if (!form.are_labels) {
@@ -244,26 +283,14 @@ void draw_import(StartPage& page, StartPicture& picture) {
             ImGui::SameLine();
         }
         if (!form.is_spacing_chosen) form.spacing_mm = default_spacing_mm(form, *page.look());
-        if (number_field(tr("mm a voxel"), form.spacing_mm, "{:.2f}")) form.is_spacing_chosen = true;
-        form.spacing_mm = std::clamp(form.spacing_mm, 0.02, 10.0);
+        const std::string per_voxel = trf("mm a voxel ({:g} to {:g})", finest_voxel_mm, coarsest_voxel_mm);
+        if (number_field(per_voxel.c_str(), form.spacing_mm, "{:.2f}")) form.is_spacing_chosen = true;
+        form.spacing_mm = std::clamp(form.spacing_mm, finest_voxel_mm, coarsest_voxel_mm);
         if (!form.are_labels) {
             ImGui::SameLine();
             ImGui::Checkbox(tr("keep soft tissue"), &form.keeps_soft_tissue);
         }
-        ImGui::SameLine();
-        ImGui::Checkbox(tr("leave out small loose parts"), &form.leaves_out_specks);
-        if (ImGui::IsItemHovered()) {
-            // Above: the count stands beside it.
-            ImGui::SetNextWindowPos(ImGui::GetItemRectMin(), ImGuiCond_Always, {0.0f, 1.0f});
-            ImGui::SetTooltip("%s", tr("bone of less than 2 mm³ that touches nothing else, such as noise"));
-        }
-        if (!form.are_labels) {
-            ImGui::SameLine();
-            const auto loose = page.loose_parts();
-            ImGui::TextDisabled(
-                "%s", !loose ? tr("(being counted ...)")
-                             : trf("(about {}, {:.1f} mm³ in all)", loose->count, loose->mm3).c_str());
-        }
+        draw_loose_parts(page);
         ImGui::BeginChild("segments", list_size(3.5f), false);
         if (button(tr("Add a segmentation ..."), !page.is_working()))
             page.show(StartPage::View::segmentation_browser);
@@ -271,16 +298,14 @@ void draw_import(StartPage& page, StartPicture& picture) {
         if (button(tr("Colour table ..."), !form.segments.empty() && !page.is_working()))
             page.show(StartPage::View::colours_browser);
         ImGui::SameLine();
-        ImGui::TextDisabled("%s", trf("{:.0f} million voxels, {:.0f} MB at most, some {:.0f} s (estimated)",
-                                      1e-6 * voxels_of(form), 1e-6 * most_memory_bytes(form),
-                                      std::ceil(estimated_s(form, *page.look())))
-                                      .c_str());
+        draw_size(form, *page.look());
         draw_segments(form);
         draw_marks(form);
         ImGui::EndChild();
         text_field(tr("name of the case"), form.name, 14.0f * ImGui::GetFontSize());
         ImGui::SameLine();
         text_field<256>(tr("description"), form.description, 18.0f * ImGui::GetFontSize());
+        ImGui::EndDisabled();
     }
     if (!page.look() && !page.is_working()) {
         text_field(tr("mm between pixels and slices of a stack of pictures: x,y,z"), form.stack_spacing,

@@ -45,6 +45,15 @@ double voxels_of(const ImportForm& form) {
     return edges.x * edges.y * edges.z;
 }
 
+std::string wrong_with_size(const ImportForm& form) {
+    if (voxels_of(form) <= most_imported_voxels) return {};
+    return trf(
+        "the region has about {:.1f} billion voxels; {:.1f} are the most: drag a smaller one, or choose "
+        "larger "
+        "voxels",
+        1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
+}
+
 double most_memory_bytes(const ImportForm& form) {
     return session_bytes_per_voxel * voxels_of(form);
 }
@@ -89,15 +98,16 @@ std::string specks_said(const std::string& said) {
         R"((\d+) parts? of bone of less than (\S+) mm3, (\S+) mm3 in all, touch\w* nothing else; (left out)?)");
     std::smatch found;
     if (!std::regex_search(said, found, words)) return {};
-    const std::string parts = trf("loose parts of bone of less than {} mm³ each: {}, {} mm³ in all",
-                                  found.str(2), found.str(1), found.str(3));
+    const std::string parts =
+        with_decimal_sign(trf("loose parts of bone of less than {} mm³ each: {}, {} mm³ in all", found.str(2),
+                              found.str(1), found.str(3)));
     return parts + (found[4].matched ? tr(", left out") : tr(", kept"));
 }
 
 double default_spacing_mm(const ImportForm& form, const ScanPreview& look) {
-    constexpr double coarsest_mm = 0.1, finest_mm = 0.02;
+    constexpr double usual_mm = 0.1;
     const double fine_mm =
-        look.finest_voxel_mm > 0.0 ? std::clamp(look.finest_voxel_mm, finest_mm, coarsest_mm) : coarsest_mm;
+        look.finest_voxel_mm > 0.0 ? std::clamp(look.finest_voxel_mm, finest_voxel_mm, usual_mm) : usual_mm;
     return usual_spacing_mm(form.region.high_mm - form.region.low_mm, fine_mm, form.available_bytes);
 }
 

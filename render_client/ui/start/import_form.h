@@ -49,7 +49,13 @@ inline constexpr double most_imported_voxels = 1.5e9;
 /// The edge of the preview's voxels and pixels.
 inline constexpr double preview_mm_per_px = 0.5;
 
+/// Edges that a voxel may have.
+inline constexpr double finest_voxel_mm = 0.02;
+inline constexpr double coarsest_voxel_mm = 10.0;
+
 double voxels_of(const ImportForm& form);
+/// Says that its bone would have too many voxels, and what to do; empty if it has not.
+std::string wrong_with_size(const ImportForm& form);
 /// The bone's memory if all of the region were bone.
 double most_memory_bytes(const ImportForm& form);
 

@@ -332,11 +332,7 @@ void StartPage::look_at_scan(bool is_another_scan) {
 
 std::string StartPage::wrong_with_form() const {
     if (std::string wrong = wrong_with_name(form.name, cases_of(places_)); !wrong.empty()) return wrong;
-    if (voxels_of(form) <= most_imported_voxels) return {};
-    return trf(
-        "the region has {:.1f} thousand million voxels; {:.1f} are the most: drag a smaller one, or "
-        "choose larger voxels",
-        1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
+    return wrong_with_size(form);
 }
 
 void StartPage::import() {

@@ -118,6 +118,7 @@ class StartPage {
     std::uint64_t voxels_number() const { return voxels_number_; }  ///< another for each preview
     glm::dvec3 slices_at_mm{0.0};                                   ///< where the slices meet, patient LPS
     bool is_working() const { return worker_ != nullptr; }          ///< makes a preview or imports
+    bool is_importing() const { return is_working() && work_ == Work::import; }
     /// Retries the preview of a scan that failed before.
     void look_again() { look_at_scan(true); }
     void import();

@@ -76,6 +76,9 @@ TEST(ImportForm, OfAWholeHeadBeginsWithAsManyVoxelsAsAMachineHolds) {
     EXPECT_EQ(form.spacing_mm, 0.4);
     EXPECT_LT(voxels_of(form), usual_voxels);
     EXPECT_NEAR(most_memory_bytes(form), 3.0 * 501 * 601 * 551, 1.0);
+    EXPECT_EQ(wrong_with_size(form), "");
+    form.spacing_mm = finest_voxel_mm;
+    EXPECT_THAT(wrong_with_size(form), HasSubstr("billion voxels; 1.5 are the most"));
     take_look(form, {.covers = {.high_mm = {40.0, 40.0, 30.0}}}, true);
     EXPECT_EQ(form.spacing_mm, 0.1) << "of a jaw, 48 million";
 }
