@@ -12,13 +12,12 @@ function(osteomill_sources variable pattern)
 endfunction()
 
 # osteomill_module(NAME [FOLDERS folder... [EXCEPT file...]] [SOURCES file...] LIBRARIES lib ... [LOOPS]): a static library of all sources in
-# these folders, but for the mains of programs (NAME_main.cpp) and those in EXCEPT, and of SOURCES. Includes are written from the
-# repository root ("common/bone/grid.h"). LIBRARIES bring their own along, which are not named again.
+# these folders, but for those in EXCEPT, and of SOURCES. Includes are written from the repository root ("common/bone/grid.h"). LIBRARIES
+# bring their own along, which are not named again.
 # LOOPS: it has inner loops that somebody waits for, see osteomill_optimisation.cmake.
 function(osteomill_module name)
     cmake_parse_arguments(arg "LOOPS" "" "FOLDERS;EXCEPT;SOURCES;LIBRARIES" ${ARGN})
     osteomill_sources(found *.cpp ${arg_FOLDERS} EXCEPT ${arg_EXCEPT})
-    list(FILTER found EXCLUDE REGEX "_main\\.cpp$")
     list(APPEND arg_SOURCES ${found})
     if(arg_SOURCES)
         add_library(${name} STATIC ${arg_SOURCES})
@@ -34,12 +33,17 @@ function(osteomill_module name)
     endif()
 endfunction()
 
-# osteomill_program(NAME [FOLDER folder] LIBRARIES ...): NAME_main.cpp of this folder, a thin main over the modules; installed.
+# osteomill_program(NAME [MAIN file] LIBRARIES ...): a program, installed. MAIN has its main(). Without MAIN, main() is written here and calls
+# NAME_main() of NAME_main.cpp, which is a source of the program's own library: joined with the others, it need not parse all headers again.
 function(osteomill_program name)
-    cmake_parse_arguments(arg "" "FOLDER" "LIBRARIES" ${ARGN})
-    add_executable(${name} ${CMAKE_CURRENT_SOURCE_DIR}/${arg_FOLDER}/${name}_main.cpp)
+    cmake_parse_arguments(arg "" "MAIN" "LIBRARIES" ${ARGN})
+    if(NOT arg_MAIN)
+        set(arg_MAIN ${CMAKE_CURRENT_BINARY_DIR}/${name}_calls.cpp)
+        file(CONFIGURE OUTPUT ${arg_MAIN} CONTENT
+            "int ${name}_main(int, char**);\n\nint main(int argc, char** argv) {\n    return ${name}_main(argc, argv);\n}\n")
+    endif()
+    add_executable(${name} ${arg_MAIN})
     target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} osteomill_warnings)
-    target_compile_definitions(${name} PRIVATE OSTEOMILL_VERSION="${PROJECT_VERSION}")
     install(TARGETS ${name} RUNTIME)
 endfunction()
 
@@ -55,12 +59,11 @@ function(osteomill_embed variable type folder ending)
     set(${variable} "${elements}" PARENT_SCOPE)
 endfunction()
 
-# osteomill_vector_loops(SOURCES...): sources of this folder whose inner loops the compiler shall turn into vectors. Square roots
-# without errno and comparisons without traps make that possible; no fused multiply-add, so that every instruction set gives the
-# same bits. Vectors are passed only to what is inlined, so that how they would be passed (-Wpsabi) does not matter.
-function(osteomill_vector_loops)
-    set_source_files_properties(${ARGN} PROPERTIES
-        COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math;-ffp-contract=off;-Wno-psabi")
+# osteomill_vector_loops(MODULE): a module whose inner loops the compiler shall turn into vectors. Square roots without errno and comparisons
+# without traps make that possible; no fused multiply-add, so that every instruction set gives the same bits. Vectors are passed only
+# to what is inlined, so that how they would be passed (-Wpsabi) does not matter.
+function(osteomill_vector_loops module)
+    target_compile_options(${module} PRIVATE -fno-math-errno -fno-trapping-math -ffp-contract=off -Wno-psabi)
 endfunction()
 
 # osteomill_uses_itk(NAME): it sees the parts of ITK that find_package found last.

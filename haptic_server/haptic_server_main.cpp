@@ -3,7 +3,7 @@
 #include "haptic_server/program/server.h"
 #include "haptic_server/program/server_options.h"
 
-int main(int argc, char** argv) {
+int haptic_server_main(int argc, char** argv) {
     return osteomill::run_program(
         "haptic_server", [&] { return osteomill::parse_command_line(argc, argv, OSTEOMILL_VERSION); },
         [](const osteomill::ServerOptions& options, const osteomill::ProgramOutput& output) {

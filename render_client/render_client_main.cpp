@@ -60,7 +60,7 @@ void run(osteomill::RenderOptions options) {
 
 }  // namespace
 
-int main(int argument_count, char** arguments) {
+int render_client_main(int argument_count, char** arguments) {
     using namespace osteomill;
     ignore_signals_of_streams();
     quiet_sound_libraries();

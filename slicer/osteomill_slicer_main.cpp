@@ -61,7 +61,7 @@ void run(const Options& options, const ProgramOutput& output) {
 
 }  // namespace osteomill
 
-int main(int argc, char** argv) {
+int osteomill_slicer_main(int argc, char** argv) {
     return osteomill::run_program(
         "osteomill_slicer", [&] { return osteomill::parsed(argc, argv); }, osteomill::run);
 }

@@ -24,7 +24,7 @@ namespace {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int packet_replay_main(int argc, char** argv) {
     return osteomill::run_program(
         "packet_replay", [&] { return osteomill::parse_replay_command_line(argc, argv, OSTEOMILL_VERSION); },
         [](const osteomill::ReplayOptions& options, const osteomill::ProgramOutput& output) {

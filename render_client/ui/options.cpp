@@ -28,7 +28,7 @@ namespace {
 
 constexpr int largest_window_px = 16384;
 constexpr int wanted_screenshots = 30;
-const std::map<std::string, ThemeName> theme_names{{"dark", ThemeName::dark}, {"light", ThemeName::light}};
+const std::map<std::string, ThemeName> themes_by_name{{"dark", ThemeName::dark}, {"light", ThemeName::light}};
 
 std::optional<int> whole_number(std::string_view text, int low, int high) {
     const auto value = parse_number<int>(text);
@@ -36,23 +36,24 @@ std::optional<int> whole_number(std::string_view text, int low, int high) {
 }
 
 /// A side of the patient that a cut can take away.
-struct Side {
+struct CutSide {
     const char* name;
     std::size_t axis;
     double sign;  // along the axis, patient LPS
 };
-constexpr std::array sides{Side{"left", 0, 1.0},   Side{"right", 0, -1.0}, Side{"back", 1, 1.0},
-                           Side{"front", 1, -1.0}, Side{"above", 2, 1.0},  Side{"below", 2, -1.0}};
+constexpr std::array cut_sides{CutSide{"left", 0, 1.0},  CutSide{"right", 0, -1.0},
+                               CutSide{"back", 1, 1.0},  CutSide{"front", 1, -1.0},
+                               CutSide{"above", 2, 1.0}, CutSide{"below", 2, -1.0}};
 
 /// Adds the cut that "SIDE" or "SIDE:MM" means. Returns the error, or nothing.
 std::string take_cut(const std::string& text, CutSettings& cuts) {
     const std::size_t colon = text.find(':');
     const auto side =
-        std::find_if(sides.begin(), sides.end(),
-                     [name = text.substr(0, colon)](const Side& known) { return name == known.name; });
+        std::find_if(cut_sides.begin(), cut_sides.end(),
+                     [name = text.substr(0, colon)](const CutSide& known) { return name == known.name; });
     const std::optional<double> position_mm =
         colon == std::string::npos ? 0.0 : finite_number(std::string_view(text).substr(colon + 1));
-    if (side == sides.end() || !position_mm)
+    if (side == cut_sides.end() || !position_mm)
         return fmt::format(
             "is '{}', not left, right, front, back, above or below, or one of these with how many mm off the "
             "bone's middle, such as left:2.5",
@@ -285,7 +286,7 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     add_stereo(app, options.stereo);
     add_microscope(app, options);
     app.add_option("--theme", options.theme, "Colours: dark or light (dark)")
-        ->transform(CLI::CheckedTransformer(theme_names).description(""))
+        ->transform(CLI::CheckedTransformer(themes_by_name).description(""))
         ->type_name("NAME");
     options.language = language_of_environment();
     app.add_option("--language", options.language,
