@@ -69,7 +69,8 @@ def overview(
     files: dict[str, str] = {}
     shown = []
     for number, case in enumerate(cases_of(sessions, tr), 1):
-        drawn = {key: charts.svg_of(figure) for key, figure in learning_curves(case, tr).items()}
+        repeated = any(one.number > 1 for one in case.attempts)
+        drawn = {key: charts.svg_of(figure) for key, figure in learning_curves(case, tr).items()} if repeated else {}
         files |= {key if number == 1 else f"{key}_{number}": svg for key, svg in drawn.items()}
         passes = pass_chart(case, tr)
         shown.append({
