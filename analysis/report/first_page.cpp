@@ -184,15 +184,26 @@ std::string words_of_smoothness(const std::vector<MetricRow>& rows) {
                        trf("as {} reaches a second", number_text(*reaches_per_s)));
 }
 
+/// A touch may be a graze or the structure's end: how much of the structures is milled.
+std::string words_of_touches(const std::vector<StructureMetrics>& structures) {
+    double milled_mm3 = 0.0;
+    for (const StructureMetrics& one : structures) milled_mm3 += one.dose_mm3 + one.undone_dose_mm3;
+    if (milled_mm3 <= 0.0) return {};
+    return fmt::format("<span>{}</span>", trf("{} mm³ milled", number_text(milled_mm3)));
+}
+
 /// The first six headlines of which the session has a value.
-std::string tiles(const std::vector<MetricRow>& rows, const std::vector<JudgedMark>& marks,
-                  const ReferenceSessions& references) {
+std::string tiles(const std::vector<MetricRow>& rows, const std::vector<StructureMetrics>& structures,
+                  const std::vector<JudgedMark>& marks, const ReferenceSessions& references) {
     std::string html = "<div class='tiles'>";
     std::size_t count = 0;
     for (const Headline& what : headlines)
         if (const auto value = sum_of(rows, what.key); value && count < tile_count) {
-            const bool is_smoothness = std::string_view(what.key) == "stroke_smoothness_ldlj";
-            html += tile(what, *value, is_smoothness ? words_of_smoothness(rows) : "", marks, references);
+            const std::string_view key(what.key);
+            const std::string words = key == "stroke_smoothness_ldlj" ? words_of_smoothness(rows)
+                                      : key == "structure_touches"    ? words_of_touches(structures)
+                                                                      : "";
+            html += tile(what, *value, words, marks, references);
             ++count;
         }
     return html + "</div>";
@@ -220,7 +231,7 @@ std::string first_page(const SessionTrace& trace, const SessionMetrics& metrics,
                        const ReferenceSessions& references) {
     const std::vector<JudgedMark> marks = judged_marks(metrics.pass, rows);
     return "<div class='first'>" + heading(trace) + harm(trace, metrics.structures) + verdict(trace, marks) +
-           rating_summary(trace, metrics.rating) + tiles(rows, marks, references) +
+           rating_summary(trace, metrics.rating) + tiles(rows, metrics.structures, marks, references) +
            figures(pictures.first, "two") + legend(trace) +
            fmt::format(
                "<div class='comment'>{}</div><div class='signatures'><div>{}</div><div>{}</div>"
