@@ -74,7 +74,7 @@ struct Tissue {
     double opacity = 1.0;                      ///< of its picture, 0 (not drawn) to 1
     double warn_mm = 0.0;                      ///< a burr nearer than this is warned of; 0: none is
     double shows_through_mm = 0.0;             ///< bone thinner than this shows its colour; 0: none does
-    double shows_through_strength = 0.8;       ///< share of its colour under hardly any bone, 0 to 1
+    double shows_through_strength = 1.0;       ///< share of its colour under hardly any bone, 0 to 1
     /// Colour by which files of other programs identify it (FIVRS); absent: its own colour.
     std::optional<std::array<std::uint8_t, 3>> identifier_rgb{};
 

@@ -1,6 +1,6 @@
 // Colour of thin bone: the tissue behind it comes through, as the sinus does in blue and a nerve in pink.
 //
-//     share(w) = strength (exp(-k w / depth) - exp(-k)) / (1 - exp(-k))     k = 3; none from w = depth on
+//     share(w) = strength (exp(-w / depth) - exp(-1)) / (1 - exp(-1))     none from w = depth on
 //
 // Light is absorbed along its way w through bone (Beer and Lambert's law), shifted so that it ends at the
 // depth. Bone scatters, so the way is not the ray's alone: from any point of the ray, light may turn aside to
@@ -12,6 +12,9 @@
 // the length of the ray in it, up to 60 degrees aslant; beside a nerve it rises without an edge. Depth and
 // strength are the tissue's, the constants are the project's judgement. thin_bone.glsl has the same.
 //
+// Blue and bone's yellow mix to grey, so under bone a tissue's colour is more saturated than its own, with
+// the same luminance.
+//
 // The bone's own colour is read away from the tissue, however thin it is. Labels of voxels do not tell bone
 // of less than one from none, so from two voxels down the share rises to all of the tissue's colour.
 #pragma once
@@ -19,6 +22,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 
@@ -26,16 +31,23 @@
 
 namespace osteomill {
 
-/// Absorption over the depth.
-inline constexpr double thin_bone_absorption = 3.0;
 /// Factor by which light that turns aside is absorbed more.
 inline constexpr double thin_bone_aside = 2.0;
+
+/// Factor on the saturation of a tissue's colour under bone.
+inline constexpr float thin_bone_saturation = 2.0f;
+
+/// The colour that a tissue of a linear RGB has under two voxels of bone or more.
+inline glm::vec3 colour_under_bone(const glm::vec3& own) {
+    const glm::vec3 grey(glm::dot(own, glm::vec3(0.2126f, 0.7152f, 0.0722f)));
+    return glm::max(glm::mix(grey, own, thin_bone_saturation), glm::vec3(0.0f));
+}
 
 /// Share of a tissue's colour behind bone: 0 to its strength, by the way of light through the bone, in
 /// depths.
 inline double share_through_bone(double strength, double way_in_depths) {
-    const double least = std::exp(-thin_bone_absorption);
-    const double light = std::exp(-thin_bone_absorption * std::max(way_in_depths, 0.0));
+    const double least = std::exp(-1.0);
+    const double light = std::exp(-std::max(way_in_depths, 0.0));
     return strength * std::max((light - least) / (1.0 - least), 0.0);
 }
 

@@ -12,7 +12,8 @@ uniform float seen_step, seen_per_voxel;  // voxels between places, and the inve
 uniform vec3 seen_scale, seen_shift;      // texture coordinates: scale * point + shift
 uniform float seen_farthest, seen_span;
 
-const float seen_absorption = 3.0, seen_aside = 2.0;
+const float seen_aside = 2.0;
+const float seen_saturation = 2.0;
 const int most_seen_steps = 8;
 const float bare = 0.3, covered = 2.0;  // voxels of bone: from all of the tissue's colour to its share
 // A look is read below the surface, and blended from voxels up to two away. Where bone is thin it would be that of the tissue,
@@ -97,8 +98,10 @@ vec4 look_through(vec3 point, vec3 direction, inout vec3 place) {
     }
     float part = 1.0 / max(known, 1e-5);
     float ways = max(found.way, 0.0) * known / max(depth * seen_farthest, 1e-3);
-    const float least_light = exp(-seen_absorption);
-    float share = part * look.a * max((exp(-seen_absorption * ways) - least_light) / (1.0 - least_light), 0.0);
+    const float least_light = exp(-1.0);
+    float share = part * look.a * max((exp(-ways) - least_light) / (1.0 - least_light), 0.0);
     float cover = found.left <= bare ? 1.0 : smoothstep(bare, covered, found.left);
-    return vec4(part * look.rgb, is_near ? mix(1.0, share, cover) : 0.0);
+    vec3 own = part * look.rgb;
+    vec3 seen = mix(vec3(dot(own, vec3(0.2126, 0.7152, 0.0722))), own, mix(1.0, seen_saturation, cover));
+    return vec4(max(seen, 0.0), is_near ? mix(1.0, share, cover) : 0.0);
 }

@@ -29,8 +29,8 @@ TEST(ThinBone, TakesOnTheStrengthAtNoDepthAndNothingFromTheDepthOn) {
     for (double way = 0.1; way < 0.95; way += 0.1) {
         EXPECT_LT(share_through_bone(0.8, way), share_through_bone(0.8, way - 0.1));
         // A second layer as thick takes as large a part of the light again.
-        const double least = std::exp(-3.0), scale = 1.0 - least;
-        EXPECT_NEAR(share_through_bone(1.0, way) * scale + least, std::exp(-3.0 * way), 1e-12);
+        const double least = std::exp(-1.0), scale = 1.0 - least;
+        EXPECT_NEAR(share_through_bone(1.0, way) * scale + least, std::exp(-way), 1e-12);
     }
 }
 
@@ -63,7 +63,8 @@ glm::dvec3 linear_at(const Picture& picture, const glm::ivec2& place) {
 
 /// Share of the second tissue in the colour at a place. Light is the same with it and without.
 double share_at(const Picture& with, const Picture& without, const glm::ivec2& place) {
-    const glm::dvec3 own(linear_from_srgb(bone_colour.srgb)), other(linear_from_srgb(sinus_colour.srgb));
+    const glm::dvec3 own(linear_from_srgb(bone_colour.srgb)),
+        other(colour_under_bone(linear_from_srgb(sinus_colour.srgb)));
     return (1.0 - linear_at(with, place).r / linear_at(without, place).r) / (1.0 - other.r / own.r);
 }
 
