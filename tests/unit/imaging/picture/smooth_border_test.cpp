@@ -203,6 +203,45 @@ TEST_F(SectionBorders, DrawTheBorderOfTwoTissuesAsALine) {
     EXPECT_LT(errors(off_voxels).most, 0.35);
 }
 
+/// A wall that was milled aslant through voxels, with a border that crosses it aslant.
+TEST_F(SectionBorders, OnAMilledWallAreALine) {
+    constexpr double slope = 0.2, slant = 0.15;
+    Bone bone = testing::labelled_cube(3, spacing_mm, [](const glm::dvec3& at) {
+        return static_cast<std::uint8_t>(at.z < 0.07 + slope * at.x + 0.3 * at.y ? 1 : 2);
+    });
+    const glm::ivec3 bricks = size_in_bricks(bone.grid());
+    for (BrickIndex number = 0; number < 27; ++number) {
+        const glm::ivec3 first = brick_edge_voxels * brick_position(bricks, number);
+        const auto fractions = bone.fractions(bone.slot(number));
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset) {
+            const glm::dvec3 at = centre_of_voxel_mm(bone.grid(), first + voxel_in_brick(offset));
+            const double left = 0.5 + (at.y - slant * at.x) / spacing_mm;
+            fractions[offset] = static_cast<std::uint8_t>(255.0 * std::clamp(left, 0.0, 1.0));
+        }
+    }
+    const RgbPicture picture =
+        picture_of(bone,
+                   {std::vector<Tissue>{{.label = 1, .name = "a", .colour_rgb = {0, 0, 0}},
+                                        {.label = 2, .name = "b", .colour_rgb = {250, 250, 250}}}},
+                   {.direction = {0, 1, 0}, .up = {0, 0, 1}, .half_width_mm = half_width_mm}, size_px);
+    std::vector<double> off_voxels;
+    for (int column = 100; column < size_px - 100; ++column) {
+        int bright = 0;
+        for (int row = 0; row < size_px; ++row)
+            bright = std::max(bright, int{picture.rgb[place(row, column)]});
+        int row = 60;
+        while (row < size_px && picture.rgb[place(row, column)] > bright / 2) ++row;
+        const double x_mm = mm_of(column);
+        off_voxels.push_back((-mm_of(row) - (0.07 + slope * x_mm + 0.3 * slant * x_mm)) / spacing_mm);
+    }
+    double mean = 0.0;
+    for (const double off : off_voxels) mean += off / static_cast<double>(off_voxels.size());
+    for (double& off : off_voxels) off -= mean;
+    EXPECT_LT(std::abs(mean), 0.4);
+    EXPECT_LT(errors(off_voxels).mean, 0.15);
+    EXPECT_LT(errors(off_voxels).most, 0.4);
+}
+
 TEST_F(SectionBorders, OutlineARegionOfVoxels) {
     const Bone bone =
         testing::labelled_cube(3, spacing_mm, [](const glm::dvec3&) { return std::uint8_t{1}; });
