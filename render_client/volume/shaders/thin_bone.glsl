@@ -100,8 +100,9 @@ vec4 look_through(vec3 point, vec3 direction, inout vec3 place) {
     float ways = max(found.way, 0.0) * known / max(depth * seen_farthest, 1e-3);
     const float least_light = exp(-1.0);
     float share = part * look.a * max((exp(-ways) - least_light) / (1.0 - least_light), 0.0);
-    float cover = found.left <= bare ? 1.0 : smoothstep(bare, covered, found.left);
+    float under = smoothstep(bare, covered, found.left);
+    float cover = found.left <= bare ? 1.0 : under;
     vec3 own = part * look.rgb;
-    vec3 seen = mix(vec3(dot(own, vec3(0.2126, 0.7152, 0.0722))), own, mix(1.0, seen_saturation, cover));
+    vec3 seen = mix(vec3(dot(own, vec3(0.2126, 0.7152, 0.0722))), own, mix(1.0, seen_saturation, under));
     return vec4(max(seen, 0.0), is_near ? mix(1.0, share, cover) : 0.0);
 }
