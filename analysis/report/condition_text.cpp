@@ -91,7 +91,7 @@ class ConditionWriter {
     }
     void write_number(double number, bool is_reckoned_with) {
         const ShownUnit unit = is_compared_ && !is_reckoned_with ? unit_of(compared_) : ShownUnit{};
-        add(ShownValue{with_decimal_sign(fmt::format("{:g}", unit.scale * number)), unit.name}.text());
+        add(ShownValue{spoken_number("{:g}", unit.scale * number), unit.name}.text());
         is_compared_ = false;
     }
     void add(std::string_view piece) {

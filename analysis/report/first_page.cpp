@@ -28,10 +28,9 @@ std::string heading(const SessionTrace& trace) {
         about += " · " + html_text(began);
     html += fmt::format("<p class='about'>{}</p>", about);
     if (session.plan)
-        html +=
-            fmt::format("<p class='about'>{}</p>",
-                        trf("To be removed: {}, with a margin of {} mm", html_text(describe(*session.plan)),
-                            with_decimal_sign(fmt::format("{:.3g}", session.plan->margin_mm))));
+        html += fmt::format("<p class='about'>{}</p>", trf("To be removed: {}, with a margin of {} mm",
+                                                           html_text(describe(*session.plan)),
+                                                           spoken_number("{:.3g}", session.plan->margin_mm)));
     if (!trace.error.empty())
         html +=
             fmt::format("<p class='wrong'>{}</p>",

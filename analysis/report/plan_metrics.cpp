@@ -16,7 +16,7 @@ namespace osteomill {
 namespace {
 
 std::string length_text(double length_mm) {
-    return with_decimal_sign(fmt::format("{:.3g}", length_mm));
+    return spoken_number("{:.3g}", length_mm);
 }
 
 void add_distances(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>& to,

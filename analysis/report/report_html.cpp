@@ -41,7 +41,7 @@ std::string events(const SessionTrace& trace) {
         const char* const action = tr(name_of(event.action));
         const bool is_note = event.action == SessionAction::mark && !event.is_refused;
         html += fmt::format("<tr><td class='n'>{}</td><td class='n'>{}</td><td>{}</td><td>{}</td></tr>",
-                            ++number, with_decimal_sign(fmt::format("{:.1f}", event.time_s)),
+                            ++number, spoken_number("{:.1f}", event.time_s),
                             event.is_refused ? trf("{}, refused", action) : action,
                             html_text(is_note ? event.text : with_decimal_sign(tr_filled(event.text))));
     }

@@ -172,11 +172,10 @@ NamedView view_of(const NearestApproach& approach, double burr_diameter_mm) {
         std::max(least_half_width_mm, 1.5 * (glm::length(apart) + 0.5 * burr_diameter_mm));
     NamedView view = section_along(apart, approach.sample->burr_mm, half_width_mm);
     const std::string structure = tissue_words(approach.structure);
-    const std::string time_s = with_decimal_sign(fmt::format("{:.1f}", approach.sample->time_s));
+    const std::string time_s = spoken_number("{:.1f}", approach.sample->time_s);
     view.title = approach.distance_mm > 0.0
-                     ? trf("{} mm from the {}, at {} s, {}",
-                           with_decimal_sign(fmt::format("{:.2f}", approach.distance_mm)), structure, time_s,
-                           view.title)
+                     ? trf("{} mm from the {}, at {} s, {}", spoken_number("{:.2f}", approach.distance_mm),
+                           structure, time_s, view.title)
                      : trf("Touch of the {}, at {} s, {}", structure, time_s, view.title);
     return view;
 }
@@ -238,8 +237,8 @@ void add_marks(const std::filesystem::path& file, const Pictures& make, const Na
                 continue;
             }
             ReportPicture picture = make.of(playhead.bone(), view, picture_px);
-            picture.title = fmt::format("{}: {} s {}", number,
-                                        with_decimal_sign(fmt::format("{:.1f}", event.time_s)), event.text);
+            picture.title =
+                fmt::format("{}: {} s {}", number, spoken_number("{:.1f}", event.time_s), event.text);
             pictures.marks.push_back(std::move(picture));
         }
     });

@@ -105,7 +105,7 @@ std::vector<Dot> visible(const PlotLine& line, const Axes& axes) {
 }
 
 std::string tick_text(double value, double step) {
-    return with_decimal_sign(fmt::format("{:g}", std::abs(value) < 1e-9 * step ? 0.0 : value));
+    return spoken_number("{:g}", std::abs(value) < 1e-9 * step ? 0.0 : value);
 }
 
 void add_axes(std::string& svg, const SvgPlot& plot, const Axes& axes) {

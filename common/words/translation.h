@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace osteomill {
@@ -52,6 +53,12 @@ std::string tissue_words(std::string name);
 /// Every number of a text with the decimal sign of a language. Numbers with several points, such as versions,
 /// stay as they are.
 std::string with_decimal_sign(std::string text, const std::string& language = spoken_language());
+
+/// Filled in as by fmt::format, with the decimal sign of the window's language. For texts without words.
+template <typename... Values>
+std::string spoken_number(fmt::format_string<Values...> text, Values&&... values) {
+    return with_decimal_sign(fmt::format(text, std::forward<Values>(values)...));
+}
 
 /// A number that a person wrote, with a point or a comma, whatever the language; nothing if the text is none.
 std::optional<double> number_written(std::string text);

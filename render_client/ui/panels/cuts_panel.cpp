@@ -28,7 +28,7 @@ void draw_row(CutSettings& cuts, std::size_t index, const Camera& camera) {
     ImGui::BeginDisabled(!cut.is_on);
     const float flip_width = 5.5f * ImGui::GetFontSize();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - flip_width - ImGui::GetStyle().ItemSpacing.x);
-    const std::string shown = with_decimal_sign(fmt::format("{:.1f} mm", position_mm));
+    const std::string shown = spoken_number("{:.1f} mm", position_mm);
     if (ImGui::SliderFloat("##position", &position_mm, -reach_mm, reach_mm, shown.c_str(),
                            ImGuiSliderFlags_NoInput | ImGuiSliderFlags_NoRoundToFormat))
         cuts.move_to(index, position_mm);

@@ -127,7 +127,7 @@ class PlotColumn {
   private:
     /// Writes the label of a grid line, left of the plot and within its height.
     void label(double value, const glm::vec2& at, const PlotRange& range) const {
-        const std::string text = with_decimal_sign(fmt::format("{:g}", value));
+        const std::string text = spoken_number("{:g}", value);
         const float height = small_print * ImGui::GetFontSize();
         const float up = value == range.low ? height : value == range.high ? 0.0f : 0.5f * height;
         painter_.draw_text(
@@ -191,8 +191,7 @@ void draw_live_plot(const PanelPainter& painter, const ToolHistory& history, con
     for (int axis = 0; axis < 3; ++axis) {
         const auto index = static_cast<std::size_t>(axis);
         components.push_back(
-            {axis_tones[index],
-             with_decimal_sign(fmt::format("{} {:+.2f}   ", tr(axis_names[index]), tool.force_n[axis]))});
+            {axis_tones[index], spoken_number("{} {:+.2f}   ", tr(axis_names[index]), tool.force_n[axis])});
     }
     column.write(components);
     if (detail == PlotDetail::numbers) return;

@@ -226,9 +226,7 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         StartPage* const page = content.start != nullptr ? &content.start->page : nullptr;
         const bool is_own = page != nullptr && !page->may_start();  // and it has not ended yet
         const bool stands_still =
-            is_own &&
-            ((session.sight == SessionSight::silent && session.link.silent_s > stands_still_after_s) ||
-             (session.sight == SessionSight::lost && session.link.status == LinkStatus::lost));
+            is_own && session.sight == SessionSight::lost && session.link.status == LinkStatus::lost;
         const bool has_buttons =
             content.requests != nullptr && (session.sight == SessionSight::none || stands_still);
         const auto buttons =

@@ -60,7 +60,7 @@ void draw_force_label(const PanelPainter& painter, const ToolState& tool, double
     const double force_n = glm::length(tool.force_n);
     const glm::vec2 head(pixel_of(camera, arrow->head_mm, size_px));
     const float beside = 8.0f * painter.scale();
-    const std::string text = with_decimal_sign(fmt::format("{:.2f} N", force_n));
+    const std::string text = spoken_number("{:.2f} N", force_n);
     const glm::vec2 size(painter.width_of(text), ImGui::GetFontSize());
     const glm::vec2 middle = head - 0.5f * size;
     const glm::vec2 across(0.5f * size.x + beside, 0.0f), along(0.0f, size.y + beside);

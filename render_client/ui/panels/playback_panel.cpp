@@ -73,8 +73,7 @@ void draw_playback_panel(RecordingPlayer& player, const PanelPainter& painter, c
     ImGui::SetNextItemWidth(speed_width * letter);
     if (ImGui::SliderFloat(
             "##speed", &speed, static_cast<float>(RecordingPlayer::slowest),
-            static_cast<float>(RecordingPlayer::fastest),
-            with_decimal_sign(fmt::format("{:.1f} x", speed)).c_str(),
+            static_cast<float>(RecordingPlayer::fastest), spoken_number("{:.1f} x", speed).c_str(),
             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput | ImGuiSliderFlags_NoRoundToFormat))
         player.set_speed(speed);
 }

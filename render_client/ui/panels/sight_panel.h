@@ -31,8 +31,6 @@ struct SightButtons {
     StartPage* page = nullptr;  ///< null if no session is started from here
     bool break_off = false;     ///< its program stands still; `page` is not null
 };
-/// A program that has been silent for so long stands still.
-inline constexpr double stands_still_after_s = 3.0;
 /// `buttons`: nothing if nobody can press them, or none are needed.
 glm::vec2 sight_panel_size(const SightWords& words, bool has_buttons, const glm::vec2& available);
 void draw_sight_panel(const SightWords& words, const std::optional<SightButtons>& buttons,

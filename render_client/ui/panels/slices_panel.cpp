@@ -53,8 +53,7 @@ const char* name_of(SlicePlane plane) {
 /// "L 12.3  P 4.0  S 56.7": which side of the origin, for people.
 std::string lps_text(const glm::dvec3& position_mm) {
     const auto axis = [](double value, char positive, char negative) {
-        return with_decimal_sign(
-            fmt::format("{} {:.1f}", value < 0.0 ? negative : positive, std::abs(value)));
+        return spoken_number("{} {:.1f}", value < 0.0 ? negative : positive, std::abs(value));
     };
     return fmt::format("{}  {}  {} mm", axis(position_mm.x, 'L', 'R'), axis(position_mm.y, 'P', 'A'),
                        axis(position_mm.z, 'S', 'I'));

@@ -31,7 +31,7 @@ struct ToolButton {
 };
 
 std::string burr_words(const Burr& burr) {
-    const std::string size = with_decimal_sign(fmt::format("{:.1f} mm", burr.diameter_mm));
+    const std::string size = spoken_number("{:.1f} mm", burr.diameter_mm);
     const auto shape = static_cast<std::size_t>(burr.head.shape);
     return burr.is_ball() ? size : tr(std::string(head_shape_names[shape])) + " " + size;
 }

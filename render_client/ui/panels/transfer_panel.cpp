@@ -117,7 +117,7 @@ void draw_axes(const PanelPainter& painter, const Field& field) {
         canvas.AddLine({at.x - tick, at.y}, to_imgui(at), ink, painter.scale());
         write({at.x - 1.5f * tick,
                std::clamp(at.y - 0.5f * letter, field.first().y, field.first().y + field.size().y - letter)},
-              1.0f, with_decimal_sign(fmt::format("{:g}", opacity)));
+              1.0f, spoken_number("{:g}", opacity));
     }
 }
 
@@ -192,8 +192,7 @@ void draw_transfer_panel(const PanelPainter& painter, ViewSettings& view, const 
         if (ImGui::Button(tr("save"), {save_width, 0.0f})) view.transfer_save_wanted = true;
     }
     ImGui::SetNextItemWidth(-3.0f * letter);
-    ImGui::SliderFloat(tr("wet"), &view.specular, 0.0f, 1.0f,
-                       with_decimal_sign(fmt::format("{:.2f}", view.specular)).c_str(),
+    ImGui::SliderFloat(tr("wet"), &view.specular, 0.0f, 1.0f, spoken_number("{:.2f}", view.specular).c_str(),
                        ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
     if (!editor.function()) {
         ImGui::TextDisabled("%s",

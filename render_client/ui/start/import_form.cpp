@@ -49,8 +49,7 @@ std::string wrong_with_size(const ImportForm& form) {
     if (voxels_of(form) <= most_imported_voxels) return {};
     return trf(
         "the region has about {:.1f} billion voxels; {:.1f} are the most: drag a smaller one, or choose "
-        "larger "
-        "voxels",
+        "larger voxels",
         1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
 }
 
