@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "common/words/translation.h"
 #include "render_client/ui/input/key_bindings.h"
@@ -28,7 +29,8 @@ void draw_row(CutSettings& cuts, std::size_t index, const Camera& camera) {
     ImGui::BeginDisabled(!cut.is_on);
     const float flip_width = 5.5f * ImGui::GetFontSize();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - flip_width - ImGui::GetStyle().ItemSpacing.x);
-    const std::string shown = spoken_number("{:.1f} mm", position_mm);
+    // Not "-0.0 mm".
+    const std::string shown = spoken_number("{:.1f} mm", std::abs(position_mm) < 0.05f ? 0.0f : position_mm);
     if (ImGui::SliderFloat("##position", &position_mm, -reach_mm, reach_mm, shown.c_str(),
                            ImGuiSliderFlags_NoInput | ImGuiSliderFlags_NoRoundToFormat))
         cuts.move_to(index, position_mm);
