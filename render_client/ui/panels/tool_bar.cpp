@@ -119,7 +119,10 @@ std::vector<ToolButton> buttons(const SeenSession& session, const ViewSettings& 
     buttons.push_back({.action = Action::hold,
                        .sign = can.is_paused ? "\u25B6" : "\u275A\u275A",
                        .word = can.is_paused ? tr("Go on") : tr("Pause"),
-                       .tip = tr("force and spindle off"),
+                       .tip = can.is_paused
+                                  ? tr("force comes back once the burr is clear of bone, the spindle "
+                                       "once the pedal was up")
+                                  : tr("force and spindle off"),
                        .is_enabled = may,
                        .is_on = can.is_paused});
     buttons.push_back({.action = Action::mark,
