@@ -189,7 +189,7 @@ void add_touches(PanelText& text, const StructureDistance& now, const Tissue& ti
     if (now.removed_mm3 > 0.0)
         when += trf(", {:.2f} mm³ milled", now.removed_mm3);
     else if (now.entered_mm3 > 0.0)
-        when += trf(", {:.2f} mm³ entered, none of it milled", now.entered_mm3);
+        when += trf(", {:.2f} mm³ entered, none of it missing now", now.entered_mm3);
     text.push_back({{Tone::plain, std::move(when)}});
 }
 

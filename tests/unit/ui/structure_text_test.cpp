@@ -54,7 +54,7 @@ TEST_F(StructureTexts, KeepATouchOnTheScreen) {
         {.tissue = 1, .touches_so_far = 2, .first_touch_s = 3.14, .touched_s = 1.5, .entered_mm3 = 0.25}};
     EXPECT_THAT(lines_of(structure_text(seen_)),
                 ElementsAre("no protected structure near", "touched: facial nerve, 2 times",
-                            "first at 3.1 s, for 1.5 s in all, 0.25 mm³ entered, none of it milled"));
+                            "first at 3.1 s, for 1.5 s in all, 0.25 mm³ entered, none of it missing now"));
     seen_.link.distances[0].removed_mm3 = 0.125;
     EXPECT_THAT(lines_of(structure_text(seen_)).back(), HasSubstr(", 0.12 mm³ milled"));
 
