@@ -243,12 +243,12 @@ void StartPage::note_end_of_session() {
 }
 
 void StartPage::open_page(const std::filesystem::path& page) {
-    message_ = page.string();
+    opened_ = page.string();
+    message_ = trf("Opening in the browser: {}", opened_);
     try {
-        opener_ =
-            std::make_unique<ChildProgram>(std::vector<std::string>{"/usr/bin/xdg-open", page.string()});
+        opener_ = std::make_unique<ChildProgram>(std::vector<std::string>{"/usr/bin/xdg-open", opened_});
     } catch (const std::exception&) {
-        message_ = tr("no browser is known here; open it by hand: ") + page.string();
+        message_ = trf("No browser could be opened: {}", opened_);
     }
 }
 
@@ -480,7 +480,10 @@ bool StartPage::poll() {
     });
     if (opener_ && opener_->poll() && !opener_->is_running()) {
         has_news = true;
-        if (opener_->status() != 0) message_ = tr("no browser is known here; open it by hand: ") + message_;
+        if (opener_->status() != 0)
+            message_ = trf("No browser could be opened: {}", opened_);
+        else if (message_ == trf("Opening in the browser: {}", opened_))
+            message_ = trf("Opened in the browser: {}", opened_);
         opener_.reset();
     }
     return has_news;

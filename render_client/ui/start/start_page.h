@@ -198,6 +198,7 @@ class StartPage {
     std::filesystem::path look_file_;
     std::optional<std::filesystem::path> report_;
     std::unique_ptr<ChildProgram> opener_;
+    std::string opened_;  // by it
 };
 
 }  // namespace osteomill
