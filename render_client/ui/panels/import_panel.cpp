@@ -248,7 +248,8 @@ void draw_loose_parts(StartPage& page) {
 
 /// The size of the bone that it makes, or why that is too much.
 void draw_size(const ImportForm& form, const ScanPreview& look) {
-    const std::string wrong = wrong_with_size(form);
+    const std::string threshold = wrong_with_threshold(form, look);
+    const std::string wrong = threshold.empty() ? wrong_with_size(form) : threshold;
     const std::string size =
         trf("{:.0f} million voxels, {:.0f} MB at most, some {:.0f} s (estimated)", 1e-6 * voxels_of(form),
             1e-6 * most_memory_bytes(form), std::ceil(estimated_s(form, look)));

@@ -183,7 +183,10 @@ void draw_browser(StartPage& page) {
             ? tr("A recording of a session (.pcap)")
             : tr("A segmentation (.seg.nrrd, DICOM), or a label map"));
     const FolderListing listing = page.listing();  // a click replaces it
-    if (std::string path = page.path(); path_field(path)) page.go_to(path);
+    if (std::string path = page.path(); path_field(path)) {
+        page.go_to(path);
+        if (page.path() == path) ImGui::SetKeyboardFocusHere(-1);  // a wrong one is mended
+    }
     ImGui::BeginChild("files", list_size(3.0f), true);
     if (listing.folder.has_parent_path() && ImGui::Selectable(tr("../  (up)")))
         page.browse(listing.folder.parent_path());

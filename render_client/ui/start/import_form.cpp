@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <regex>
 #include <string_view>
+#include <utility>
 
 #include "common/bone/grid.h"
 #include "common/words/translation.h"
@@ -53,6 +55,13 @@ std::string wrong_with_size(const ImportForm& form) {
         1e-9 * voxels_of(form), 1e-9 * most_imported_voxels);
 }
 
+std::string wrong_with_threshold(const ImportForm& form, const ScanPreview& look) {
+    if (form.are_labels || (form.threshold_hu >= look.least_hu && form.threshold_hu <= look.most_hu))
+        return {};
+    return trf("the HU threshold is {:g}; choose one between {:.0f} and {:.0f}, the scan's least and most HU",
+               form.threshold_hu, look.least_hu, look.most_hu);
+}
+
 double most_memory_bytes(const ImportForm& form) {
     return session_bytes_per_voxel * voxels_of(form);
 }
@@ -90,6 +99,18 @@ std::vector<std::string> import_command(const std::string& bone_import, const Im
         if (const auto mark = form.pass.find(kind.metric); mark != form.pass.end() && takes_mark(form, kind))
             command.push_back(fmt::format("--pass={}={}", kind.metric, mark->second));
     return command;
+}
+
+std::string without_options(std::string line) {
+    using Words = std::pair<std::string_view, std::string_view>;
+    constexpr std::array fields{Words{"--threshold-hu", "HU threshold"}, Words{"--spacing-mm", "voxel"},
+                                Words{"--region", "region"},
+                                Words{"--stack-spacing", "spacing of the stack"}};
+    for (const auto& [option, words] : fields)
+        for (std::size_t at = line.find(option); at != std::string::npos;
+             at = line.find(option, at + words.size()))
+            line.replace(at, option.size(), words);
+    return line;
 }
 
 std::string specks_said(const std::string& said) {

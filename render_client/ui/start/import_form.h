@@ -19,6 +19,8 @@ struct SegmentChoice {
     double warn_mm = usual_warn_mm(true);  ///< where it is protected
     bool is_target = false;                ///< true for one at most
     std::string material{};                ///< empty: by its CT numbers; for labels, by its name
+
+    bool operator==(const SegmentChoice&) const = default;
 };
 
 struct ImportForm {
@@ -38,6 +40,8 @@ struct ImportForm {
     std::string name{};
     std::string description{};  ///< empty: a sentence about its bone
     PassMarks pass{};           ///< as chosen; kept while no segment is a target or protected
+
+    bool operator==(const ImportForm&) const = default;
 };
 
 /// Whether a mark of the metric could be missed: those of the plan need a target, touches a protected
@@ -56,6 +60,9 @@ inline constexpr double coarsest_voxel_mm = 10.0;
 double voxels_of(const ImportForm& form);
 /// Says that its bone would have too many voxels, and what to do; empty if it has not.
 std::string wrong_with_size(const ImportForm& form);
+/// Says that the threshold is none of the scan's HU, so that nothing or all of it would be bone; empty if it
+/// is one, and of labels.
+std::string wrong_with_threshold(const ImportForm& form, const ScanPreview& look);
 /// The bone's memory if all of the region were bone.
 double most_memory_bytes(const ImportForm& form);
 
@@ -73,6 +80,9 @@ std::vector<std::string> look_command(const std::string& bone_import, const Impo
 /// The command that makes a case of it in `folder`.
 std::vector<std::string> import_command(const std::string& bone_import, const ImportForm& form,
                                         const std::filesystem::path& folder);
+
+/// A line of bone_import with the names of the form's fields in place of its options.
+std::string without_options(std::string line);
 
 /// The words of bone_import about small parts of bone that touch nothing else, in the window's language and
 /// without its options; empty if it said none.

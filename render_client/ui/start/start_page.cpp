@@ -332,12 +332,18 @@ void StartPage::look_at_scan(bool is_another_scan) {
 
 std::string StartPage::wrong_with_form() const {
     if (std::string wrong = wrong_with_name(form.name, cases_of(places_)); !wrong.empty()) return wrong;
+    if (std::string wrong = look_ ? wrong_with_threshold(form, *look_) : ""; !wrong.empty()) return wrong;
     return wrong_with_size(form);
+}
+
+void StartPage::show_error_of_form(std::string error) {
+    wrong_form_ = form;
+    message_ = form_error_ = std::move(error);
 }
 
 void StartPage::import() {
     if (is_working() || !look_) return;
-    message_ = form_error_ = wrong_with_form();
+    show_error_of_form(wrong_with_form());
     if (message_.empty()) message_ = make_folder_at_home(cases_of(places_));
     if (!message_.empty()) return;
     attempt([&] {
@@ -361,8 +367,10 @@ void StartPage::end_of_work() {
     message_ = worker_->status().value_or(0) < 0 ? tr("it was ended in the middle; try again")
                : worker_->last_line().empty()    ? tr("it failed without a word")
                                                  : failure_in_words(*worker_);
+    if (work_ == Work::import || work_ == Work::look) message_ = without_options(message_);
     worker_.reset();
     if (is_good) message_.clear();
+    if (work_ == Work::import && !is_good) show_error_of_form(message_);
     if (work_ == Work::import && is_good) {
         show(View::cases);
         for (std::size_t i = 0; i < cases_.size(); ++i)
@@ -440,7 +448,7 @@ void StartPage::look_for_address() {
 
 bool StartPage::poll() {
     bool has_news = false;
-    if (!form_error_.empty() && wrong_with_form() != form_error_) {
+    if (!form_error_.empty() && form != wrong_form_) {
         if (message_ == form_error_) message_.clear();
         form_error_.clear();
         has_news = true;
@@ -449,7 +457,8 @@ bool StartPage::poll() {
         has_news = true;
         if (!worker_->is_running())
             end_of_work();
-        else if (const std::string line = without_program(worker_->last_line()); !line.empty())
+        else if (const std::string line = without_program(worker_->last_line());
+                 !line.empty() && (scratch_.empty() || line.find(scratch_.string()) == std::string::npos))
             message_ = progress_in_words(line);
     }
     has_news = count_loose_parts() || has_news;

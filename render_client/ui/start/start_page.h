@@ -160,7 +160,9 @@ class StartPage {
     bool is_another_scan_ = false;
     ImportForm form_before_{};  // whose files could be read
     std::string wrong_with_form() const;
-    std::string form_error_;          ///< as message() says it, until it is corrected
+    void show_error_of_form(std::string error);
+    std::string form_error_;          ///< as message() says it, until the form changes
+    ImportForm wrong_form_{};         ///< which it is about
     std::filesystem::path reported_;  ///< whose report is being made
     std::unique_ptr<ChildProgram> worker_;
     std::filesystem::path scratch_;  // the preview's under way

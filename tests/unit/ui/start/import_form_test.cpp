@@ -70,6 +70,23 @@ TEST(ImportForm, SaysWhatSmallPartsWereFoundWithoutTheNamesOfOptions) {
               "loose parts of bone of less than 2 mm³ each: 1, 0.5 mm³ in all, left out");
 }
 
+TEST(ImportForm, RefusesAThresholdThatIsNoneOfTheScans) {
+    ImportForm form;
+    const ScanPreview look{.covers = {}, .least_hu = -1024.0, .most_hu = 3071.0};
+    EXPECT_EQ(wrong_with_threshold(form, look), "");
+    for (const double threshold_hu : {-1025.0, 3072.0, 9000.0}) {
+        form.threshold_hu = threshold_hu;
+        EXPECT_THAT(wrong_with_threshold(form, look), HasSubstr("choose one between -1024 and 3071"));
+    }
+    form.are_labels = true;
+    EXPECT_EQ(wrong_with_threshold(form, look), "") << "their bone is named";
+}
+
+TEST(ImportForm, NamesItsFieldsInPlaceOfOptions) {
+    EXPECT_EQ(without_options("a.nrrd: take a smaller --region or a larger --spacing-mm; --threshold-hu 3"),
+              "a.nrrd: take a smaller region or a larger voxel; HU threshold 3");
+}
+
 TEST(ImportForm, OfAWholeHeadBeginsWithAsManyVoxelsAsAMachineHolds) {
     ImportForm form;
     take_look(form, {.covers = {.high_mm = {200.0, 240.0, 220.0}}}, true);
