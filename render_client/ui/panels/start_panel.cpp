@@ -150,7 +150,8 @@ void draw_cases(StartPage& page, StartPicture& pictures, bool is_asked) {
     ImGui::SameLine();
     if (button(tr("Open its report"), page.report().has_value())) page.open_report();
     ImGui::SameLine();
-    if (ImGui::Button(tr("Hide this"))) page.is_hidden = true;
+    // There is nothing behind it while a session begins.
+    if (button(tr("Hide this"), !page.is_beginning())) page.is_hidden = true;
     ImGui::SameLine();
     if (ImGui::Button(tr("Tour"))) page.tour_card = 0;
     ImGui::SameLine();

@@ -40,11 +40,8 @@ struct StartScreen {
     /// Whether a person imports or looks for a file: nothing of a session shows beside that, and none that
     /// begins elsewhere takes the window.
     bool stands_alone(LinkStatus status) const { return is_due(status) && !page.shows_cases(); }
-    /// Whether nothing of the last session shows behind the page: beside that, and while the next one is made
-    /// ready.
-    bool hides_session(LinkStatus status) const {
-        return is_due(status) && (!page.shows_cases() || page.is_making_ready());
-    }
+    /// Whether nothing of the last session shows: beside that, and until the bone of the next is there.
+    bool hides_session(LinkStatus status) const { return stands_alone(status) || page.is_beginning(); }
     /// Whether it would be shown if the user had not hidden it.
     bool is_hidden(LinkStatus status) const { return has_no_session(status) && page.is_hidden; }
 

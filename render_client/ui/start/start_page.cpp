@@ -82,9 +82,14 @@ std::string progress_in_words(const std::string& line) {
 
 /// How a session's program ended, for a trainee; empty if all went well. The technician finds the rest in the
 /// log.
-std::string end_in_words(const ChildProgram& server, bool is_recorded) {
+std::string end_in_words(const ChildProgram& server, bool is_recorded, bool is_broken_off) {
     const int status = server.status().value_or(0);
     if (status == 0) return {};
+    if (is_broken_off)
+        return is_recorded
+                   ? tr("The session was broken off here, as you asked. What you did until then is kept, "
+                        "first under Sessions so far: \"Make report\" makes its report.")
+                   : tr("The session was broken off here, as you asked, before anything was recorded.");
     if (status > 0) return failure_in_words(server);
     spdlog::warn("haptic_server was ended by signal {} ({}); its last line: {}", -status, strsignal(-status),
                  printable(server.last_line()));
@@ -188,7 +193,7 @@ void StartPage::start() {
     message_ = make_folder_at_home(places_.home / "reports");
     if (!message_.empty()) return;
     report_.reset();
-    is_hidden = false;
+    is_hidden = is_drawn_ = is_broken_off_ = false;
     report_folder_ = report_folder(places_.home / "reports", wanted.name, trainee, std::time(nullptr));
     std::vector<std::string> command{program("haptic_server"),
                                      "--case=" + wanted.argument,
@@ -473,7 +478,7 @@ bool StartPage::poll() {
             look_at_home();
             const bool is_recorded =
                 std::ranges::find(sessions_, report_folder_, &KeptSession::folder) != sessions_.end();
-            message_ = end_in_words(*server_, is_recorded);
+            message_ = end_in_words(*server_, is_recorded, is_broken_off_);
             server_.reset();
             // Its port may soon be somebody else's.
             server_is_at_ = places_.connects_to;

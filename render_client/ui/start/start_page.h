@@ -90,6 +90,10 @@ class StartPage {
     /// listens on a port of its own.
     std::optional<ListenAddress> take_server() { return std::exchange(server_is_at_, std::nullopt); }
     bool is_session_running() const { return server_ != nullptr && server_->is_running(); }
+    /// A session was started here, and the window has not drawn its bone yet: nothing of another is drawn.
+    bool is_beginning() const { return is_session_running() && !is_drawn_; }
+    /// The window draws the bone of the session that began.
+    void note_bone_of_session() { is_drawn_ = !is_making_ready(); }
     /// A session was started here, and the window has not been sent to it yet.
     bool is_making_ready() const { return is_session_running() && (!has_address_ || server_is_at_); }
     /// Started a session that has ended.
@@ -98,6 +102,7 @@ class StartPage {
     const std::optional<std::filesystem::path>& report() const { return report_; }
     /// Ends the session's program at once, for it stands still; its recording stays.
     void break_off() {
+        is_broken_off_ = is_session_running();
         if (server_) server_->kill();
     }
     /// Opens the report in the user's browser.
@@ -196,6 +201,8 @@ class StartPage {
     std::vector<std::unique_ptr<ChildProgram>> reporting_;  // write reports of sessions before
     bool has_address_ = false;                              // it has said where it listens
     std::optional<ListenAddress> server_is_at_;
+    bool is_drawn_ = false;       // the session's bone, by the window
+    bool is_broken_off_ = false;  // the session, by a person
     std::filesystem::path report_folder_;
     std::filesystem::path look_file_;
     std::optional<std::filesystem::path> report_;

@@ -252,6 +252,7 @@ const gl::Framebuffer& SessionPicture::draw(double elapsed_s) {
     picture_.set_appearance(look);
     std::optional<DrawnTool> tool;
     const SightElements elements = this->elements();
+    if (start_ != nullptr && sight() == SessionSight::now) start_->page.note_bone_of_session();
     const bool shows_session = start_ == nullptr || !start_->hides_session(link_.status);
     const BoneTextures* bone = shows_session ? bone_.textures() : nullptr;
     const std::optional<ToolState> shown = elements.tool && shows_session ? tool_.shown() : std::nullopt;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <optional>
@@ -69,7 +70,23 @@ TEST_F(StartPageTest, HidesTheLastSessionWhileTheNextIsMadeReady) {
     EXPECT_TRUE(screen.hides_session(LinkStatus::finished));
     EXPECT_TRUE(screen.hides_session(LinkStatus::connecting));
     EXPECT_FALSE(screen.stands_alone(LinkStatus::finished)) << "its server may take the window";
+    EXPECT_TRUE(screen.hides_session(LinkStatus::live)) << "its bone is not drawn yet";
+    screen.page.note_bone_of_session();
+    EXPECT_TRUE(screen.page.is_beginning()) << "that was the one before: the window was not sent to it yet";
+}
+
+TEST_F(StartPageTest, HidesTheLastSessionUntilTheBoneOfTheNextIsDrawn) {
+    make_program("haptic_server",
+                 "echo listening on 127.0.0.1:43210\ntrap 'exit 0' TERM\nwhile :; do sleep 0.01; done");
+    StartScreen screen({folder_.path(), folder_ / "home", {"127.0.0.1", 7010}});
+    screen.page.start();
+    ASSERT_TRUE(comes_true(screen.page, [&] { return screen.page.take_server().has_value(); }));
+    EXPECT_TRUE(screen.hides_session(LinkStatus::connecting)) << "the window has not joined it yet";
+    EXPECT_TRUE(screen.hides_session(LinkStatus::receiving_snapshot)) << "the bone is still the other one";
+    screen.page.note_bone_of_session();
+    EXPECT_FALSE(screen.page.is_beginning());
     EXPECT_FALSE(screen.hides_session(LinkStatus::live));
+    EXPECT_FALSE(screen.hides_session(LinkStatus::finished)) << "what was milled may be looked at";
 }
 
 TEST_F(StartPageTest, SaysThatASessionIsMadeReadyThoughTheWindowStillSeesTheEndOfTheOneBefore) {
@@ -222,7 +239,8 @@ TEST_F(StartPageTest, BreaksOffASessionWhoseProgramStandsStill) {
     ASSERT_TRUE(window.is_session_running());
     window.break_off();
     ASSERT_TRUE(comes_true(window, [&] { return !window.is_session_running(); }));
-    EXPECT_THAT(window.message(), HasSubstr("The session was broken off"));
+    EXPECT_EQ(window.message(),
+              "The session was broken off here, as you asked, before anything was recorded.");
 }
 
 TEST_F(StartPageTest, ComparesInTheWindowsLanguageWhatWasFinished) {
@@ -289,6 +307,65 @@ TEST_F(StartPageTest, LooksAtAScanOnceAndGoesThroughItsSlices) {
     std::string once, again;
     EXPECT_TRUE(std::getline(file, once));
     EXPECT_FALSE(std::getline(file, again)) << again;
+}
+
+TEST_F(StartPageTest, SaysAtOnceThatAThresholdIsNoneOfTheScansAndDropsAnErrorOnceTheFormChanges) {
+    make_program("bone_import",
+                 "case \"$*\" in *--case*) echo 'scan.nrrd: no voxel reaches --threshold-hu 301'; "
+                 "exit 1;; esac\nfor last; do :; done\nprintf 12345678 > \"$last\"\n"
+                 "echo covers 0,0,0,0.5,0.5,0.5\necho HU from -1000 to 2000");
+    std::ofstream(folder_ / "scan.nrrd") << "x";
+    StartPage window = page();
+    window.show(StartPage::View::scan_browser);
+    window.go_to((folder_ / "scan.nrrd").string());
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
+    window.form.threshold_hu = 9000.0;
+    window.import();
+    EXPECT_FALSE(window.is_working()) << "the scan need not be read for that";
+    EXPECT_THAT(window.message(), HasSubstr("the HU threshold is 9000; choose one between -1000 and 2000"));
+    window.form.threshold_hu = 301.0;
+    window.poll();
+    EXPECT_EQ(window.message(), "");
+    window.import();
+    ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
+    EXPECT_THAT(window.message(), HasSubstr("no voxel reaches HU threshold 301"));
+    window.poll();
+    EXPECT_NE(window.message(), "") << "nothing was changed";
+    window.form.threshold_hu = 302.0;
+    window.poll();
+    EXPECT_EQ(window.message(), "");
+}
+
+TEST_F(StartPageTest, ShowsNoTemporaryFileWhileItLooksAtAScan) {
+    const std::string said = (folder_ / "said").string(), on = (folder_ / "on").string();
+    make_program("bone_import", "for last; do :; done\necho \"bone_import: preview: $last\"\ntouch " + said +
+                                    "\nwhile [ ! -e " + on + " ]; do sleep 0.01; done");
+    std::ofstream(folder_ / "scan.nrrd") << "x";
+    StartPage window = page();
+    window.show(StartPage::View::scan_browser);
+    window.go_to((folder_ / "scan.nrrd").string());
+    ASSERT_TRUE(comes_true(window, [&] { return std::filesystem::exists(said); }));
+    window.poll();
+    EXPECT_EQ(window.message(), "looking at the scan ...");
+    std::ofstream(on) << "";
+}
+
+TEST_F(StartPageTest, NamesTheReportAndSaysWhetherABrowserCouldBeOpened) {
+    const auto session = folder_ / "home" / "reports" / "jaw-anna-20261128-140500";
+    std::filesystem::create_directories(session);
+    std::ofstream(session / "session.pcap") << "x";
+    std::ofstream(session / "report.html") << "x";
+    // Nothing is found in an empty PATH, so that no browser of this machine opens.
+    const char* const path = std::getenv("PATH");
+    const std::string before = path != nullptr ? path : "";
+    ::setenv("PATH", folder_.path().c_str(), 1);
+    StartPage window = page();
+    window.open_report_of(window.sessions().at(0));
+    const std::string file = (session / "report.html").string();
+    const bool is_said =
+        comes_true(window, [&] { return window.message() == "No browser could be opened: " + file; });
+    ::setenv("PATH", before.c_str(), 1);
+    EXPECT_TRUE(is_said) << window.message();
 }
 
 TEST_F(StartPageTest, GoesBackToWhereAPageWasCalled) {
