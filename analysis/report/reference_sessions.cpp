@@ -129,9 +129,12 @@ std::map<std::string, TraineeGroup> trainee_groups(const std::filesystem::path& 
             fail(error.what());
         }
         if (trimmed(line).empty()) continue;
-        std::vector<std::string> cells = quoted_cells(line, line.find(';') == std::string::npos ? ',' : ';');
+        const bool has_semicolons = line.find(';') != std::string::npos;
+        std::vector<std::string> cells = quoted_cells(line, has_semicolons ? ';' : ',');
         if (cells.size() < 2) fail("a line is TRAINEE,GROUP");
-        if (number == 1 && cells.size() > 2 && trimmed(cells.front()) == "trainee")
+        // A comma may belong to a name, a semicolon does not.
+        const bool is_heading = number == 1 && trimmed(cells.front()) == "trainee";
+        if (cells.size() > 2 && (has_semicolons || is_heading))
             fail(fmt::format("has {} columns; a line is TRAINEE,GROUP alone", cells.size()));
         std::string group = trimmed(cells.back());
         if (are_experts(group)) group = expert_group;

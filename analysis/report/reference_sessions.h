@@ -50,7 +50,8 @@ struct TraineeGroup {
 };
 
 /// By the trainee's name. Throws std::runtime_error, with file and line, if the file cannot be read, a line
-/// is not of two names, its heading has other columns, or a trainee is in two groups.
+/// is not of two names, its heading or a line with semicolons has other columns, or a trainee is in two
+/// groups.
 std::map<std::string, TraineeGroup> trainee_groups(const std::filesystem::path& file);
 
 inline constexpr std::size_t fewest_references = 4;

@@ -172,6 +172,7 @@ std::vector<Tissue> tissues_of(const std::vector<CaseStructure>& structures, con
                       .segment = one.name};
         if (std::ranges::find(parts.is_protected, one.name) != parts.is_protected.end()) {
             tissue.is_protected = true;
+            tissue.shows_through_mm = usual_shows_through_mm(true);
             const auto own = parts.warns_from_mm.find(one.name);
             tissue.warn_mm = own != parts.warns_from_mm.end() ? own->second : parts.warn_mm;
         }

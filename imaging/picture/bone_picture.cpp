@@ -174,15 +174,19 @@ class View {
         }
     }
 
-    /// A structure's place without bone: beside bone, or milled. Not so at the surface of one that is bone,
-    /// which ends where bone does, between voxels.
+    /// A structure's place that never was bone. One of a structure that is bone is drawn where bone is left:
+    /// milled, it is a cavity, and its surface is where bone ends, between voxels.
     bool lacks_bone(const Structure& structure, const glm::dvec3& place) {
-        bool has_empty = false;
+        bool has_soft = false;
         for_voxels_about(place, [&](const glm::ivec3& voxel, double) {
-            const bool is_empty = !contains(bone_.grid(), voxel) || probe_.at(voxel) == 0.0;
-            has_empty = has_empty || (is_empty && structure.mask.contains(voxel));
+            has_soft = has_soft || (is_soft(structure, voxel) && structure.mask.contains(voxel));
         });
-        return has_empty;
+        return has_soft;
+    }
+
+    bool is_soft(const Structure& structure, const glm::ivec3& voxel) {
+        return !contains(bone_.grid(), voxel) ||
+               (probe_.at(voxel) == 0.0 && bone_.tissue_at(voxel) != tissues_[structure.tissue].label);
     }
 
     std::optional<glm::dvec3> structure_colour(const glm::dvec3& place) {
@@ -194,7 +198,10 @@ class View {
             return std::nullopt;
         }
         for (const Structure& structure : marks_.structures)
-            if (is_mostly(place, [&](const glm::ivec3& voxel) { return structure.mask.contains(voxel); }))
+            if (is_mostly(place, [&](const glm::ivec3& voxel) {
+                    return structure.mask.contains(voxel) &&
+                           (is_soft(structure, voxel) || probe_.at(voxel) > 0.0);
+                }))
                 return colours_[tissues_[structure.tissue].label];
         return std::nullopt;
     }

@@ -83,6 +83,8 @@ TEST_F(CaseFolder, HoldsASceneThatLoadsByItself) {
     EXPECT_EQ(read.tissues[1].name, "nerve");
     EXPECT_TRUE(read.tissues[1].is_protected);
     EXPECT_EQ(read.tissues[1].warn_mm, 2.5);
+    EXPECT_EQ(read.tissues[1].shows_through_mm, usual_shows_through_mm(true)) << "thin bone shows it";
+    EXPECT_EQ(read.tissues[0].shows_through_mm, 0.0);
     EXPECT_FALSE(read.tissues[0].is_protected);
     ASSERT_TRUE(read.plan);
     EXPECT_EQ(std::get<TissueRegion>(read.plan->region).tissue, "target");

@@ -129,6 +129,8 @@ TEST(TraineeGroups, AreALineEach) {
     EXPECT_THAT(error_of("Eva,expert\nAnna\n"), HasSubstr("groups.csv:2: a line is TRAINEE,GROUP"));
     EXPECT_THAT(error_of("trainee,group,note\nEva,expert,left-handed\n"),
                 HasSubstr("groups.csv:1: has 3 columns"));
+    EXPECT_THAT(error_of("Name;Gruppe;Jahr\nEva;Experte;2026\n"), HasSubstr("groups.csv:1: has 3 columns"));
+    EXPECT_THAT(error_of("A., Anna;student\nEva;Experte;2026\n"), HasSubstr("groups.csv:2: has 3 columns"));
     EXPECT_THAT(error_of("Eva,\n"), HasSubstr("neither is empty"));
     EXPECT_THAT(error_of("Eva,expert\nEva,novice\n"), HasSubstr("\"Eva\" is in group \"expert\" already"));
 }

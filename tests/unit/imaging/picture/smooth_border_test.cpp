@@ -184,6 +184,38 @@ TEST_F(SectionBorders, DrawTheOuterBorderOfAStructureThatIsBoneWhereBoneEnds) {
     EXPECT_LT(errors(off_voxels).most, 0.2);
 }
 
+/// A structure of bone that was milled is a cavity; a soft one beside bone is drawn whole.
+TEST_F(SectionBorders, DrawNothingOfAStructureWhereItWasMilled) {
+    constexpr double radius_mm = 1.47, milled_mm = 0.8;
+    Bone bone = testing::labelled_cube(3, spacing_mm, [](const glm::dvec3& at) {
+        return static_cast<std::uint8_t>(glm::length(at) < radius_mm ? 2 : 1);
+    });
+    for (std::int32_t slot = 0; slot < static_cast<std::int32_t>(bone.stored_bricks()); ++slot) {
+        const glm::ivec3 first =
+            brick_edge_voxels * brick_position(bone.content().size_bricks,
+                                               bone.content().brick_of_slot[static_cast<std::size_t>(slot)]);
+        const auto fractions = bone.fractions(slot);
+        for (std::size_t offset = 0; offset < brick_voxel_count; ++offset)
+            if (glm::length(centre_of_voxel_mm(bone.grid(), first + voxel_in_brick(offset))) < milled_mm)
+                fractions[offset] = 0;
+    }
+    const std::vector<Tissue> tissues{
+        {.label = 1, .name = "bone", .colour_rgb = {200, 200, 200}},
+        {.label = 2, .name = "pulp", .colour_rgb = {255, 0, 0}, .is_protected = true},
+        {.label = 3, .name = "nerve", .colour_rgb = {255, 0, 0}, .is_protected = true}};
+    const StructureMask ball = testing::ball_mask(bone.grid(), glm::dvec3(0.0), radius_mm);
+    const int middle = size_px / 2;
+    const auto red_at = [&](std::size_t tissue, double right_mm) {
+        const RgbPicture picture =
+            section(bone, tissues, {.structures = std::vector<Structure>{{tissue, ball}}});
+        return int{picture.rgb[place(middle, middle + static_cast<int>(right_mm / half_width_mm * middle))]};
+    };
+    const int flat = red_at(1, 1.1);
+    EXPECT_GT(flat, 220) << "what is left of it is cut flat";
+    EXPECT_LT(red_at(1, 0.0), flat - 20) << "its milled middle is a cavity, in the light";
+    EXPECT_EQ(red_at(2, 0.0), flat) << "nothing of a soft one was milled";
+}
+
 TEST_F(SectionBorders, DrawTheBorderOfTwoTissuesAsALine) {
     constexpr double slope = 0.2;
     const Bone bone = testing::labelled_cube(3, spacing_mm, [](const glm::dvec3& at) {
