@@ -47,7 +47,7 @@ p,h1,h2,h3,.verdict,.tile,figcaption{overflow-wrap:break-word}
 @media screen and (max-width:480px){.tiles,.pictures,.pictures.two,.signatures{grid-template-columns:minmax(0,1fr)}}
 @media print{body{max-width:none;padding:0;font-size:11px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 .first{display:flex;flex-direction:column;height:252mm;break-after:page}
-.first .two{width:124mm;margin:0 auto}.comment{min-height:18mm}
+.first .two{width:124mm;margin:0 auto}.first .verdict,.first .tiles{margin:5px 0}.comment{min-height:18mm}.signatures{margin-top:24px}
 h2,h3{break-after:avoid}figure,svg,tr,section{break-inside:avoid}figcaption,.tile span,.comment,.signatures div,footer{font-size:9.5px}
 .wide{font-size:9px}.wide td,.wide th{padding:2px 4px}}
 )";
