@@ -115,7 +115,7 @@ std::string quantity_text(std::string_view key, const std::string& of) {
 
 ShownValue quantity_value(std::string_view key, double value) {
     const ShownUnit unit = unit_of(key);
-    return {number_text(unit.scale * value), unit.name};
+    return {number_text(unit.scale * value, unit.name), unit.name};
 }
 
 std::string condition_text(const std::string& condition) {

@@ -65,8 +65,11 @@ std::string number_with_point(double value) {
 
 }  // namespace
 
-std::string number_text(double value) {
-    return std::isfinite(value) ? with_decimal_sign(number_with_point(value)) : "–";
+std::string number_text(double value, std::string_view unit) {
+    if (!std::isfinite(value)) return "–";
+    // Nobody reads 1.8e-05 %.
+    const bool is_tiny_share = unit == "%" && std::abs(value) < 0.01;
+    return with_decimal_sign(number_with_point(is_tiny_share ? 0.0 : value));
 }
 
 std::string shown_unit(std::string_view unit) {
@@ -74,12 +77,8 @@ std::string shown_unit(std::string_view unit) {
 }
 
 ShownValue shown_value(std::string_view key, double value, std::string_view unit) {
-    if (const Headline* known = headline(key)) {
-        const double shown = known->scale * value;
-        // Nobody reads 1.8e-05 %.
-        const bool is_tiny_share = known->unit == std::string_view("%") && std::abs(shown) < 0.01;
-        return {number_text(is_tiny_share ? 0.0 : shown), known->unit};
-    }
+    if (const Headline* known = headline(key))
+        return {number_text(known->scale * value, known->unit), known->unit};
     return {number_text(value), shown_unit(unit)};
 }
 

@@ -17,8 +17,9 @@ extern const char* const page_style;
 inline constexpr const char* table_begin = "<div class='scroll'><table>";
 inline constexpr const char* table_end = "</table></div>";
 
-/// At most four digits that count, with the decimal sign of the chosen language.
-std::string number_text(double value);
+/// At most four digits that count, with the decimal sign of the chosen language; a share in % that is too
+/// small to be read is 0.
+std::string number_text(double value, std::string_view unit = {});
 
 /// A metric's value as every page shows it, in its headline's unit if it is one: "87.4", "%". `unit` is the
 /// metric's own.

@@ -53,6 +53,7 @@ TEST_F(ConditionText, HasWordsForEveryQuantity) {
 
 TEST_F(ConditionText, ShowsValuesWithTheirUnits) {
     EXPECT_EQ(quantity_value("burr_in_view_share", 0.875).text(), "87.5 %");
+    EXPECT_EQ(quantity_value("burr_in_view_share", 1.8e-7).text(), "0 %") << "nobody reads 1.8e-05 %";
     EXPECT_EQ(quantity_value("cutting_speed_mean_mm_per_s", 2.5).text(), "2.50 mm/s");
     EXPECT_EQ(quantity_value("force_impulse_n_s", 3.0).text(), "3 N s");
     EXPECT_EQ(quantity_value("stroke_reaches_per_s", 3.0).text(), "3 1/s");
