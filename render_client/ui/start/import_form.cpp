@@ -56,10 +56,12 @@ std::string wrong_with_size(const ImportForm& form) {
 }
 
 std::string wrong_with_threshold(const ImportForm& form, const ScanPreview& look) {
-    if (form.are_labels || (form.threshold_hu >= look.least_hu && form.threshold_hu <= look.most_hu))
-        return {};
-    return trf("the HU threshold is {:g}; choose one between {:.0f} and {:.0f}, the scan's least and most HU",
-               form.threshold_hu, look.least_hu, look.most_hu);
+    // The preview's voxels are means: a thin implant may have more HU than any of them.
+    constexpr double most_of_scanners_hu = 3071.0;
+    const double most_hu = std::max(look.most_hu, most_of_scanners_hu);
+    if (form.are_labels || form.threshold_hu <= most_hu) return {};
+    return trf("the HU threshold is {:g}, and nothing of the scan is bone: choose one of at most {:.0f}",
+               form.threshold_hu, most_hu);
 }
 
 double most_memory_bytes(const ImportForm& form) {

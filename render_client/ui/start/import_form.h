@@ -60,8 +60,7 @@ inline constexpr double coarsest_voxel_mm = 10.0;
 double voxels_of(const ImportForm& form);
 /// Says that its bone would have too many voxels, and what to do; empty if it has not.
 std::string wrong_with_size(const ImportForm& form);
-/// Says that the threshold is none of the scan's HU, so that nothing or all of it would be bone; empty if it
-/// is one, and of labels.
+/// Says that no voxel of the scan can reach the threshold; empty if one may, and of labels.
 std::string wrong_with_threshold(const ImportForm& form, const ScanPreview& look);
 /// The bone's memory if all of the region were bone.
 double most_memory_bytes(const ImportForm& form);

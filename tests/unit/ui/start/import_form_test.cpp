@@ -70,14 +70,22 @@ TEST(ImportForm, SaysWhatSmallPartsWereFoundWithoutTheNamesOfOptions) {
               "loose parts of bone of less than 2 mm³ each: 1, 0.5 mm³ in all, left out");
 }
 
-TEST(ImportForm, RefusesAThresholdThatIsNoneOfTheScans) {
+TEST(ImportForm, RefusesAThresholdThatNothingReaches) {
     ImportForm form;
-    const ScanPreview look{.covers = {}, .least_hu = -1024.0, .most_hu = 3071.0};
-    EXPECT_EQ(wrong_with_threshold(form, look), "");
-    for (const double threshold_hu : {-1025.0, 3072.0, 9000.0}) {
-        form.threshold_hu = threshold_hu;
-        EXPECT_THAT(wrong_with_threshold(form, look), HasSubstr("choose one between -1024 and 3071"));
+    for (const double most_hu : {1400.0, 3071.0}) {
+        const ScanPreview look{.covers = {}, .least_hu = 1400.0, .most_hu = most_hu};
+        for (const double threshold_hu : {-1024.0, 300.0, 3071.0}) {
+            form.threshold_hu = threshold_hu;
+            EXPECT_EQ(wrong_with_threshold(form, look), "") << threshold_hu;
+        }
+        form.threshold_hu = 9000.0;
+        EXPECT_THAT(wrong_with_threshold(form, look), HasSubstr("choose one of at most 3071"));
     }
+    const ScanPreview look{.covers = {}, .least_hu = -1024.0, .most_hu = 8000.0};
+    form.threshold_hu = 7000.0;
+    EXPECT_EQ(wrong_with_threshold(form, look), "") << "of a scan in other units";
+    form.threshold_hu = 9000.0;
+    EXPECT_THAT(wrong_with_threshold(form, look), HasSubstr("choose one of at most 8000"));
     form.are_labels = true;
     EXPECT_EQ(wrong_with_threshold(form, look), "") << "their bone is named";
 }

@@ -322,7 +322,9 @@ TEST_F(StartPageTest, SaysAtOnceThatAThresholdIsNoneOfTheScansAndDropsAnErrorOnc
     window.form.threshold_hu = 9000.0;
     window.import();
     EXPECT_FALSE(window.is_working()) << "the scan need not be read for that";
-    EXPECT_THAT(window.message(), HasSubstr("the HU threshold is 9000; choose one between -1000 and 2000"));
+    EXPECT_THAT(
+        window.message(),
+        HasSubstr("the HU threshold is 9000, and nothing of the scan is bone: choose one of at most 3071"));
     window.form.threshold_hu = 301.0;
     window.poll();
     EXPECT_EQ(window.message(), "");
