@@ -13,6 +13,7 @@
 #include "render_client/dataset/first_view.h"
 #include "render_client/ui/panels/inset_panel.h"
 #include "render_client/ui/panels/layout.h"
+#include "render_client/ui/panels/start_panel.h"
 #include "render_client/volume/camera.h"
 
 namespace osteomill {

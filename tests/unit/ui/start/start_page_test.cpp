@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "common/words/translation.h"
 #include "render_client/ui/panels/start_panel.h"
 #include "tests/support/temporary_folder.h"
 
