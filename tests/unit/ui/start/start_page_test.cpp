@@ -36,6 +36,14 @@ class StartPageTest : public ::testing::Test {
         }
         return false;
     }
+    /// Whether the page has made its preview of a scan.
+    bool looks_at_a_scan(StartPage& page) const {
+        const std::string scan = (folder_ / "scan.nrrd").string();
+        std::ofstream(scan) << "x";
+        page.show(StartPage::View::scan_browser);
+        page.go_to(scan);
+        return comes_true(page, [&] { return !page.is_working(); });
+    }
 
     testing::TemporaryFolder folder_;
 };
@@ -315,11 +323,8 @@ TEST_F(StartPageTest, SaysAtOnceThatAThresholdIsNoneOfTheScansAndDropsAnErrorOnc
                  "case \"$*\" in *--case*) echo 'scan.nrrd: no voxel reaches --threshold-hu 301'; "
                  "exit 1;; esac\nfor last; do :; done\nprintf 12345678 > \"$last\"\n"
                  "echo covers 0,0,0,0.5,0.5,0.5\necho HU from -1000 to 2000");
-    std::ofstream(folder_ / "scan.nrrd") << "x";
     StartPage window = page();
-    window.show(StartPage::View::scan_browser);
-    window.go_to((folder_ / "scan.nrrd").string());
-    ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
+    ASSERT_TRUE(looks_at_a_scan(window));
     window.form.threshold_hu = 9000.0;
     window.import();
     EXPECT_FALSE(window.is_working()) << "the scan need not be read for that";
@@ -391,11 +396,8 @@ TEST_F(StartPageTest, ChoosesTheCaseThatItImportedAndBringsItIntoSight) {
                                     (made / "case.toml").string() +
                                     "; exit;; esac\nfor last; do :; done\nprintf 12345678 > \"$last\"\n"
                                     "echo covers 0,0,0,0.5,0.5,0.5\necho HU from -1000 to 2000");
-    std::ofstream(folder_ / "scan.nrrd") << "x";
     StartPage window = page();
-    window.show(StartPage::View::scan_browser);
-    window.go_to((folder_ / "scan.nrrd").string());
-    ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
+    ASSERT_TRUE(looks_at_a_scan(window));
     EXPECT_FALSE(window.scrolls_to_chosen);
     window.import();
     ASSERT_TRUE(comes_true(window, [&] { return !window.is_working(); }));
