@@ -248,7 +248,8 @@ class View {
         double weight = 0.0;
     };
 
-    /// Of the places -1, 0, 1 and 2, at a part of the way from 0 to 1; along each axis they add up to one.
+    /// Weights of the places -1, 0, 1 and 2 at a part of the way from 0 to 1; along each axis they add up to
+    /// one.
     static std::array<glm::dvec3, 4> spline_weights(const glm::dvec3& part) {
         const glm::dvec3 rest = 1.0 - part;
         return {rest * rest * rest / 6.0, 2.0 / 3.0 - part * part * (1.0 - part / 2.0),
