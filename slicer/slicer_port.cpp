@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/igtl/igtl_stream.h"
+#include "common/log/log.h"
 
 namespace osteomill {
 
@@ -56,7 +57,7 @@ void SlicerPort::run_for(std::chrono::milliseconds time) {
     log_.tell_left_out(std::chrono::steady_clock::now());
 }
 
-void SlicerPort::say(spdlog::level::level_enum level, const std::string& line) {
+void SlicerPort::say(LogLevel level, const std::string& line) {
     log_.write(level, line, std::chrono::steady_clock::now());
 }
 
@@ -67,8 +68,7 @@ bool SlicerPort::takes_more() const {
 void SlicerPort::accept() {
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
         if (!error && receiver_) {
-            say(spdlog::level::warn,
-                "a second connection to the port of 3D Slicer was refused: one is there");
+            say(LogLevel::warning, "a second connection to the port of 3D Slicer was refused: one is there");
         } else if (!error) {
             receiver_ = std::make_shared<Receiver>(
                 std::move(socket),
@@ -80,8 +80,8 @@ void SlicerPort::accept() {
                                 sinks_.said(message.name, *text);
                         },
                     .damaged =
-                        [this] { say(spdlog::level::warn, "a damaged STRING message was passed over"); }});
-            say(spdlog::level::info, "3D Slicer has connected");
+                        [this] { say(LogLevel::warning, "a damaged STRING message was passed over"); }});
+            say(LogLevel::info, "3D Slicer has connected");
             read(receiver_);
             sinks_.connected();
         }
@@ -124,7 +124,7 @@ void SlicerPort::write(const std::shared_ptr<Receiver>& receiver) {
 
 void SlicerPort::drop(std::shared_ptr<Receiver> receiver, const char* why) {
     if (receiver != receiver_) return;
-    say(spdlog::level::info, fmt::format("the connection to 3D Slicer ends: {}", why));
+    say(LogLevel::info, fmt::format("the connection to 3D Slicer ends: {}", why));
     receiver_.reset();
     error_code ignored;
     receiver->held_up.cancel();

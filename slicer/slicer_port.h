@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "common/log/log.h"
 #include "common/log/rate_limit.h"
 #include "slicer/igtl_messages.h"
 
@@ -52,7 +53,7 @@ class SlicerPort {
     void read(const std::shared_ptr<Receiver>& receiver);
     void write(const std::shared_ptr<Receiver>& receiver);
     void drop(std::shared_ptr<Receiver> receiver, const char* why);
-    void say(spdlog::level::level_enum level, const std::string& line);
+    void say(LogLevel level, const std::string& line);
 
     Sinks sinks_;
     LimitedLog log_{};

@@ -1,12 +1,12 @@
 #include "slicer/slicer_session.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "common/bone/patient_space.h"
+#include "common/log/log.h"
 #include "common/text/foreign_text.h"
 #include "common/text/words.h"
 
@@ -153,15 +153,15 @@ void SlicerSession::take_in(double now_s) {
     const LinkUpdate update = link_.poll();
     if (update.status_line != status_line_) {
         status_line_ = update.status_line;
-        if (!status_line_.empty()) spdlog::info("{}", status_line_);
+        if (!status_line_.empty()) log_info("{}", status_line_);
     }
     for (const ControlEvent& event : update.events)
-        if (event.is_refused) spdlog::warn("{}: refused: {}", name_of(event.action), event.text);
+        if (event.is_refused) log_warning("{}: refused: {}", name_of(event.action), event.text);
     if (update.bone_replaced) {
         bone_.emplace(*link_.bone());
         if (bone_->voxels_a_voxel() > 1)
-            spdlog::info("the bone is sent with voxels of {:.3g} mm, the mean of {}^3",
-                         bone_->grid().spacing_mm, bone_->voxels_a_voxel());
+            log_info("the bone is sent with voxels of {:.3g} mm, the mean of {}^3", bone_->grid().spacing_mm,
+                     bone_->voxels_a_voxel());
         begin_image();
     } else if (bone_) {
         if (const auto box = bone_->update(*link_.bone(), update.changes)) schedule_.changed(*box, now_s);
@@ -187,7 +187,7 @@ void SlicerSession::send_what_is_due(double now_s) {
 
 void SlicerSession::obey(const std::string& name, const std::string& text) {
     const auto now = std::chrono::steady_clock::now();
-    const auto warn = [&](const std::string& line) { log_.write(spdlog::level::warn, line, now); };
+    const auto warn = [&](const std::string& line) { log_.write(LogLevel::warning, line, now); };
     try {
         const SessionControl control =
             control_of(name, text, tool_ ? tool_->spindle_axis : glm::dvec3(0.0, 0.0, 1.0));

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <stdexcept>
 
 #include "common/session/written_pose.h"
+#include "common/text/append.h"
 #include "common/text/csv.h"
 #include "common/text/foreign_text.h"
 
@@ -34,8 +34,8 @@ constexpr const char* state_columns =
 /// Appends the waypoint as the loop used it: rails lead a hand along the same poses, bit for bit.
 void append_waypoint(fmt::memory_buffer& text, double time_s, const glm::dvec3& hand_mm,
                      const glm::dvec3& axis, bool pedal, std::size_t burr) {
-    fmt::format_to(std::back_inserter(text), "{:.4f},{},{},{},{}\n", time_s, xyz(hand_mm, hand_decimals_mm),
-                   xyz(axis, axis_decimals), pedal ? 1 : 0, burr);
+    append_formatted(text, "{:.4f},{},{},{},{}\n", time_s, xyz(hand_mm, hand_decimals_mm),
+                     xyz(axis, axis_decimals), pedal ? 1 : 0, burr);
 }
 
 /// The comment that names the arm; empty in a recording that names none.
@@ -46,11 +46,10 @@ std::string arm_line(const SessionInfo& session) {
 
 void append_state(fmt::memory_buffer& text, const Playhead& playhead) {
     const ToolState& tool = *playhead.tool();
-    fmt::format_to(std::back_inserter(text), "{:.4f},{:.4f},{},{},{},{},{},{},{:.5f},{}\n", playhead.time_s(),
-                   tool.time_s, xyz(tool.burr_position_mm, 4), xyz(tool.spindle_axis, 6),
-                   xyz(tool.hand_position_mm, 4), xyz(tool.force_n, 5),
-                   csv_cell(playhead.session().burrs[tool.burr].name), tool.spindle_on ? 1 : 0,
-                   tool.removed_mm3, nearest_of(playhead));
+    append_formatted(text, "{:.4f},{:.4f},{},{},{},{},{},{},{:.5f},{}\n", playhead.time_s(), tool.time_s,
+                     xyz(tool.burr_position_mm, 4), xyz(tool.spindle_axis, 6), xyz(tool.hand_position_mm, 4),
+                     xyz(tool.force_n, 5), csv_cell(playhead.session().burrs[tool.burr].name),
+                     tool.spindle_on ? 1 : 0, tool.removed_mm3, nearest_of(playhead));
 }
 
 }  // namespace

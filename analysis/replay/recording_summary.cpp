@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <iterator>
 #include <utility>
+
+#include "common/text/append.h"
 
 namespace osteomill {
 
@@ -133,7 +134,7 @@ nlohmann::ordered_json to_json(const RecordingSummary& summary) {
 std::string to_text(const RecordingSummary& summary) {
     std::string text;
     const auto line = [&](const std::string& name, const std::string& what) {
-        fmt::format_to(std::back_inserter(text), "{:<12}{}\n", name, what);
+        append_formatted(text, "{:<12}{}\n", name, what);
     };
     const glm::ivec3& size = summary.grid.size_voxels;
     line("scene", fmt::format("{} ({} x {} x {} voxels of {} mm)", summary.session.scene_name, size.x, size.y,

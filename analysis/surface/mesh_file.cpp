@@ -4,10 +4,11 @@
 
 #include <bit>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <string>
+
+#include "common/text/append.h"
 
 namespace osteomill {
 
@@ -29,7 +30,7 @@ class Output {
     }
     template <typename... Values>
     void print(fmt::format_string<Values...> format, Values&&... values) {
-        fmt::format_to(std::back_inserter(bytes_), format, std::forward<Values>(values)...);
+        append_formatted(bytes_, format, std::forward<Values>(values)...);
         flush_if_full();
     }
     void commit() {

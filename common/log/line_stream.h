@@ -73,9 +73,9 @@ class LineStreamBuffer final : public std::stringbuf {
     LineStream& stream_;
 };
 
-// The log of a program (spdlog) as lines of a stream that never blocks the caller.
+// The log of a program (log.h) as lines of a stream that never blocks the caller.
 
-/// Makes spdlog's functions write to `stream`, each line headed with time, `program` and level, the level in
+/// Makes the log go to `stream`, each line headed with time, `program` and level, the level in
 /// colour on a terminal. A line that cannot be formatted is left out.
 void log_to(std::shared_ptr<LineStream> stream, const std::string& program);
 

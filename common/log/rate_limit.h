@@ -2,13 +2,15 @@
 // fill the disk, nor bury important lines.
 #pragma once
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <string>
 #include <utility>
+
+#include "common/log/log.h"
 
 namespace osteomill {
 
@@ -46,18 +48,18 @@ class LimitedLog {
     static constexpr double lines_at_once = 40.0;
     static constexpr double lines_per_s = 0.5;
 
-    void write(spdlog::level::level_enum level, const std::string& line, Time now) {
+    void write(LogLevel level, const std::string& line, Time now) {
         if (!lines_.take(now)) {
             ++left_out_;
             return;
         }
-        spdlog::log(level, "{}{}", line, count_left_out());
+        log_line(level, line + count_left_out());
     }
 
     /// Call regularly: when the limit allows, writes a line with the number of lines left out, even if no
     /// more come.
     void tell_left_out(Time now) {
-        if (left_out_ > 0 && lines_.take(now)) spdlog::warn("clients came and went{}", count_left_out());
+        if (left_out_ > 0 && lines_.take(now)) log_warning("clients came and went{}", count_left_out());
     }
 
   private:

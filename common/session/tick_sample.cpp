@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <type_traits>
 
 #include "common/session/written_pose.h"
+#include "common/text/append.h"
 
 namespace osteomill {
 
@@ -203,8 +203,7 @@ void TickSample::append_to(fmt::memory_buffer& text) const {
     const char* separator = "";
     for (const TickQuantity& quantity : quantities) {
         if (!quantity.in_log || !quantity.is_of(*this)) continue;
-        fmt::format_to(std::back_inserter(text), "{}{:.{}f}", separator, quantity.of(*this),
-                       quantity.log_decimals);
+        append_formatted(text, "{}{:.{}f}", separator, quantity.of(*this), quantity.log_decimals);
         separator = ",";
     }
     text.push_back('\n');

@@ -92,8 +92,9 @@ struct fmt::formatter<osteomill::ReadNumber<Number>> {
         return end;
     }
     auto format(const osteomill::ReadNumber<Number>& number, fmt::format_context& context) const {
-        const std::string text = fmt::format(fmt::runtime("{:" + spec_ + "}"), number.value);
-        return fmt::format_to(context.out(), "{}", osteomill::with_decimal_sign(text));
+        const std::string text =
+            osteomill::with_decimal_sign(fmt::format(fmt::runtime("{:" + spec_ + "}"), number.value));
+        return std::copy(text.begin(), text.end(), context.out());
     }
 
   private:

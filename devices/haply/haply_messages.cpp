@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "common/text/append.h"
 #include "common/text/foreign_json.h"
 
 namespace osteomill {
@@ -135,11 +135,11 @@ void write_haply_force(std::string& text, std::string_view device_id, const glm:
                        HaplyForceField field) {
     const auto plain = [](double value) { return std::isfinite(value) ? value : 0.0; };
     text.clear();
-    fmt::format_to(std::back_inserter(text),
-                   R"({{"inverse3":[{{"device_id":"{}","commands":{{"set_cursor_force":{{"{}":)"
-                   R"({{"x":{:.6f},"y":{:.6f},"z":{:.6f}}}}}}}}}]}})",
-                   device_id, field == HaplyForceField::vector ? "vector" : "values", plain(force_n.x),
-                   plain(force_n.y), plain(force_n.z));
+    append_formatted(text,
+                     R"({{"inverse3":[{{"device_id":"{}","commands":{{"set_cursor_force":{{"{}":)"
+                     R"({{"x":{:.6f},"y":{:.6f},"z":{:.6f}}}}}}}}}]}})",
+                     device_id, field == HaplyForceField::vector ? "vector" : "values", plain(force_n.x),
+                     plain(force_n.y), plain(force_n.z));
 }
 
 }  // namespace osteomill

@@ -1,7 +1,6 @@
 #include "haptic_server/monitoring/metrics_server.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <array>
 #include <boost/asio/io_context.hpp>
@@ -16,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/log/log.h"
 #include "common/text/foreign_text.h"
 #include "haptic_server/monitoring/host_name.h"
 
@@ -125,7 +125,7 @@ class MetricsServer::Impl {
         try {
             io_.run();
         } catch (const std::exception& error) {
-            spdlog::error("--metrics has stopped: {}", error.what());
+            log_error("--metrics has stopped: {}", error.what());
         }
     }
 

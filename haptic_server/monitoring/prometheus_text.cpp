@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <utility>
 
+#include "common/text/append.h"
 #include "simulation/loop/milling_session.h"
 #include "simulation/safety/fault.h"
 
@@ -44,12 +44,11 @@ namespace {
 class Page {
   public:
     void head(const char* name, const char* type, const char* help) {
-        fmt::format_to(std::back_inserter(text_), "# HELP osteomill_{0} {2}\n# TYPE osteomill_{0} {1}\n",
-                       name, type, help);
+        append_formatted(text_, "# HELP osteomill_{0} {2}\n# TYPE osteomill_{0} {1}\n", name, type, help);
     }
     template <typename Value>
     void value(const std::string& name, const Value& value) {
-        fmt::format_to(std::back_inserter(text_), "osteomill_{} {}\n", name, value);
+        append_formatted(text_, "osteomill_{} {}\n", name, value);
     }
     template <typename Value>
     void only(const char* name, const char* type, const char* help, const Value& only_value) {

@@ -1,7 +1,6 @@
 #include "haptic_server/program/server.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +11,7 @@
 
 #include "common/files/atomic_file.h"
 #include "common/files/distinct_files.h"
+#include "common/log/log.h"
 #include "devices/hid/device_list.h"
 #include "devices/hid/hid_transport.h"
 #include "devices/measured/measured_profile.h"
@@ -111,10 +111,10 @@ void say_what_to_know(const MillingSessionOptions& options, const Scene& scene) 
     if (options.clock == ClockKind::real) {
         const std::string advice =
             advice_on_rights(real_time_rights(), std::filesystem::read_symlink("/proc/self/exe").string());
-        if (!advice.empty()) spdlog::warn("{}", advice);
+        if (!advice.empty()) log_warning("{}", advice);
     }
     if (options.vibration && std::ranges::none_of(scene.burrs, vibrates_in_reach))
-        spdlog::warn(
+        log_warning(
             "--vibration: no burr of the scene vibrates at {:.0f} Hz or below: there is nothing to render",
             HandpieceVibration::highest_hz);
 }
@@ -126,7 +126,7 @@ void run(SessionAssembly& assembly, EndPlaces& places, const std::atomic<bool>& 
             if (assembly.shown() != nullptr)
                 assembly.shown()->tell(line);
             else
-                spdlog::error("{}", line);
+                log_error("{}", line);
     };
     // People know how a session on the real clock goes.
     const bool shows_progress = assembly.options().clock == ClockKind::virtual_time;

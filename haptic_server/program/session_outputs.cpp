@@ -1,7 +1,6 @@
 #include "haptic_server/program/session_outputs.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <ostream>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 
 #include "analysis/report/write_report.h"
 #include "common/log/line_stream.h"
+#include "common/log/log.h"
 #include "common/program/progress.h"
 #include "common/words/translation.h"
 #include "imaging/case/case_placement.h"
@@ -46,7 +46,7 @@ class FirstFailure {
             if (line_.empty())
                 line_ = error.what();
             else
-                spdlog::error("{}", error.what());
+                log_error("{}", error.what());
         }
     }
     void require_none() const {
@@ -123,8 +123,8 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
     if (shown) shown->server().finish_recording();
     const auto recording = shown ? shown->server().recording() : std::nullopt;
     if (recording && recording->missed_ticks > 0)
-        spdlog::warn("{}: {} ticks are missing: the disk could not keep up", recording->file.string(),
-                     recording->missed_ticks);
+        log_warning("{}: {} ticks are missing: the disk could not keep up", recording->file.string(),
+                    recording->missed_ticks);
     failure.of([&] {
         if (!files.json) return;
         auto json = session_json(report, cost, peak_bytes, assembly.scene(), assembly.options());
@@ -139,8 +139,8 @@ void write_outputs(SessionAssembly& assembly, const OutputFiles& files, const Bo
     failure.of([&] {
         const auto say_how_to_report = [&](const std::filesystem::path& of) {
             if (files.report && std::filesystem::exists(of))
-                spdlog::error("once there is room on the disk, packet_replay {} --report {} makes the report",
-                              of.string(), files.report->string());
+                log_error("once there is room on the disk, packet_replay {} --report {} makes the report",
+                          of.string(), files.report->string());
         };
         if (recording && !recording->error.empty()) {
             say_how_to_report(recording->file);

@@ -1,11 +1,11 @@
 #include "haptic_server/session/save_and_finish.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <utility>
 
 #include "analysis/surface/mesh_file.h"
+#include "common/log/log.h"
 
 namespace osteomill {
 
@@ -21,7 +21,7 @@ ControlRunner::Requests SaveAndFinish::requests() {
 }
 
 void SaveAndFinish::tell(const std::string& line) {
-    spdlog::error("{}", line);
+    log_error("{}", line);
     const std::lock_guard lock(mutex_);
     news_.push_back(line);
 }
@@ -51,7 +51,7 @@ std::string SaveAndFinish::save(const Bone& bone, const std::string& mesh_ending
     thread_ = std::thread([this, copy = bone, mesh_ending] {
         const std::string wrong = save_(copy, mesh_ending);
         if (wrong.empty())
-            spdlog::info("the bone was saved{}", mesh_ending.empty() ? "" : " as a surface, " + mesh_ending);
+            log_info("the bone was saved{}", mesh_ending.empty() ? "" : " as a surface, " + mesh_ending);
         else
             tell(wrong);
         is_saving_.store(false);

@@ -1,7 +1,6 @@
 #include "haptic_server/session/session_assembly.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "common/files/distinct_files.h"
 #include "common/files/session_file.h"
+#include "common/log/log.h"
 #include "common/scene/device_mapping.h"
 
 namespace osteomill {
@@ -22,7 +22,7 @@ void begin_log(std::optional<Log>& log, const std::optional<std::filesystem::pat
                const std::string& header_line) {
     if (!file) return;
     log.emplace(*file, header_line);
-    if (log->torn()) spdlog::warn("{}", torn_line(*file, *log->torn()));
+    if (log->torn()) log_warning("{}", torn_line(*file, *log->torn()));
 }
 
 template <typename Log>

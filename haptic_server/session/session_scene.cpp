@@ -1,6 +1,5 @@
 #include "haptic_server/session/session_scene.h"
 
-#include <spdlog/spdlog.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <variant>
 
 #include "common/files/input_file.h"
+#include "common/log/log.h"
 #include "common/program/available_memory.h"
 #include "common/scene/scene.h"
 #include "common/scene/scene_file.h"
@@ -122,7 +122,7 @@ SessionScene load_session_scene(const SceneChoice& choice, const SessionScene* s
     Scene scene = load_scene(choice);
     if (choice.case_folder)
         if (const std::string line = unsigned_files(scene, *choice.case_folder); !line.empty())
-            spdlog::warn("{}", line);
+            log_warning("{}", line);
     std::vector<NamedFile> files = files_read(choice, scene);
     if (similar != nullptr && choice.name && makes_same_bone(scene, similar->scene)) {
         SessionScene other = *similar;
@@ -133,7 +133,7 @@ SessionScene load_session_scene(const SceneChoice& choice, const SessionScene* s
     }
     LoadedBone loaded = load_bone(scene, available_memory_bytes());
     if (!loaded.doubt.empty())
-        spdlog::warn("{}: {}", std::get<FileSource>(scene.bone).path.string(), loaded.doubt);
+        log_warning("{}: {}", std::get<FileSource>(scene.bone).path.string(), loaded.doubt);
     if (choice.bone && !choice.name) place_on_bone(scene, loaded.bone);
     SceneDigests digests = digests_of(choice, scene, loaded);
     return {std::move(scene),         std::move(loaded.bone),

@@ -1,7 +1,6 @@
 #include "haptic_server/session/shown_session.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <thread>
@@ -10,6 +9,7 @@
 #include "analysis/surface/mesh_file.h"
 #include "analysis/surface/surface_mesh.h"
 #include "common/files/atomic_file.h"
+#include "common/log/log.h"
 #include "common/wire/ct_pieces.h"
 #include "common/wire/frame.h"
 #include "haptic_server/session/tool_place.h"
@@ -92,10 +92,10 @@ ShownSession::ShownSession(ShownOptions options, SessionScene& scene, Bone mirro
 
 void ShownSession::wait_for_client(const std::atomic<bool>& stop) const {
     if (!waits_for_client_) return;
-    spdlog::info("the session begins when a client has drawn the bone");
+    log_info("the session begins when a client has drawn the bone");
     while (!server_.has_client_begun() && !stop.load() && !finish_requested())
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    if (!server_.has_client_begun()) spdlog::info("the session has not begun: no client drew the bone");
+    if (!server_.has_client_begun()) log_info("the session has not begun: no client drew the bone");
 }
 
 void ShownSession::end() {

@@ -1,12 +1,12 @@
 #include "haptic_server/streaming/connected_clients.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <boost/asio/ip/tcp.hpp>
 #include <utility>
 #include <variant>
 
+#include "common/log/log.h"
 #include "haptic_server/streaming/client_message.h"
 #include "haptic_server/streaming/connection_quota.h"
 
@@ -136,7 +136,7 @@ void ConnectedClients::cut_off(const std::string& line) {
 }
 
 void ConnectedClients::log_unidentified(const std::string& line) {
-    unidentified_log_.write(spdlog::level::warn, line, std::chrono::steady_clock::now());
+    unidentified_log_.write(LogLevel::warning, line, std::chrono::steady_clock::now());
 }
 
 bool ConnectedClients::may_control(Id id, Time now) const {
@@ -196,7 +196,7 @@ std::optional<WireError> ConnectedClients::take(Id id, const v2::ClientFrame& fr
     connection->pump();
     const auto& answer = std::get<std::optional<Answer>>(taken);
     if (const std::string reason = answer ? reason_to_ignore(*answer) : ""; !reason.empty())
-        client_log_.write(spdlog::level::warn, fmt::format("client {} {}", connection->peer(), reason),
+        client_log_.write(LogLevel::warning, fmt::format("client {} {}", connection->peer(), reason),
                           std::chrono::steady_clock::now());
     return std::nullopt;
 }
@@ -209,7 +209,7 @@ void ConnectedClients::dismiss(Id id, const std::string& peer, const std::string
     if (steered_last_ == id) steered_last_.reset();
     const bool was_unidentified = unidentified_.remove(id);
     (was_unidentified ? unidentified_log_ : client_log_)
-        .write(is_fault ? spdlog::level::warn : spdlog::level::info, fmt::format("client {} {}", peer, line),
+        .write(is_fault ? LogLevel::warning : LogLevel::info, fmt::format("client {} {}", peer, line),
                std::chrono::steady_clock::now());
     connections_.erase(id);
     watchers_.erase(id);
@@ -221,14 +221,14 @@ void ConnectedClients::dismiss(Id id, const std::string& peer, const std::string
 void ConnectedClients::drop_revoked(Time now) {
     if (!options_.tls) return;
     const RevocationLists::Check look = options_.tls->refresh(now);
-    if (!look.failure.empty()) spdlog::warn("{}", look.failure);
+    if (!look.failure.empty()) log_warning("{}", look.failure);
     if (!look.has_news) return;
     for (const auto& [id, connection] : std::map(connections_))
         if (connection->is_revoked()) connection->close("was dropped: its certificate is revoked", true);
 }
 
 void ConnectedClients::log_client(const std::string& line) {
-    client_log_.write(spdlog::level::info, line, std::chrono::steady_clock::now());
+    client_log_.write(LogLevel::info, line, std::chrono::steady_clock::now());
 }
 
 void ConnectedClients::log_holder() {

@@ -1,11 +1,11 @@
 #include "haptic_server/streaming/live_session.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <utility>
 
+#include "common/log/log.h"
 #include "common/scene/device_mapping.h"
 
 namespace osteomill {
@@ -66,7 +66,7 @@ SessionState LiveSession::update(BoneReplica& mirror, std::size_t) {
         if (!structures_.empty()) note_for_structures(change, fractions, mirror.bone());
         refused += mirror.apply(change, fractions) ? 0 : 1;
     });
-    if (refused > 0) spdlog::error("{} changes do not fit the bone that clients are shown", refused);
+    if (refused > 0) log_error("{} changes do not fit the bone that clients are shown", refused);
     tool_.refresh();
     SessionState state{.tool = tool_.front()};
     ToolState& tool = state.tool;
@@ -78,7 +78,7 @@ SessionState LiveSession::update(BoneReplica& mirror, std::size_t) {
         structures_.update(tool);
         state.distances = structures_.distances();
         for (const std::string& line : structure_log_->lines(structures_.distances(), tool.time_s))
-            spdlog::warn("{}", line);
+            log_warning("{}", line);
     }
     if (controls_ != nullptr) {
         for (; !script_.empty() && script_.front().time_s <= tool.time_s; script_.pop_front())
@@ -107,7 +107,7 @@ std::shared_ptr<const CtVolume> LiveSession::ct() {
     try {
         ct_ = std::make_shared<const CtVolume>(ct_under_way_.get());
     } catch (const std::exception& error) {
-        spdlog::error("the CT cannot be shown: {}", error.what());
+        log_error("the CT cannot be shown: {}", error.what());
         make_ct_ = nullptr;
     }
     return ct_;

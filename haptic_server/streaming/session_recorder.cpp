@@ -1,11 +1,10 @@
 #include "haptic_server/streaming/session_recorder.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "common/files/session_file.h"
+#include "common/log/log.h"
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 
@@ -45,10 +44,9 @@ SessionRecorder::SessionRecorder(const RecordTo& to, v2::Hello hello, const Bone
           [this, on_news = to.on_news](RecordingNews news, const std::string& line) {
               if (!is_under_way_) return;
               if (news == RecordingNews::goes_on)
-                  spdlog::warn("{}", line);
+                  log_warning("{}", line);
               else
-                  spdlog::error("{}; the session goes on, and the recording, too, once it can be written",
-                                line);
+                  log_error("{}; the session goes on, and the recording, too, once it can be written", line);
               if (on_news) on_news(news, line);
           },
           WhenDiskIsFull::try_again) {
@@ -59,7 +57,7 @@ SessionRecorder::SessionRecorder(const RecordTo& to, v2::Hello hello, const Bone
         throw RecordingError(writer_.report().error);
     }
     is_under_way_ = true;
-    if (writer_.torn()) spdlog::warn("{}", torn_line(to.file, *writer_.torn()));
+    if (writer_.torn()) log_warning("{}", torn_line(to.file, *writer_.torn()));
 }
 
 void SessionRecorder::begin(SessionState& state, Wait wait) {

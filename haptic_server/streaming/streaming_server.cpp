@@ -1,7 +1,5 @@
 #include "haptic_server/streaming/streaming_server.h"
 
-#include <spdlog/spdlog.h>
-
 #include <atomic>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
@@ -19,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/log/log.h"
 #include "common/net/listen_address.h"
 #include "common/wire/bone_replica.h"
 #include "common/wire/frame.h"
@@ -73,7 +72,7 @@ tcp::acceptor listen(asio::io_context& io, const StreamingOptions& options) {
         throw std::runtime_error("cannot listen on " + where +
                                  ": without TLS only this machine is served; use 127.0.0.1 or ::1");
     if (!address.is_loopback() && !options.tls)
-        spdlog::warn("{} is served without TLS: anybody who reaches it sees everything and may drill", where);
+        log_warning("{} is served without TLS: anybody who reaches it sees everything and may drill", where);
     tcp::acceptor acceptor(io);
     const tcp::endpoint endpoint(address, options.port);
     acceptor.open(endpoint.protocol(), error);
@@ -115,8 +114,8 @@ class StreamingServer::Impl {
         if (options_.record) recorder_.emplace(*options_.record, hello_, mirror_, structures_);
         if (acceptor_) {
             port_ = acceptor_->local_endpoint().port();
-            spdlog::info("listening on {}{}", text_of_address(options_.address, port_),
-                         options_.tls ? " with TLS" : "");
+            log_info("listening on {}{}", text_of_address(options_.address, port_),
+                     options_.tls ? " with TLS" : "");
             accept();
         }
         next_frame_ = Clock::now();
@@ -177,7 +176,7 @@ class StreamingServer::Impl {
             // Haptics go on without spectators.
             has_failed_ = true;
             clients_.end_lease();
-            spdlog::error("streaming has stopped: {}", error.what());
+            log_error("streaming has stopped: {}", error.what());
             clients_.cut_off("was cut off");
             handshakes_.cancel();
         }

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
+#include "common/text/append.h"
 #include "imaging/bone_file/nrrd_writer.h"
 #include "imaging/imaging_error.h"
 
@@ -89,8 +89,7 @@ std::string text_of_removed(const VolumesByTissue& removed_mm3) {
     std::string text;
     for (std::size_t label = 0; label < removed_mm3.size(); ++label)
         if (removed_mm3[label] > least_mm3)
-            fmt::format_to(std::back_inserter(text), "{}{}:{:.9f}", text.empty() ? "" : " ", label,
-                           removed_mm3[label]);
+            append_formatted(text, "{}{}:{:.9f}", text.empty() ? "" : " ", label, removed_mm3[label]);
     return text;
 }
 

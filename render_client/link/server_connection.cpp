@@ -1,7 +1,5 @@
 #include "render_client/link/server_connection.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/error.hpp>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "common/files/session_file.h"
+#include "common/log/log.h"
 #include "common/net/stream.h"
 #include "common/text/foreign_text.h"
 #include "common/wire/control_messages.h"
@@ -44,7 +43,7 @@ ServerConnection::ServerConnection(std::string host, std::uint16_t port,
     : host_(std::move(host)), port_(port), where_(host_ + ":" + std::to_string(port_)) {
     if (tls) tls_ = std::make_unique<TlsContext>(*tls, TlsContext::Role::client);
     if (record) recorder_.emplace(*record, nullptr, WhenDiskIsFull::end);
-    if (record && recorder_->torn()) spdlog::warn("{}", torn_line(*record, *recorder_->torn()));
+    if (record && recorder_->torn()) log_warning("{}", torn_line(*record, *recorder_->torn()));
     announce(LinkStatus::connecting, trf("connecting to {}", where_));
     asio::post(io_, [this] { connect(); });
     thread_ = std::thread([this] { run(); });
@@ -186,7 +185,7 @@ void ServerConnection::connect() {
 void ServerConnection::shake_hands() {
     if (tls_) {
         const RevocationLists::Check look = tls_->refresh(std::chrono::steady_clock::now());
-        if (!look.failure.empty()) spdlog::warn("{}", look.failure);
+        if (!look.failure.empty()) log_warning("{}", look.failure);
     }
     stream_ = connecting_stream(std::move(socket_), tls_.get(), host_, read_bytes);
     stream_->handshake([this, generation = generation_](const std::string& failure) {

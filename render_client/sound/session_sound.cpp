@@ -1,9 +1,8 @@
 #include "render_client/sound/session_sound.h"
 
-#include <spdlog/spdlog.h>
-
 #include <utility>
 
+#include "common/log/log.h"
 #include "common/words/translation.h"
 
 namespace osteomill {
@@ -19,7 +18,7 @@ std::string SessionSound::switch_to(bool on) {
         return trf("sound on: {}", speaker_->device_name());
     } catch (const NoSound& error) {
         const std::string line = trf("no sound: {}", error.what());
-        spdlog::warn("{}", line);
+        log_warning("{}", line);
         return line;
     }
 }
@@ -43,7 +42,7 @@ std::string SessionSound::hear(const std::optional<ToolState>& tool, const Sessi
         has_no_speaker_ = true;
         if (!std::exchange(is_on_, false)) return {};
         const std::string line = tr("no sound: the loudspeaker is gone");
-        spdlog::warn("{}", line);
+        log_warning("{}", line);
         return line;
     }
     const bool is_news = tool && tool->time_s != heard_time_s_;

@@ -1,13 +1,13 @@
 #include "render_client/ui/offscreen_run.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
 
+#include "common/log/log.h"
 #include "render_client/sound/session_sound.h"
 #include "render_client/ui/view/picture_export.h"
 #include "render_client/ui/view/picture_options.h"
@@ -38,8 +38,8 @@ bool wait_for_bone(SessionPicture& session, const std::function<bool()>& stop_re
     while (!stop_requested()) {
         session.take_in();
         if (const double waited_s = seconds(Clock::now() - start); waited_s > says_at_s) {
-            spdlog::info("waiting for a bone, {:.0f} of at most {:.0f} s: {}", waited_s,
-                         longest_wait_for_bone_s, session.link().status_line);
+            log_info("waiting for a bone, {:.0f} of at most {:.0f} s: {}", waited_s, longest_wait_for_bone_s,
+                     session.link().status_line);
             says_at_s += said_again_after_s;
         }
         if (session.has_bone()) return true;

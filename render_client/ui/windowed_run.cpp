@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_internal.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 #include <glm/common.hpp>
 #include <thread>
 
+#include "common/log/log.h"
 #include "common/scene/scene_file.h"
 #include "render_client/dataset/pinhole.h"
 #include "render_client/sound/session_sound.h"
@@ -122,7 +122,7 @@ class Drawing {
         take_over(session_, options);
         take_over_kept();
         if (!settings_.wrong().empty()) {
-            spdlog::warn("{}", settings_.wrong());
+            log_warning("{}", settings_.wrong());
             commands_.say(settings_.wrong(), 0.0);
         }
         session_.view().transfer_has_file = look_.has_file();

@@ -2,10 +2,10 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <memory>
 #include <utility>
 
+#include "common/text/append.h"
 #include "simulation/force_models/ball_rows.h"
 
 namespace osteomill {
@@ -15,9 +15,9 @@ std::string MillingSample::header_line() {
 }
 
 void MillingSample::append_to(fmt::memory_buffer& text) const {
-    fmt::format_to(std::back_inserter(text), "{:.5f},{:.5f},{:.5f},{:.5f},{:.6f},{:.6f},{:.6f},{:.8f},{:d}\n",
-                   time_s, burr_mm.x, burr_mm.y, burr_mm.z, force_n.x, force_n.y, force_n.z, removed_mm3,
-                   spindle_on ? 1 : 0);
+    append_formatted(text, "{:.5f},{:.5f},{:.5f},{:.5f},{:.6f},{:.6f},{:.6f},{:.8f},{:d}\n", time_s,
+                     burr_mm.x, burr_mm.y, burr_mm.z, force_n.x, force_n.y, force_n.z, removed_mm3,
+                     spindle_on ? 1 : 0);
 }
 
 namespace {

@@ -13,7 +13,7 @@ MODULES = {
     "common/scene/": ("common/bone/", "common/files/", "common/text/"),
     "common/": (),
     "bridge/": (),
-    "simulation/": ("common/bone/", "common/scene/", "common/session/"),
+    "simulation/": ("common/bone/", "common/scene/", "common/session/", "common/text/append.h"),
     "devices/": ("common/", "bridge/", "simulation/device/", "simulation/exchange/"),
     "imaging/case/": ("common/", "imaging/", "simulation/force_models/"),
     "imaging/": ("common/",),

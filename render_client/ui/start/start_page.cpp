@@ -1,7 +1,6 @@
 #include "render_client/ui/start/start_page.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "common/log/log.h"
 #include "common/program/available_memory.h"
 #include "common/text/foreign_text.h"
 #include "common/words/translation.h"
@@ -91,8 +91,8 @@ std::string end_in_words(const ChildProgram& server, bool is_recorded, bool is_b
                         "first under Sessions so far: \"Make report\" makes its report.")
                    : tr("The session was broken off here, as you asked, before anything was recorded.");
     if (status > 0) return failure_in_words(server);
-    spdlog::warn("haptic_server was ended by signal {} ({}); its last line: {}", -status, strsignal(-status),
-                 printable(server.last_line()));
+    log_warning("haptic_server was ended by signal {} ({}); its last line: {}", -status, strsignal(-status),
+                printable(server.last_line()));
     return is_recorded
                ? tr("The session was broken off: its program ended in the middle. What you did until then is "
                     "kept, first under Sessions so far: \"Make report\" makes its report. Then start anew; "

@@ -1,13 +1,12 @@
 #include "render_client/ui/view/fixture_borders.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <chrono>
 #include <exception>
 #include <utility>
 
 #include "common/bone/structure_mask.h"
+#include "common/log/log.h"
 #include "render_client/volume/bone_colours.h"
 #include "render_client/volume/structures/structure_surface.h"
 
@@ -27,7 +26,7 @@ StructureSurface border_of(const StructureMask& structure, double distance_mm, c
     try {
         return surface_of(region_about(structure, distance_mm), colour);
     } catch (const std::exception& error) {
-        spdlog::warn("the border of a fixture is not drawn: {}", error.what());
+        log_warning("the border of a fixture is not drawn: {}", error.what());
         return {};
     }
 }

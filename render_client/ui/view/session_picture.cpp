@@ -1,7 +1,6 @@
 #include "render_client/ui/view/session_picture.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "common/log/log.h"
 #include "common/session/tool_state.h"
 #include "render_client/dataset/first_view.h"
 #include "render_client/ui/panels/inset_panel.h"
@@ -202,7 +202,7 @@ void SessionPicture::show_other_textures(DrawingCost cost) {
     const BoneTextures* textures = bone_.textures();
     if (textures == nullptr) return;
     if (textures->plan().layout != BoneLayout::dense || textures->plan().coarsening > 1)
-        spdlog::info("the bone is drawn from {}", description(textures->plan()));
+        log_info("the bone is drawn from {}", description(textures->plan()));
     const glm::dvec3 half_mm = 0.5 * textures->grid().spacing_mm * glm::dvec3(textures->box().size);
     const glm::dvec3 middle_mm = ball_round(*textures).centre_mm;
     view_.cuts.set_bounds(middle_mm - half_mm, middle_mm + half_mm);

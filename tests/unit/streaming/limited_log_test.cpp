@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <sstream>
@@ -30,7 +31,7 @@ class LimitedLogTest : public ::testing::Test {
 TEST_F(LimitedLogTest, WritesAFewLinesOfAFloodAndCountsTheRest) {
     LimitedLog log;
     const LimitedLog::Time start{};
-    for (int i = 0; i < 1000; ++i) log.write(spdlog::level::warn, "a client was refused", start);
+    for (int i = 0; i < 1000; ++i) log.write(LogLevel::warning, "a client was refused", start);
     const auto at_once = static_cast<std::size_t>(LimitedLog::lines_at_once);
     EXPECT_EQ(lines(), at_once);
     log.tell_left_out(start);
