@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <regex>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "common/bone/grid.h"
+#include "common/text/pattern.h"
 #include "common/words/translation.h"
 
 namespace osteomill {
@@ -116,14 +118,13 @@ std::string without_options(std::string line) {
 }
 
 std::string specks_said(const std::string& said) {
-    static const std::regex words(
+    static const Pattern words(
         R"((\d+) parts? of bone of less than (\S+) mm3, (\S+) mm3 in all, touch\w* nothing else; (left out)?)");
-    std::smatch found;
-    if (!std::regex_search(said, found, words)) return {};
-    const std::string parts =
-        with_decimal_sign(trf("loose parts of bone of less than {} mm³ each: {}, {} mm³ in all", found.str(2),
-                              found.str(1), found.str(3)));
-    return parts + (found[4].matched ? tr(", left out") : tr(", kept"));
+    const std::vector<std::string> found = words.first_in(said);
+    if (found.empty()) return {};
+    const std::string parts = with_decimal_sign(
+        trf("loose parts of bone of less than {} mm³ each: {}, {} mm³ in all", found[2], found[1], found[3]));
+    return parts + (found[4].empty() ? tr(", kept") : tr(", left out"));
 }
 
 double default_spacing_mm(const ImportForm& form, const ScanPreview& look) {
