@@ -1,8 +1,6 @@
 // osteomill_slicer: shows a session of haptic_server in 3D Slicer.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -11,6 +9,7 @@
 
 #include "common/net/listen_address.h"
 #include "common/net/tls_options.h"
+#include "common/program/command_options.h"
 #include "common/program/run_program.h"
 #include "slicer/slicer_session.h"
 
@@ -27,18 +26,17 @@ struct Options {
 /// Throws std::invalid_argument with one line for wrong usage.
 ParseResult<Options> parsed(int argc, const char* const* argv) {
     Options options;
-    CLI::App app("Shows a session of haptic_server in 3D Slicer, by OpenIGTLink.", "osteomill_slicer");
-    app.set_version_flag("--version", "osteomill_slicer " OSTEOMILL_VERSION);
+    CommandOptions app("Shows a session of haptic_server in 3D Slicer, by OpenIGTLink.", "osteomill_slicer",
+                       "osteomill_slicer " OSTEOMILL_VERSION);
     std::string server;
-    CLI::Option* const connect =
-        app.add_option("--connect", server, "The server's HOST:PORT (127.0.0.1:7010)")
-            ->type_name("HOST:PORT");
+    const CommandOption connect =
+        app.add_option("--connect", server, "The server's HOST:PORT (127.0.0.1:7010)").type_name("HOST:PORT");
     const TlsOptions tls(app);
     app.add_option("--port", options.port,
                    "On this machine, which 3D Slicer connects to (18944); 0: a free one")
-        ->check(CLI::Range(0, 65535));
-    if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
-    if (connect->count() > 0) try {
+        .check(whole_within(0, 65535));
+    if (auto text = app.parse_or_text(argc, argv)) return {std::nullopt, *std::move(text)};
+    if (connect.count() > 0) try {
             options.server = parse_server_address(server);
         } catch (const std::invalid_argument& error) {
             throw std::invalid_argument(fmt::format("--connect: {}", error.what()));

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,7 +9,7 @@
 #include "analysis/surface/mesh_file.h"
 #include "analysis/surface/surface_mesh.h"
 #include "common/files/distinct_files.h"
-#include "common/program/option_checks.h"
+#include "common/program/command_options.h"
 #include "imaging/bone_file/bone_of_file.h"
 #include "imaging/bone_file/removed_bone.h"
 #include "imaging/imaging_error.h"
@@ -77,26 +76,25 @@ void export_surface(const ExportOptions& options, const Bone& bone,
 ParseResult<ExportOptions> parse_export_command_line(int argc, const char* const* argv,
                                                      const std::string& version) {
     ExportOptions options;
-    CLI::App app(
+    CommandOptions app(
         "Writes the surface of a bone, carved or not, for other programs; or what was removed of it.",
-        "bone_export");
-    app.set_version_flag("--version", fmt::format("bone_export {}", version));
+        "bone_export", fmt::format("bone_export {}", version));
     app.add_option("BONE.nrrd", options.bone, "A bone file of bone_import or haptic_server --save-bone")
-        ->required();
+        .required();
     app.add_option("OUT", options.output,
                    "OUT.stl, OUT.ply or OUT.obj: the surface, closed, in mm of patient LPS; with --removed "
                    "OUT.nrrd")
-        ->required();
+        .required();
     app.add_option("--removed", options.original,
                    "The bone file that BONE.nrrd was carved from: write what is gone of each voxel, 0 to 255")
-        ->type_name("ORIGINAL.nrrd");
+        .type_name("ORIGINAL.nrrd");
     app.add_option("--threshold-hu", options.threshold_hu,
                    "Bone is at and above this (default: as the file says, else 300)")
-        ->check(within(-1024.0, 10000.0));
+        .check(within(-1024.0, 10000.0));
     app.add_option("--spacing-mm", options.cell_mm,
                    "Coarser triangles, of cells about so long: for printing (default: a voxel)")
-        ->check(within(0.01, 10.0));
-    if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
+        .check(within(0.01, 10.0));
+    if (auto text = app.parse_or_text(argc, argv)) return {std::nullopt, *std::move(text)};
     if (options.cell_mm && options.original)
         throw std::invalid_argument("--spacing-mm: of a surface; what was removed has the bone's own");
     if (options.original && options.output.extension() != ".nrrd")

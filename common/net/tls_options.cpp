@@ -1,22 +1,23 @@
 #include "common/net/tls_options.h"
 
-#include <CLI/CLI.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "common/program/command_options.h"
+
 namespace osteomill {
 
-TlsOptions::TlsOptions(CLI::App& app) {
+TlsOptions::TlsOptions(CommandOptions& app) {
     app.add_option("--tls-cert", certificate_, "Speak TLS 1.3, and show this certificate")
-        ->type_name("FILE.pem");
-    app.add_option("--tls-key", key_, "Its private key")->type_name("FILE.pem");
+        .type_name("FILE.pem");
+    app.add_option("--tls-key", key_, "Its private key").type_name("FILE.pem");
     app.add_option("--tls-ca", ca_, "The lab's CA: only whom it vouches for may be at the other end")
-        ->type_name("FILE.pem");
+        .type_name("FILE.pem");
     app.add_option(
            "--tls-crl", crl_,
            "Whom the CA no longer vouches for: its list of revoked certificates, read again when it changes; "
            "an expired list refuses everybody")
-        ->type_name("FILE.pem");
+        .type_name("FILE.pem");
 }
 
 std::optional<TlsFiles> TlsOptions::files() const {

@@ -8,11 +8,9 @@
 
 #include "common/files/distinct_files.h"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace osteomill {
+
+class CommandOptions;
 
 // The files that a program needs to speak TLS.
 
@@ -27,7 +25,7 @@ struct TlsFiles {
 class TlsOptions {
   public:
     /// Adds the options; outlives the parsing.
-    explicit TlsOptions(CLI::App& app);
+    explicit TlsOptions(CommandOptions& app);
     TlsOptions(const TlsOptions&) = delete;
     TlsOptions& operator=(const TlsOptions&) = delete;
 

@@ -16,10 +16,6 @@
 #include "common/log/line_stream.h"
 #include "common/text/foreign_text.h"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace osteomill {
 
 /// Options to run with, or a text (help, version) to print and be done.
@@ -39,10 +35,6 @@ auto said_of_option(const char* option, Read&& read) {
         throw std::invalid_argument(fmt::format("{}: {}", option, error.what()));
     }
 }
-
-/// Fills in what `app` has declared; returns the text if help or the version is requested. Throws
-/// std::invalid_argument with one line for wrong usage.
-std::optional<std::string> parse_or_text(CLI::App& app, int argc, const char* const* argv);
 
 // The signals that end a program, as a flag, so that it can save its data first.
 

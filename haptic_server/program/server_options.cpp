@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -13,7 +12,7 @@
 
 #include "analysis/surface/mesh_file.h"
 #include "common/files/distinct_files.h"
-#include "common/program/option_checks.h"
+#include "common/program/command_options.h"
 #include "haptic_server/program/session_outputs.h"
 #include "haptic_server/program/typed_server_options.h"
 #include "haptic_server/session/measured_device.h"
@@ -22,23 +21,24 @@
 
 namespace osteomill {
 
-void DeviceOptions::declare(CLI::App& app) {
+void DeviceOptions::declare(CommandOptions& app) {
     std::vector<std::string> names;
     std::string help = "Who moves the tool:";
     for (const DeviceEntry& entry : devices()) {
         names.emplace_back(entry.name);
         help += fmt::format("\n  {}: {}", entry.name, entry.text);
     }
-    app.add_option("--device", device_, help)->check(one_of(names))->capture_default_str();
-    std::map<std::string, CLI::Option*> declared;  // several devices may share one
+    app.add_option("--device", device_, help).check(one_of(names)).shows_default();
+    std::map<std::string, CommandOption> declared;  // several devices may share one
     for (const DeviceEntry& entry : devices())
         for (const DeviceOption& option : entry.options) {
             const std::string text = fmt::format("With --device {}: {}", entry.name, option.help);
-            CLI::Option*& of_flag = declared[option.flag];
-            if (of_flag == nullptr)
-                of_flag = app.add_option(option.flag, texts_[option.flag], text)->type_name(option.type_name);
+            if (const auto found = declared.find(option.flag); found != declared.end())
+                found->second.add_help(text);
             else
-                of_flag->description(of_flag->get_description() + "\n" + text);
+                declared.emplace(
+                    option.flag,
+                    app.add_option(option.flag, texts_[option.flag], text).type_name(option.type_name));
         }
     app.add_flag("--list-devices", lists_devices_,
                  "Say which haptic devices are plugged in and whether they can be used, and end");
@@ -303,13 +303,12 @@ ServerOptions checked(const TypedServerOptions& typed, const AccessOptions& acce
 
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
     TypedServerOptions typed;
-    CLI::App app(
+    CommandOptions app(
         "Owns the bone, mills it at up to 10 kHz, feeds forces to the hand and shows clients the rest.",
-        "haptic_server");
-    app.set_version_flag("--version", fmt::format("haptic_server {}", version));
+        "haptic_server", fmt::format("haptic_server {}", version));
     declare(app, typed);
     const AccessOptions access(app);
-    if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
+    if (auto text = app.parse_or_text(argc, argv)) return {std::nullopt, *std::move(text)};
     return {checked(typed, access), {}};
 }
 

@@ -21,10 +21,6 @@
 #include "haptic_server/streaming/access_options.h"
 #include "simulation/loop/milling_session.h"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace osteomill {
 
 /// Options of haptic_server for the device that moves the tool.
@@ -38,7 +34,7 @@ struct DeviceChoice {
 class DeviceOptions {
   public:
     /// Adds the options. Outlives the parsing.
-    void declare(CLI::App& app);
+    void declare(CommandOptions& app);
     /// After parsing. Throws std::invalid_argument with one line for options that do not go together.
     DeviceChoice checked() const;
 

@@ -7,10 +7,6 @@
 
 #include "haptic_server/program/server_options.h"
 
-namespace CLI {
-class App;
-}
-
 namespace osteomill {
 
 struct TypedServerOptions {
@@ -31,6 +27,6 @@ struct TypedServerOptions {
 };
 
 /// Declares the options with their help and ranges; parsing fills in `typed`, which outlives `app`.
-void declare(CLI::App& app, TypedServerOptions& typed);
+void declare(CommandOptions& app, TypedServerOptions& typed);
 
 }  // namespace osteomill

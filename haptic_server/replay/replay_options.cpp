@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -10,7 +9,7 @@
 
 #include "analysis/surface/mesh_file.h"
 #include "common/files/distinct_files.h"
-#include "common/program/option_checks.h"
+#include "common/program/command_options.h"
 #include "common/words/translation.h"
 
 namespace osteomill {
@@ -102,36 +101,38 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
     ReplayOptions options;
     std::string listen = "127.0.0.1:7010";
     std::string layout = hdf5_layout_names.front();
-    CLI::App app(
+    CommandOptions app(
         "Shows a recording of haptic_server --record to render clients, from the moment that the first one "
         "joins; or says what is in it.",
-        "packet_replay");
-    app.set_version_flag("--version", fmt::format("packet_replay {}", version));
-    app.add_option("FILE", options.recording, "The recording")->required();
-    auto* where = app.add_option("--listen", listen, "Where clients connect, port 0: any free one")
-                      ->type_name("ADDRESS:PORT")
-                      ->capture_default_str();
+        "packet_replay", fmt::format("packet_replay {}", version));
+    app.add_option("FILE", options.recording, "The recording").required();
+    const CommandOption where =
+        app.add_option("--listen", listen, "Where clients connect, port 0: any free one")
+            .type_name("ADDRESS:PORT")
+            .shows_default();
     const AccessOptions access(app);
-    auto* speed = app.add_option("--speed", options.speed, "Recorded seconds a second")
-                      ->check(within(slowest, fastest))
-                      ->capture_default_str();
-    auto* from = app.add_option("--from-s", options.from_s, "Begin so long after the recording's beginning")
-                     ->check(not_below_zero());
+    const CommandOption speed = app.add_option("--speed", options.speed, "Recorded seconds a second")
+                                    .check(within(slowest, fastest))
+                                    .shows_default();
+    const CommandOption from =
+        app.add_option("--from-s", options.from_s, "Begin so long after the recording's beginning")
+            .check(not_below_zero());
     app.add_flag("--info", options.info,
                  "Print duration, rates, burrs, removed volume by tissue, checksum; serve nobody");
     for (const Output& output : outputs)
-        app.add_option(output.option, options.*output.file, output.help)->type_name(output.type_name);
-    auto* of_hdf5 =
+        app.add_option(output.option, options.*output.file, output.help).type_name(output.type_name);
+    const CommandOption of_hdf5 =
         app.add_option(
                "--layout", layout,
                "Layout of --hdf5: our own, or that of FIVRS's recordings for its analysis programs; fivrs-v3 "
                "writes a second file beside it, in the folder v3")
-            ->check(one_of({hdf5_layout_names.begin(), hdf5_layout_names.end()}))
-            ->capture_default_str();
-    auto* of_report = app.add_option("--language", options.report_language, "Language of --report")
-                          ->check(one_of(languages()))
-                          ->capture_default_str();
-    if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
+            .check(one_of({hdf5_layout_names.begin(), hdf5_layout_names.end()}))
+            .shows_default();
+    const CommandOption of_report =
+        app.add_option("--language", options.report_language, "Language of --report")
+            .check(one_of(languages()))
+            .shows_default();
+    if (auto text = app.parse_or_text(argc, argv)) return {std::nullopt, *std::move(text)};
     options.layout =
         static_cast<Hdf5Layout>(std::ranges::find(hdf5_layout_names, layout) - hdf5_layout_names.begin());
     if (options.surface && !is_mesh_name(*options.surface))
@@ -139,18 +140,18 @@ ReplayCommandLine parse_replay_command_line(int argc, const char* const* argv, c
             fmt::format("--surface: '{}' must end in {}", options.surface->string(), mesh_endings));
     require_ending("--difference", options.difference, ".nrrd");
     require_ending("--sound", options.sound, ".wav");
-    require_hdf5_name(options, of_hdf5->count() > 0);
-    if (of_report->count() > 0 && !options.report)
+    require_hdf5_name(options, of_hdf5.count() > 0);
+    if (of_report.count() > 0 && !options.report)
         throw std::invalid_argument("--language: goes with --report");
     require_distinct(files_of(options, access));
-    if (options.film && (options.only_reads() || where->count() > 0))
+    if (options.film && (options.only_reads() || where.count() > 0))
         throw std::invalid_argument("--film: goes with --speed and --from-s alone");
-    for (const CLI::Option* serving : {where, speed, from})
-        if (options.only_reads() && serving->count() > 0)
+    for (const CommandOption serving : {where, speed, from})
+        if (options.only_reads() && serving.count() > 0)
             throw std::invalid_argument(fmt::format(
                 "{} is for showing a recording; --info, --json, --csv, --states-csv, "
                 "--trajectory, --surface, --difference, --sound, --hdf5 and --report read all of it",
-                serving->get_name()));
+                serving.name()));
     options.listen = said_of_option("--listen", [&] { return parse_listen_address(listen); });
     options.access = access.access_to(options.listen);
     return {options, {}};

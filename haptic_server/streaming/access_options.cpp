@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <stdexcept>
+
+#include "common/net/tls_context.h"
+#include "common/program/command_options.h"
 
 namespace osteomill {
 
-AccessOptions::AccessOptions(CLI::App& app) : tls_(app) {
+AccessOptions::AccessOptions(CommandOptions& app) : tls_(app) {
     app.add_flag("--insecure-network", insecure_network_,
                  "Serve other machines, too, without TLS: anyone who reaches the port sees everything, and "
                  "may drill");

@@ -19,7 +19,7 @@ struct Access {
 class AccessOptions {
   public:
     /// Adds the options; outlives the parsing.
-    explicit AccessOptions(CLI::App& app);
+    explicit AccessOptions(CommandOptions& app);
 
     /// After parsing. Throws std::invalid_argument, in one line, if only some of the TLS files are named, or
     /// if other machines would be served unencrypted without the option for it.

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
@@ -18,7 +17,7 @@
 
 #include "common/files/distinct_files.h"
 #include "common/program/available_memory.h"
-#include "common/program/option_checks.h"
+#include "common/program/command_options.h"
 #include "common/program/run_program.h"
 #include "common/scene/tissue_tables.h"
 #include "imaging/case/case_folder.h"
@@ -116,72 +115,74 @@ std::string made(const std::string& what, const std::string& path, const std::st
     return line + '\n';
 }
 
-void add_options(CLI::App& app, ImportCommand& command, Texts& texts) {
+void add_options(CommandOptions& app, ImportCommand& command, Texts& texts) {
     ImportOptions& options = command.options;
     app.add_option("INPUT", options.input,
                    "DICOM folder, a NRRD, NIfTI or MetaImage file, or a folder of PNG or TIFF pictures");
-    auto* output =
+    const CommandOption output =
         app.add_option("OUTPUT.nrrd", options.output, "bone file to write (int16 HU, patient LPS, gzip)");
     app.add_option("--case", command.case_folder,
                    "folder to make a case in, instead: case.toml, bone.nrrd and the segmentation")
-        ->type_name("DIR")
-        ->excludes(output);
+        .type_name("DIR")
+        .excludes(output);
     app.add_option(
            "--preview", command.preview,
            "instead of a bone: say what the scan covers and its HU, and draw three slices of it, at "
            "0.5 mm unless --spacing-mm says otherwise, with the --region; VOXELS.raw: all slices, a byte "
            "of grey for each voxel, then one of its segment")
-        ->type_name("PICTURE.png")
-        ->excludes(output)
-        ->excludes("--case");
-    add_texts(app, "--labels", texts.labels,
-              "in place of INPUT, with --case: bone is made of the segments of a label map that are bone "
-              "by their names, or by --material; a folder: all label maps in it, or a stack of pictures; "
-              "again for each further file")
-        ->type_name("FILE");
-    add_texts(app, "--material", texts.materials,
-              "what a segment is made of (scenes/materials.toml), such as \"Tooth 36=enamel\"; NAME=soft: "
-              "no bone; again for each further one")
-        ->type_name("NAME=MATERIAL");
+        .type_name("PICTURE.png")
+        .excludes(output)
+        .excludes("--case");
+    app.add_texts("--labels", texts.labels,
+                  "in place of INPUT, with --case: bone is made of the segments of a label map that are bone "
+                  "by their names, or by --material; a folder: all label maps in it, or a stack of pictures; "
+                  "again for each further file")
+        .type_name("FILE");
+    app.add_texts(
+           "--material", texts.materials,
+           "what a segment is made of (scenes/materials.toml), such as \"Tooth 36=enamel\"; NAME=soft: "
+           "no bone; again for each further one")
+        .type_name("NAME=MATERIAL");
     app.add_option(
            "--stack-spacing", texts.stack_spacing,
            "x,y,z in mm: of pixels and slices, where INPUT or labels are a stack of PNG or TIFF pictures")
-        ->type_name("X,Y,Z");
-    add_texts(app, "--segmentation", texts.segmentations,
-              "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, "
-              "NIfTI); again for each further file; with --preview their names are said")
-        ->type_name("FILE");
+        .type_name("X,Y,Z");
+    app.add_texts("--segmentation", texts.segmentations,
+                  "with --case: tissues, as 3D Slicer writes them (.seg.nrrd), or a label map (NRRD, "
+                  "NIfTI); again for each further file; with --preview their names are said")
+        .type_name("FILE");
     app.add_option(
            "--colours", command.parts.colours,
            "names and colours of a label map's labels: a colour table of 3D Slicer (.ctbl) or ITK-SNAP")
-        ->type_name("FILE");
-    add_texts(
-        app, "--protect", texts.protect,
-        "with --segmentation: a segment that must not be touched, and its own --warn-mm; again for each "
-        "further one")
-        ->type_name("NAME[=MM]");
+        .type_name("FILE");
+    app.add_texts(
+           "--protect", texts.protect,
+           "with --segmentation: a segment that must not be touched, and its own --warn-mm; again for each "
+           "further one")
+        .type_name("NAME[=MM]");
     app.add_option("--warn-mm", command.parts.warn_mm, "of the protected: warn of a burr that is nearer")
-        ->check(within(0.0, most_warn_mm))
-        ->capture_default_str();
+        .check(within(0.0, most_warn_mm))
+        .shows_default();
     app.add_option("--target", command.parts.target, "with --segmentation: the segment that is to be removed")
-        ->type_name("NAME");
+        .type_name("NAME");
     app.add_option("--description", command.parts.description,
                    "with --case: a sentence about it for the start page; one about its bone unless given")
-        ->type_name("TEXT");
-    add_texts(app, "--pass", texts.pass,
-              "with --case: a mark that a session must reach to pass: time_s, plan_excess_mm3, "
-              "structure_touches or peak_force_n at most, plan_removed_share (0 to 1) at least; again for "
-              "each further one")
-        ->type_name("METRIC=NUMBER");
+        .type_name("TEXT");
+    app.add_texts(
+           "--pass", texts.pass,
+           "with --case: a mark that a session must reach to pass: time_s, plan_excess_mm3, "
+           "structure_touches or peak_force_n at most, plan_removed_share (0 to 1) at least; again for "
+           "each further one")
+        .type_name("METRIC=NUMBER");
     app.add_option("--spacing-mm", options.spacing_mm,
                    "edge of a voxel of the result; a case of a large region that says nothing is coarser")
-        ->capture_default_str()
-        ->check(within(0.01, 10.0));
+        .shows_default()
+        .check(within(0.01, 10.0));
     app.add_option("--threshold-hu", options.threshold_hu,
                    "bone is at and above this: kept in the file for haptic_server; HU further than 2 voxels "
                    "from bone "
                    "become -1000")
-        ->check(within(-1024.0, 10000.0));
+        .check(within(-1024.0, 10000.0));
     app.add_flag("--keep-soft-tissue", options.keeps_soft_tissue,
                  "with --threshold-hu: HU far from bone stay, so that a carved bone can be laid beside the "
                  "scan; the file is some 3 to 10 times as large");
@@ -192,7 +193,7 @@ void add_options(CLI::App& app, ImportCommand& command, Texts& texts) {
     app.add_option("--region", texts.region, "x0,y0,z0,x1,y1,z1 in mm of patient LPS: import only this box");
     app.add_option("--series", options.choice.series_uid,
                    "UID of the DICOM series to take (default: the largest)");
-    auto* rescale =
+    const CommandOption rescale =
         app.add_option("--rescale", texts.rescale,
                        "SLOPE,INTERCEPT: HU = SLOPE * value + INTERCEPT, for files that carry none (after "
                        "the file's own, if it has one)");
@@ -200,7 +201,7 @@ void add_options(CLI::App& app, ImportCommand& command, Texts& texts) {
            "--intensity-window", texts.intensity_window,
            "LOW,HIGH, for images without HU (MRI, 8-bit): LOW becomes 0 HU, HIGH 2000 HU, linear between, "
            "clamped outside")
-        ->excludes(rescale);
+        .excludes(rescale);
 }
 
 void require_distinct_files(const ImportCommand& command) {
@@ -223,7 +224,7 @@ void require_distinct_files(const ImportCommand& command) {
 }
 
 /// The case of labels, which have no CT numbers.
-void parse_labels(const CLI::App& app, const Texts& texts, ImportCommand& command) {
+void parse_labels(const CommandOptions& app, const Texts& texts, ImportCommand& command) {
     ImportOptions& options = command.options;
     if (!options.input.empty() && !options.output.empty())
         throw std::invalid_argument("--labels: stands in place of INPUT");
@@ -297,7 +298,7 @@ void parse_pass_marks(const Texts& texts, CaseParts& parts) {
     }
 }
 
-void parse_texts(const CLI::App& app, const Texts& texts, ImportCommand& command) {
+void parse_texts(const CommandOptions& app, const Texts& texts, ImportCommand& command) {
     ImportOptions& options = command.options;
     if (options.keeps_soft_tissue && !options.threshold_hu)
         throw std::invalid_argument("--keep-soft-tissue: goes with --threshold-hu; without, all HU are kept");
@@ -345,10 +346,10 @@ void parse_texts(const CLI::App& app, const Texts& texts, ImportCommand& command
 ParseResult<ImportCommand> parse(int argc, const char* const* argv) {
     ImportCommand command;
     Texts texts;
-    CLI::App app("Makes a bone file of a CT scan: isotropic, in patient LPS, in HU.", "bone_import");
-    app.set_version_flag("--version", OSTEOMILL_VERSION);
+    CommandOptions app("Makes a bone file of a CT scan: isotropic, in patient LPS, in HU.", "bone_import",
+                       OSTEOMILL_VERSION);
     add_options(app, command, texts);
-    if (auto text = parse_or_text(app, argc, argv)) return {std::nullopt, *std::move(text)};
+    if (auto text = app.parse_or_text(argc, argv)) return {std::nullopt, *std::move(text)};
     parse_texts(app, texts, command);
     require_distinct_files(command);
     return {std::move(command), {}};

@@ -8,12 +8,10 @@
 
 #include "render_client/dataset/dataset_contents.h"
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
-
 namespace osteomill {
+
+class CommandOption;
+class CommandOptions;
 
 struct DatasetOptions {
     std::filesystem::path folder;
@@ -27,6 +25,6 @@ struct DatasetOptions {
 /// --dataset, --cameras, --dataset-fps, --dataset-images, --randomise and --shard, into `dataset`, which
 /// outlives the parsing; behind the app's other options. Returns the first, without which the others are
 /// refused.
-CLI::Option* add_dataset_options(CLI::App& app, DatasetOptions& dataset);
+CommandOption add_dataset_options(CommandOptions& app, DatasetOptions& dataset);
 
 }  // namespace osteomill

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -16,7 +14,7 @@
 #include "common/files/distinct_files.h"
 #include "common/net/listen_address.h"
 #include "common/net/tls_options.h"
-#include "common/program/option_checks.h"
+#include "common/program/command_options.h"
 #include "common/text/words.h"
 #include "common/words/translation.h"
 #include "render_client/link/recording_player.h"
@@ -28,7 +26,6 @@ namespace {
 
 constexpr int largest_window_px = 16384;
 constexpr int wanted_screenshots = 30;
-const std::map<std::string, ThemeName> themes_by_name{{"dark", ThemeName::dark}, {"light", ThemeName::light}};
 
 std::optional<int> whole_number(std::string_view text, int low, int high) {
     const auto value = parse_number<int>(text);
@@ -71,22 +68,24 @@ NoRun wrong_usage(const std::string& what) {
 
 /// An option with a few named values; any other text is refused with a list of the names.
 template <typename Value>
-void add_choice(CLI::App& app, const std::string& option, const std::vector<std::string>& names,
-                const std::vector<Value>& values, Value& chosen, const std::string& help) {
-    add_read(
-        app, option,
-        [=, &chosen](const std::string& text) {
-            const auto name = std::find(names.begin(), names.end(), text);
-            if (name == names.end())
-                throw std::invalid_argument(
-                    fmt::format("is '{}', not one of {}", text, fmt::join(names, ", ")));
-            chosen = values[static_cast<std::size_t>(name - names.begin())];
-        },
-        help)
-        ->type_name(fmt::format("{}", fmt::join(names, "|")));
+CommandOption add_choice(CommandOptions& app, const std::string& option,
+                         const std::vector<std::string>& names, const std::vector<Value>& values,
+                         Value& chosen, const std::string& help) {
+    return app
+        .add_read(
+            option,
+            [=, &chosen](const std::string& text) {
+                const auto name = std::find(names.begin(), names.end(), text);
+                if (name == names.end())
+                    throw std::invalid_argument(
+                        fmt::format("is '{}', not one of {}", text, fmt::join(names, ", ")));
+                chosen = values[static_cast<std::size_t>(name - names.begin())];
+            },
+            help)
+        .type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
-void add_look(CLI::App& app, RenderOptions& options) {
+void add_look(CommandOptions& app, RenderOptions& options) {
     add_choice(app, "--renderer", {"raycast", "slices"},
                std::vector{RendererChoice::raycast, RendererChoice::slices}, options.renderer,
                "raycast (default) skips what is empty; slices cut the 3D texture, as published");
@@ -104,16 +103,16 @@ void add_look(CLI::App& app, RenderOptions& options) {
                "Colour and opacity by stiffness; unless given, tissues in their own colours");
     app.add_option("--look", options.look_file,
                    "The same as edited before (F5): read from this file, if it is there, and saved to it")
-        ->type_name("FILE")
-        ->excludes("--transfer");
+        .type_name("FILE")
+        .excludes("--transfer");
     app.add_flag("!--no-ambient-occlusion", options.ambient_occlusion,
                  "No soft shadow of the bone on itself, a little faster; never with surface-voxels");
     app.add_flag(
         "!--no-thin-bone", options.thin_bone,
         "Thin bone hides what is behind it; unless given, it takes on the colour of a sinus or a nerve");
-    app.add_flag_function(
+    app.add_switch(
         "--smooth-silhouettes,!--no-smooth-silhouettes",
-        [&](std::int64_t count) { options.smooth_silhouettes = count > 0; },
+        [&](bool is_smooth) { options.smooth_silhouettes = is_smooth; },
         "Antialiased outlines of the bone, or none; unless given, the window and films have them, at 4 to 9 "
         "% "
         "of a frame's time, and image sets do not; never of slices");
@@ -125,37 +124,37 @@ void add_look(CLI::App& app, RenderOptions& options) {
     app.add_option(
            "--specular", options.specular,
            "Highlights on the bone, as where it is wet, 0 to 1 (0.25; 0: matt); not with surface-voxels")
-        ->check(within(0.0, 1.0));
-    app.add_option_function<std::vector<std::string>>(
+        .check(within(0.0, 1.0));
+    app.add_read_list(
            "--cut",
            [&](const std::vector<std::string>& texts) {
                for (const std::string& text : texts)
                    if (const std::string wrong = take_cut(text, options.cuts); !wrong.empty())
-                       throw CLI::ValidationError("--cut", wrong);
+                       throw std::invalid_argument(wrong);
            },
            "Open the bone: its left, right, front, back, above or below is gone, from so many mm beyond its "
            "middle on (0); "
            "up to three")
-        ->type_name("SIDE[:MM]");
+        .type_name("SIDE[:MM]");
 }
 
-void add_stereo(CLI::App& app, StereoSettings& stereo) {
+void add_stereo(CommandOptions& app, StereoSettings& stereo) {
     add_choice(app, "--stereo", {"off", "side-by-side", "top-bottom", "rows", "quad-buffer"},
                std::vector{StereoLayout::off, StereoLayout::side_by_side, StereoLayout::top_bottom,
                            StereoLayout::rows, StereoLayout::quad_buffer},
                stereo.layout, "Draw for two eyes, as a 3D display takes it (off)");
     app.add_option("--interpupillary", stereo.interpupillary_mm,
                    "mm between the two eyes, 0 to 200 (0.08 of the convergence, as in a microscope)")
-        ->check(within(0.0, 200.0))
-        ->type_name("MM");
+        .check(within(0.0, 200.0))
+        .type_name("MM");
     app.add_option("--convergence", stereo.convergence_mm,
                    "mm from the eyes to what is seen at the display's depth, 1 to 10000 (what the view turns "
                    "about)")
-        ->check(within(1.0, 10000.0))
-        ->type_name("MM");
+        .check(within(1.0, 10000.0))
+        .type_name("MM");
 }
 
-void add_microscope(CLI::App& app, RenderOptions& options) {
+void add_microscope(CommandOptions& app, RenderOptions& options) {
     std::vector<std::string> steps;
     for (const double step : magnification_steps) steps.push_back(fmt::format("{}", step));
     add_choice(app, "--magnification", steps,
@@ -242,111 +241,115 @@ int screenshot_interval(const RenderOptions& options) {
 ParsedOptions parse_options(int argument_count, const char* const* arguments, const std::string& version) {
     ParsedOptions parsed;
     RenderOptions& options = parsed.options;
-    CLI::App app("Shows what is left of the bone that haptic_server mills, or milled.", "render_client");
-    app.set_version_flag("--version", "render_client " + version);
+    CommandOptions app("Shows what is left of the bone that haptic_server mills, or milled.", "render_client",
+                       "render_client " + version);
 
-    auto* connect = add_read(
-                        app, "--connect",
-                        [&](const std::string& text) {
-                            const ServerAddress server = parse_server_address(text);
-                            options.host = server.host;
-                            options.port = server.port;
-                            options.names_server = true;
-                        },
-                        "The server's HOST:PORT (127.0.0.1:7010)")
-                        ->type_name("HOST:PORT");
+    const CommandOption connect = app.add_read(
+                                         "--connect",
+                                         [&](const std::string& text) {
+                                             const ServerAddress server = parse_server_address(text);
+                                             options.host = server.host;
+                                             options.port = server.port;
+                                             options.names_server = true;
+                                         },
+                                         "The server's HOST:PORT (127.0.0.1:7010)")
+                                      .type_name("HOST:PORT");
     const TlsOptions tls(app);
-    auto* record = app.add_option("--record", options.record,
-                                  "Write what the server sends, for --replay and packet_replay; a pcap file")
-                       ->type_name("FILE");
+    const CommandOption record =
+        app.add_option("--record", options.record,
+                       "Write what the server sends, for --replay and packet_replay; a pcap file")
+            .type_name("FILE");
     app.add_option("--replay", options.replay, "Show a recording instead")
-        ->type_name("FILE")
-        ->excludes(connect)
-        ->excludes(record);
-    auto* speed = app.add_option("--speed", options.speed, "Recorded seconds a second, with --replay (1)")
-                      ->check(within(RecordingPlayer::slowest, RecordingPlayer::fastest));
-    auto* from = app.add_option("--from-s", options.from_s,
-                                "With --replay: begin so long after the recording's beginning")
-                     ->check(not_below_zero())
-                     ->type_name("S");
+        .type_name("FILE")
+        .excludes(connect)
+        .excludes(record);
+    const CommandOption speed =
+        app.add_option("--speed", options.speed, "Recorded seconds a second, with --replay (1)")
+            .check(within(RecordingPlayer::slowest, RecordingPlayer::fastest));
+    const CommandOption from = app.add_option("--from-s", options.from_s,
+                                              "With --replay: begin so long after the recording's beginning")
+                                   .check(not_below_zero())
+                                   .type_name("S");
     app.add_option("--film", options.film,
                    "With --replay: make a film of it, 30 pictures a second, and end; the program ffmpeg "
                    "does it, by the ending of the name (.mp4)")
-        ->type_name("FILE");
+        .type_name("FILE");
     app.add_option(
            "--camera", options.camera,
            "With --replay: seen by this camera, while the recording goes on: a TOML file as for --cameras, "
            "or trainee: from where the one looked who moved the tool (in a film that, where it is recorded)")
-        ->type_name("FILE|trainee");
-    add_read(
-        app, "--window-size", [&](const std::string& text) { options.window_size_px = parse_size(text); },
-        "Size of the picture (1280x800; 960x600 offscreen)")
-        ->type_name("WxH");
+        .type_name("FILE|trainee");
+    app.add_read(
+           "--window-size", [&](const std::string& text) { options.window_size_px = parse_size(text); },
+           "Size of the picture (1280x800; 960x600 offscreen)")
+        .type_name("WxH");
     add_look(app, options);
     add_stereo(app, options.stereo);
     add_microscope(app, options);
-    app.add_option("--theme", options.theme, "Colours: dark or light (dark)")
-        ->transform(CLI::CheckedTransformer(themes_by_name).description(""))
-        ->type_name("NAME");
+    add_choice(app, "--theme", {"dark", "light"},
+               std::vector<std::optional<ThemeName>>{ThemeName::dark, ThemeName::light}, options.theme,
+               "Colours: dark or light (dark)")
+        .type_name("NAME");
     options.language = language_of_environment();
     app.add_option("--language", options.language,
                    "Language of the window; by default that of LANG, if there is a translation")
-        ->check(one_of(languages()))
-        ->type_name("NAME");
+        .check(one_of(languages()))
+        .type_name("NAME");
     app.add_option(
            "--ui-scale", options.ui_scale,
            "Size of panels and letters (the display's; 1 offscreen), 0.5 to 4; above 1 less where the window "
            "has no room for it")
-        ->check(within(0.5, 4.0));
+        .check(within(0.5, 4.0));
     app.add_flag("!--no-panels", options.panels, "Only the picture: no panels over it");
     app.add_flag("--sound", options.sound, "The burr can be heard: its edges in bone, by tissue and load");
-    app.add_option_function<std::string>(
+    app.add_read(
            "--home", [&](const std::string& folder) { options.home = folder; },
            "Where cases and reports are of sessions that are started from the window ($HOME/osteomill)")
-        ->type_name("DIR");
+        .type_name("DIR");
     app.add_flag("--offscreen", options.offscreen, "Draw without a display; write pictures instead");
     app.add_option(
            "--gpu", options.gpu,
            "Offscreen: draw on this GPU of several, counted from 0 (the first; where there is none, Mesa's "
            "software rasteriser)")
-        ->check(CLI::Range(0, 63));
-    auto* frames = app.add_option("--frames", options.frames,
-                                  "Offscreen: end after so many frames (300), or sooner with the session")
-                       ->check(CLI::Range(1, 1'000'000));
+        .check(whole_within(0, 63));
+    const CommandOption frames =
+        app.add_option("--frames", options.frames,
+                       "Offscreen: end after so many frames (300), or sooner with the session")
+            .check(whole_within(1, 1'000'000));
     app.add_flag("--until-server-ends", options.until_server_ends,
                  "Close the window when the session is over");
     app.add_option("--screenshots", options.screenshots,
                    "Folder for pictures of the run: frame_0001.png ... and final.png")
-        ->type_name("DIR");
+        .type_name("DIR");
     app.add_option("--screenshot-every", options.screenshot_every,
                    "Write a picture every so many frames (spreads about 30 over --frames)")
-        ->check(CLI::Range(1, 1'000'000));
-    app.add_option_function<int>(
-           "--texture-budget-mib",
-           [&](int mib) { options.texture_budget_bytes = static_cast<std::size_t>(mib) << 20U; },
-           "Graphics memory for the bone (1024); a larger bone is drawn from an atlas of its bricks, or "
-           "coarser")
-        ->check(CLI::Range(1, 1 << 20))
-        ->type_name("MIB");
+        .check(whole_within(1, 1'000'000));
+    int texture_budget_mib = 0;
+    const CommandOption texture_budget =
+        app.add_option(
+               "--texture-budget-mib", texture_budget_mib,
+               "Graphics memory for the bone (1024); a larger bone is drawn from an atlas of its bricks, or "
+               "coarser")
+            .check(whole_within(1, 1 << 20))
+            .type_name("MIB");
     DatasetOptions dataset;
-    auto* wants_dataset = add_dataset_options(app, dataset);
-    app.add_option("--json", options.json, "Write what was measured to this file")->type_name("FILE");
+    const CommandOption wants_dataset = add_dataset_options(app, dataset);
+    app.add_option("--json", options.json, "Write what was measured to this file").type_name("FILE");
 
     try {
-        parse_arguments(app, argument_count, arguments);
-    } catch (const CLI::CallForHelp&) {
-        parsed.no_run = NoRun{0, app.help()};
-        return parsed;
-    } catch (const CLI::CallForVersion&) {
-        parsed.no_run = NoRun{0, app.version() + "\n"};
-        return parsed;
-    } catch (const CLI::ParseError& error) {
-        parsed.no_run = wrong_usage(std::string(error.what()) + " (see --help)");
+        if (const auto text = app.parse_or_text(argument_count, arguments)) {
+            parsed.no_run = NoRun{0, *text};
+            return parsed;
+        }
+    } catch (const std::invalid_argument& wrong) {
+        parsed.no_run = wrong_usage(wrong.what());
         return parsed;
     }
-    if (wants_dataset->count() > 0) options.dataset = dataset;
+    if (texture_budget.count() > 0)
+        options.texture_budget_bytes = static_cast<std::size_t>(texture_budget_mib) << 20U;
+    if (wants_dataset.count() > 0) options.dataset = dataset;
     std::string wrong = contradiction(options);
-    if (wrong.empty() && frames->count() > 0 && !options.offscreen) wrong = "--frames needs --offscreen";
+    if (wrong.empty() && frames.count() > 0 && !options.offscreen) wrong = "--frames needs --offscreen";
     try {
         options.tls = tls.files();
     } catch (const std::invalid_argument& error) {
@@ -354,8 +357,8 @@ ParsedOptions parse_options(int argument_count, const char* const* arguments, co
     }
     if (wrong.empty() && options.tls && options.replay) wrong = "--tls-cert: a --replay needs no TLS";
     if (wrong.empty()) wrong = same_files(options, tls);
-    if (wrong.empty() && speed->count() > 0 && !options.replay) wrong = "--speed needs --replay FILE";
-    if (wrong.empty() && from->count() > 0 && !options.replay) wrong = "--from-s needs --replay FILE";
+    if (wrong.empty() && speed.count() > 0 && !options.replay) wrong = "--speed needs --replay FILE";
+    if (wrong.empty() && from.count() > 0 && !options.replay) wrong = "--from-s needs --replay FILE";
     if (!wrong.empty()) parsed.no_run = wrong_usage(wrong);
     return parsed;
 }

@@ -2,16 +2,23 @@
 
 #include <gmock/gmock.h>
 
-#include <CLI/CLI.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "common/program/command_options.h"
+#include "common/text/words.h"
 
 namespace osteomill {
 namespace {
 
 Access access(const std::string& command_line, const std::string& where) {
-    CLI::App app;
+    CommandOptions app("", "", "");
     const AccessOptions options(app);
-    app.parse(command_line, false);
+    const std::vector<std::string> words = words_of(command_line);
+    std::vector<const char*> arguments{"program"};
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    app.parse_or_text(static_cast<int>(arguments.size()), arguments.data());
     return options.access_to(parse_listen_address(where));
 }
 
