@@ -8,8 +8,20 @@
 
 #include "common/recording/pcap_file.h"
 #include "common/wire/sealed_frame.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
+
+namespace {
+
+/// Whether a packet has the time that its frame states. Frames are sealed, packets are not: if the two
+/// differ, the recording was damaged or moved in time.
+bool has_time_of(const v2::ServerFrame& frame, const Packet& packet) {
+    return frame.has_recorded_unix_ns() &&
+           frame.recorded_unix_ns() == packet.stamp.time_since_epoch().count();
+}
+
+}  // namespace
 
 std::optional<RecordedEvent> RecordingReader::next() {
     const std::optional<Packet> packet = packets_.next();

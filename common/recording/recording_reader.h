@@ -10,7 +10,6 @@
 
 #include "common/recording/pcap_file.h"
 #include "common/wire/session_receiver.h"
-#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
@@ -54,13 +53,6 @@ class RecordingReader {
 
 // The time of a recording: seconds since its first frame. If recordings were joined, each session follows the
 // one before at once, whenever it was recorded.
-
-/// Whether a packet has the time that its frame states. Frames are sealed, packets are not: if the two
-/// differ, the recording was damaged or moved in time.
-inline bool has_time_of(const v2::ServerFrame& frame, const Packet& packet) {
-    return frame.has_recorded_unix_ns() &&
-           frame.recorded_unix_ns() == packet.stamp.time_since_epoch().count();
-}
 
 class RecordedTime {
   public:

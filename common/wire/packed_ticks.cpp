@@ -9,6 +9,7 @@
 
 #include "common/session/seen_steps.h"
 #include "common/wire/frame.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 

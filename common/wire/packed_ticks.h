@@ -14,7 +14,10 @@
 #include "common/session/tick_sample.h"
 #include "common/wire/frame.h"
 #include "common/wire/zstd_compressor.h"
-#include "osteomill/v2/session.pb.h"
+
+namespace osteomill::v2 {
+class Ticks;  // of session.pb.h, which takes long to parse
+}
 
 namespace osteomill {
 

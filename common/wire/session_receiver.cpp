@@ -4,10 +4,12 @@
 
 #include "common/text/foreign_text.h"
 #include "common/wire/control_messages.h"
+#include "common/wire/distance_messages.h"
 #include "common/wire/geometry_messages.h"
 #include "common/wire/packed_changes.h"
 #include "common/wire/scene_messages.h"
 #include "common/wire/structure_messages.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 
@@ -60,7 +62,8 @@ std::variant<SessionEvent, WireError> SessionReceiver::take(v2::ServerFrame fram
         return SessionEvent(StructureArrived{std::get<0>(std::move(taken))});
     }
     if (stage_ == Stage::live && frame.has_ct_piece())
-        return SessionEvent(CtPieceArrived{std::move(*frame.mutable_ct_piece())});
+        return SessionEvent(
+            CtPieceArrived{std::make_shared<const v2::CtPiece>(std::move(*frame.mutable_ct_piece()))});
     if (stage_ != Stage::hello && stage_ != Stage::over && frame.has_goodbye()) {
         stage_ = Stage::over;
         return SessionEvent(SaidGoodbye{frame.goodbye().reason()});
@@ -135,7 +138,8 @@ SessionReceiver::Outcome SessionReceiver::take_state(v2::StateFrame message, boo
         if (auto* error = std::get_if<WireError>(&ticks)) return std::move(*error);
         arrived.ticks = std::get<TickBlock>(std::move(ticks));
     }
-    if (message.has_comparison()) arrived.comparison = std::move(*message.mutable_comparison());
+    if (message.has_comparison())
+        arrived.comparison = std::make_shared<const v2::Comparison>(std::move(*message.mutable_comparison()));
     return SessionEvent(std::move(arrived));
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -17,7 +18,15 @@
 #include "common/wire/session_info.h"
 #include "common/wire/snapshot.h"
 #include "common/wire/structure_messages.h"
-#include "osteomill/v2/session.pb.h"
+
+// Of the generated headers, which take long to parse.
+namespace osteomill::v2 {
+class Comparison;
+class CtPiece;
+class Hello;
+class ServerFrame;
+class StateFrame;
+}  // namespace osteomill::v2
 
 namespace osteomill {
 
@@ -33,10 +42,10 @@ struct BoneArrived {
 /// A state frame. Its changes are checked against the bone when they are applied.
 struct StateArrived {
     SessionState state{};
-    std::vector<ChangedBrick> changes{};           ///< in the order in which they are to be applied
-    std::optional<std::uint64_t> bone_checksum{};  ///< after them
-    std::optional<v2::Comparison> comparison{};    ///< the answer to a request
-    TickBlock ticks{};                             ///< since the state before; only in recordings
+    std::vector<ChangedBrick> changes{};                 ///< in the order in which they are to be applied
+    std::optional<std::uint64_t> bone_checksum{};        ///< after them
+    std::shared_ptr<const v2::Comparison> comparison{};  ///< the answer to a request; null: none
+    TickBlock ticks{};                                   ///< since the state before; only in recordings
     bool follows_gap = false;  ///< frames before it are missing, and with them their changes of the bone
 };
 
@@ -61,7 +70,7 @@ struct SpeaksOtherProtocol {
 
 /// Another piece of the CT, which the receiver assembles.
 struct CtPieceArrived {
-    v2::CtPiece piece;
+    std::shared_ptr<const v2::CtPiece> piece;
 };
 
 /// A protected structure that is complete; nothing: more of it will come.

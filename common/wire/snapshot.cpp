@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/wire/geometry_messages.h"
+#include "osteomill/v2/bone.pb.h"
 
 namespace osteomill {
 

@@ -13,7 +13,13 @@
 #include "common/bone/bone_builder.h"
 #include "common/wire/frame.h"
 #include "common/wire/zstd_compressor.h"
-#include "osteomill/v2/bone.pb.h"
+
+// Of bone.pb.h, which takes long to parse.
+namespace osteomill::v2 {
+class SnapshotBegin;
+class SnapshotBricks;
+class SnapshotEnd;
+}  // namespace osteomill::v2
 
 namespace osteomill {
 

@@ -1,4 +1,4 @@
-// Protected structures and how far the burr is from them, in and out of messages.
+// Protected structures, in and out of messages.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "common/bone/structure_mask.h"
-#include "common/session/structure_distance.h"
+#include "common/scene/scene.h"
 #include "common/wire/frame.h"
-#include "osteomill/v2/session.pb.h"
+
+namespace osteomill::v2 {
+class StructureBricks;  // of session.pb.h, which takes long to parse
+}
 
 namespace osteomill {
 
@@ -48,12 +51,5 @@ class StructureAssembler {
     std::vector<StructureBrick> bricks_;  // the incoming structure's
     std::size_t taken_bricks_ = 0;        // the complete structures'
 };
-
-v2::StructureDistance to_message(const StructureDistance& distance);
-
-/// Refuses a tissue that is not one of so many or comes twice, and numbers that are not finite or, of times
-/// and volumes, below zero.
-std::variant<std::vector<StructureDistance>, WireError> structure_distances_from(
-    const google::protobuf::RepeatedPtrField<v2::StructureDistance>& messages, std::size_t tissue_count);
 
 }  // namespace osteomill

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "common/log/log.h"
+#include "common/net/tls_context.h"
 #include "haptic_server/streaming/client_message.h"
 #include "haptic_server/streaming/connection_quota.h"
 

@@ -7,7 +7,6 @@
 // second. A handshake takes two round trips, of 50 ms say.
 #pragma once
 
-#include <boost/asio/ip/address.hpp>
 #include <chrono>
 #include <compare>
 #include <cstddef>
@@ -16,6 +15,10 @@
 #include <optional>
 #include <set>
 #include <vector>
+
+namespace boost::asio::ip {
+class address;
+}
 
 namespace osteomill {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/wire/control_messages.h"
+#include "common/wire/distance_messages.h"
 #include "common/wire/frame.h"
 #include "common/wire/geometry_messages.h"
 #include "common/wire/scene_messages.h"

@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 
-#include "common/net/tls_context.h"
 #include "common/recording/pcap_file.h"
 #include "common/recording/recording_writer.h"
 #include "common/session/tick_sample.h"
@@ -18,6 +17,8 @@
 #include "simulation/exchange/sample_log.h"
 
 namespace osteomill {
+
+class TlsContext;
 
 /// A recording of the shown session.
 struct RecordTo {

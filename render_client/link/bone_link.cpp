@@ -60,7 +60,7 @@ class BoneLink::Impl {
     }
 
     void take(const CtPieceArrived& arrived, LinkUpdate& update) {
-        auto taken = ct_.take(arrived.piece);
+        auto taken = ct_.take(*arrived.piece);
         if (auto* ct = std::get_if<std::shared_ptr<const CtVolume>>(&taken)) {
             if (*ct) update.ct = std::move(*ct);
             return;

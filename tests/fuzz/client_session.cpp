@@ -45,7 +45,7 @@ class Client {
         return {};
     }
     Outcome take(CtPieceArrived arrived) {
-        auto taken = ct_.take(arrived.piece);
+        auto taken = ct_.take(*arrived.piece);
         const auto* ct = std::get_if<std::shared_ptr<const CtVolume>>(&taken);
         if (ct != nullptr && *ct) (void)(*ct)->hu_at((*ct)->grid.origin_mm);
         return {};

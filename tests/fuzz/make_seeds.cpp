@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/recording/pcap_file.h"
+#include "common/wire/distance_messages.h"
 #include "common/wire/frame.h"
 #include "common/wire/sealed_frame.h"
 #include "common/wire/structure_messages.h"

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/net/tls_context.h"
 #include "render_client/link/bone_link.h"
 #include "tests/support/lab_certificates.h"
 #include "tests/support/messages.h"

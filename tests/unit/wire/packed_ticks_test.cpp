@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <zstd.h>
 
+#include <random>
+
 #include "common/session/seen_steps.h"
 #include "common/session/written_pose.h"
 #include "common/wire/frame.h"
+#include "osteomill/v2/session.pb.h"
 
 namespace osteomill {
 namespace {
