@@ -33,16 +33,14 @@ function(osteomill_module name)
     endif()
 endfunction()
 
-# osteomill_program(NAME [MAIN file] LIBRARIES ...): a program, installed. MAIN has its main(). Without MAIN, main() is written here and calls
-# NAME_main() of NAME_main.cpp, which is a source of the program's own library: joined with the others, it need not parse all headers again.
+# osteomill_program(NAME LIBRARIES ...): a program, installed. Its main() is written here and calls NAME_main() of NAME_main.cpp, which is a
+# source of one of its libraries: joined with the others, it need not parse all headers again.
 function(osteomill_program name)
-    cmake_parse_arguments(arg "" "MAIN" "LIBRARIES" ${ARGN})
-    if(NOT arg_MAIN)
-        set(arg_MAIN ${CMAKE_CURRENT_BINARY_DIR}/${name}_calls.cpp)
-        file(CONFIGURE OUTPUT ${arg_MAIN} CONTENT
-            "int ${name}_main(int, char**);\n\nint main(int argc, char** argv) {\n    return ${name}_main(argc, argv);\n}\n")
-    endif()
-    add_executable(${name} ${arg_MAIN})
+    cmake_parse_arguments(arg "" "" "LIBRARIES" ${ARGN})
+    set(main ${CMAKE_CURRENT_BINARY_DIR}/${name}_calls.cpp)
+    file(CONFIGURE OUTPUT ${main} CONTENT
+        "int ${name}_main(int, char**);\n\nint main(int argc, char** argv) {\n    return ${name}_main(argc, argv);\n}\n")
+    add_executable(${name} ${main})
     target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} osteomill_warnings)
     install(TARGETS ${name} RUNTIME)
 endfunction()

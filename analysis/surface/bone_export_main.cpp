@@ -33,7 +33,7 @@ void run(const osteomill::ExportOptions& options, const osteomill::ProgramOutput
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int bone_export_main(int argc, char** argv) {
     return osteomill::run_program(
         "bone_export", [&] { return osteomill::parse_export_command_line(argc, argv, OSTEOMILL_VERSION); },
         run);

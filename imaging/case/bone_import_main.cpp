@@ -392,7 +392,7 @@ void run(const ImportCommand& command, const ProgramOutput& output) {
 
 }  // namespace osteomill
 
-int main(int argc, char** argv) {
+int bone_import_main(int argc, char** argv) {
     return osteomill::run_program(
         "bone_import", [&] { return osteomill::parse(argc, argv); }, osteomill::run);
 }
