@@ -61,8 +61,15 @@ ClientDevice::ClientDevice(OperatorChannel& commands, const ToolPose& start_pose
       clock_(std::move(clock)) {}
 
 void ClientDevice::take_over_command(double now_s) noexcept {
-    if (!commands_.refresh()) return;
-    const auto& [command, heard, client] = commands_.front();
+    if (!commands_.refresh()) {
+        pedal_.is_down = pedal_.is_down || std::exchange(presses_next_, false);
+        return;
+    }
+    const auto& [command, heard, client, releases] = commands_.front();
+    presses_next_ = false;
+    const bool was_up = releases != 0 && (client != heard_client_ || releases != heard_releases_);
+    heard_client_ = client;
+    heard_releases_ = releases;
     const double axis_length = command ? glm::length(command->spindle_axis) : 0.0;
     if (!command || !is_finite(command->hand_target_mm) || !std::isfinite(axis_length) ||
         axis_length < 1e-6 || is_of_old_place(command->hand_target_mm, now_s)) {
@@ -71,7 +78,9 @@ void ClientDevice::take_over_command(double now_s) noexcept {
         return;
     }
     permission_.renew(said_at(now_s, std::chrono::duration<double>(clock_() - heard).count()));
-    pedal_ = {.is_down = command->pedal, .said_s = permission_.renewed_s(), .speaker = client};
+    presses_next_ = command->pedal && was_up;
+    pedal_ = {
+        .is_down = command->pedal && !presses_next_, .said_s = permission_.renewed_s(), .speaker = client};
     if (!permission_.holds(now_s)) return;
     const glm::dvec3 target_mm = limit_.limited(position_in_device_mm(mapping_, command->hand_target_mm),
                                                 held_arm_.truth().position_mm(), now_s);
@@ -102,6 +111,7 @@ void ClientDevice::set_mapping(const DeviceMapping& mapping) noexcept {
         moved_ = {.target_mm = last->hand_target_mm, .to_mm = target_.position_mm, .at_s = read_at_s_};
     permission_.withdraw();
     pedal_ = {};
+    presses_next_ = false;
     end_permission();
 }
 

@@ -98,6 +98,9 @@ class ClientDevice final : public HapticDevice {
     TargetLimit limit_;
     Permission permission_;
     PedalStatement pedal_;
+    bool presses_next_ = false;  // the pedal came up and went down again between two reads: up in this one
+    std::uint64_t heard_releases_ = 0;
+    std::uint64_t heard_client_ = 0;
     std::function<Time()> clock_;
     std::optional<std::size_t> burr_;
     double read_at_s_ = 0.0;

@@ -5,10 +5,12 @@ namespace osteomill {
 bool ToolLease::take_input(ClientId client, const OperatorCommand& command, Time now) {
     if (holder_ && *holder_ != client && is_kept(now)) return false;
     if (holder_ != client || command.pedal || newest_ != command) acted_ = now;
+    if (holder_ != client) releases_ = 0;
+    if (!command.pedal) ++releases_;
     newest_ = command;
     holder_ = client;
     last_heard_ = now;
-    output_.back() = {command, now, client};
+    output_.back() = {command, now, client, releases_};
     output_.publish();
     return true;
 }

@@ -86,7 +86,8 @@ class ToolLease {
     std::optional<ClientId> holder_;
     // The holder's:
     std::optional<OperatorCommand> newest_;
-    Time acted_{};  // a new target, axis or burr, or the pedal was down
+    std::uint64_t releases_ = 0;  // of the pedal
+    Time acted_{};                // a new target, axis or burr, or the pedal was down
     Time last_heard_{};
 };
 

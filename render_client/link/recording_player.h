@@ -78,6 +78,8 @@ class RecordingPlayer final : public SessionSource {
     /// Once a frame: goes on to where it should be by now. The first poll brings the bone as it first was.
     /// A frame that cannot be read ends the recording there, as LinkStatus::refused with the reason.
     LinkUpdate poll(Time now);
+    /// Between polls: its time stands until the next, because a person could not see what happens.
+    void wait() { last_poll_.reset(); }
     LinkUpdate poll() override { return poll(std::chrono::steady_clock::now()); }
 
     const Bone* bone() const override { return &playhead_->bone(); }

@@ -16,6 +16,9 @@ struct HeardCommand {
     std::optional<OperatorCommand> command{};
     std::chrono::steady_clock::time_point heard{};
     std::uint64_t client = 0;  ///< another number where another client says it
+    /// Commands of this client so far with the pedal up: the reader sees the newest command alone, and would
+    /// miss a pedal that was up for one command.
+    std::uint64_t releases = 0;
 };
 
 using OperatorChannel = TripleBuffer<HeardCommand>;

@@ -266,6 +266,10 @@ const char* why_it_awaits_release(Fault locked_by) noexcept {
         case Fault::in_bone:
             return "the spindle stays off, for the burr was inside the bone: pull it back, let go of the "
                    "pedal, and press it anew";
+        case Fault::overrun:
+        case Fault::model_stalled:
+            return "the spindle stays off, for the computer was too slow for a moment: let go of the pedal, "
+                   "and press it anew";
         default:
             return "the spindle stays off after a fault: let go of the pedal, and press it anew";
     }
@@ -274,6 +278,9 @@ const char* why_it_awaits_release(Fault locked_by) noexcept {
 }  // namespace
 
 const char* HapticLoop::notice() const noexcept {
+    const Fault taken_by = safety_.force_taken_by();
+    if (safety_.fault() == Fault::in_bone && (taken_by == Fault::overrun || taken_by == Fault::model_stalled))
+        return "the computer was too slow for a moment: the force went off, and the burr sank into the bone";
     if (burr_.waits_for() == BurrChange::none && safety_.awaits_release())
         return why_it_awaits_release(safety_.spindle_locked_by());
     return describe(burr_.waits_for());

@@ -25,7 +25,8 @@ glm::dvec3 SafetyMonitor::pass(const glm::dvec3& wanted_n, bool is_sound, double
     const glm::dvec3 force_n = guard_.tick(felt_n, keeps_off_, elapsed_s);
     if (!guard_.is_engaged()) is_untried_ = false;
     if (has_just_let_go()) {
-        ++fault_counts_[static_cast<std::size_t>(guard_.fault())];
+        force_taken_by_ = guard_.fault();
+        ++fault_counts_[static_cast<std::size_t>(force_taken_by_)];
         pedal_.withdraw();
         if (pedal_.is_locked()) spindle_locked_by_ = guard_.fault();
     }

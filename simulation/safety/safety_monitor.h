@@ -100,6 +100,9 @@ class SafetyMonitor {
     /// The fault that last locked the spindle; none once the pedal was up, and if something else did: the
     /// start, a lapse, another speaker (pedal_latch.h).
     Fault spindle_locked_by() const { return spindle_locked_by_; }
+    /// The fault that last took the force off, though fault() may be a later one: Fault::in_bone if the hand
+    /// sank into the bone meanwhile. None if none did since the start.
+    Fault force_taken_by() const { return force_taken_by_; }
     /// Nothing is known yet of bone in the burr, and there was no fault.
     bool is_untried() const { return is_untried_; }
     /// Why the force is off, the one reason shown to people; none while it is on.
@@ -116,6 +119,7 @@ class SafetyMonitor {
     PedalDate pedal_date_;
     PedalLatch pedal_;
     Fault spindle_locked_by_ = Fault::none;
+    Fault force_taken_by_ = Fault::none;
     bool is_untried_ = true;
     bool was_engaged_ = true;
     std::array<std::uint64_t, fault_kinds> fault_counts_{};

@@ -57,6 +57,7 @@ void HandInput::step(const WindowInput& input, double elapsed_s) {
 void HandInput::let_go() {
     hand_.let_go();
     pedal_switched_down_ = false;
+    pedal_switches_ = 0;
 }
 
 bool HandInput::panels_have(const WindowInput& input) const {
@@ -76,6 +77,10 @@ void HandInput::wait_for_note(const WindowInput& input) {
 
 void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
     wait_for_note(input);
+    if (pedal_switches_ > 0) {
+        --pedal_switches_;
+        pedal_switched_down_ = !pedal_switched_down_;
+    }
     if (picture_.holds_still) pedal_switched_down_ = false;
     if (input.went_down[WindowInput::left]) {
         drags_hand_ = !panels_have(input);
@@ -107,10 +112,13 @@ void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
     if (arrows != glm::dvec2(0.0))
         input.shift ? hand_.move_in_picture(by_keys_px, picture_.camera, picture_.size_px)
                     : hand_.tilt_in_picture(by_keys_px, picture_.camera);
-    for (const int key : input.pressed_keys())
+    bool came_up = false;  // a key that came up and went down again since the last step
+    for (const int key : input.pressed_keys()) {
+        came_up = came_up || (key == GLFW_KEY_SPACE && space_was_down_);
         if (has_keyboard && key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
             hand_.choose_burr(static_cast<std::size_t>(key - GLFW_KEY_1));
-    hand_.set_pedal(is_down(GLFW_KEY_SPACE) || pedal_switched_down_);
+    }
+    hand_.set_pedal((is_down(GLFW_KEY_SPACE) && !came_up) || pedal_switched_down_);
 }
 
 void HandInput::show(const HandInputPicture& picture) {
@@ -121,7 +129,7 @@ void HandInput::show(const HandInputPicture& picture) {
 
 void HandInput::switch_pedal() {
     const std::scoped_lock lock(mutex_);
-    pedal_switched_down_ = !pedal_switched_down_;
+    ++pedal_switches_;
 }
 
 void HandInput::choose_burr(std::size_t burr) {

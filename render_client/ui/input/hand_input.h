@@ -77,6 +77,7 @@ class HandInput {
     OperatorHand hand_;
     int shows_until_note_ = 0;  ///< calls of show() until the field of a note must be open
     bool pedal_switched_down_ = false;
+    int pedal_switches_ = 0;  ///< one a step takes effect: the server hears of each
     bool drags_hand_ = false;
     double deeper_mm_ = 0.0;  ///< than over the bone, since the drag began
 

@@ -104,6 +104,10 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
         return shrinking_sizes(whole, picture, margin_px * painter.scale(),
                                ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y);
     };
+    // First: the others are for a while, and none may take its place.
+    if (content.player != nullptr && view.playback_shown)
+        panels.add(Anchor::lower_left, {playback_panel_size(painter, picture)},
+                   [&](const PanelPlace& place) { draw_playback_panel(*content.player, painter, place); });
     if (content.slices != nullptr) {
         std::vector<glm::vec2> sizes = slices_panel_sizes(painter);
         const auto smaller = shrunk(sizes.back());
@@ -122,9 +126,6 @@ void add_controls(PanelList& panels, const OverlayContent& content, const PanelP
                              [&](const PanelPlace& place) { draw_transfer_panel(painter, view, place); });
     if (content.session.operator_command)
         panels.add_text(painter, Anchor::lower_left, operator_text(content.session), side_width);
-    if (content.player != nullptr && view.playback_shown)
-        panels.add(Anchor::lower_left, {playback_panel_size(painter, picture)},
-                   [&](const PanelPlace& place) { draw_playback_panel(*content.player, painter, place); });
 }
 
 /// The panels that the user reads.
@@ -227,11 +228,16 @@ void draw_overlay(const OverlayContent& content, const glm::ivec2& size_px) {
         const bool is_own = page != nullptr && !page->may_start();  // and it has not ended yet
         const bool stands_still =
             is_own && session.sight == SessionSight::lost && session.link.status == LinkStatus::lost;
+        // Nobody named a server: that none answers is no news.
+        const bool has_none = page != nullptr && !is_own && content.start->is_hidden(session.link.status) &&
+                              page->link_line.empty();
         const bool has_buttons =
-            content.requests != nullptr && (session.sight == SessionSight::none || stands_still);
+            content.requests != nullptr && (session.sight == SessionSight::none || has_none || stands_still);
         const auto buttons =
             has_buttons ? std::optional(SightButtons{*content.requests, page, stands_still}) : std::nullopt;
-        const SightWords words = words_of_sight(session, content.picture.preparation_percent, is_own);
+        const SightWords words = has_none
+                                     ? words_without_session()
+                                     : words_of_sight(session, content.picture.preparation_percent, is_own);
         panels.add_page(Anchor::middle, sight_panel_size(words, has_buttons, picture - 2.0f * margin),
                         [=](const PanelPlace& place) { draw_sight_panel(words, buttons, place); });
     }

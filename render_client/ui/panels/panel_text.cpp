@@ -74,8 +74,9 @@ PanelText session_text(const SeenSession& session, const PictureProgress& pictur
         if (scale != session.info->settings.end())
             text.push_back(line(Tone::warning, tr("forces of cutting times ") + scale->second));
     }
-    // "Connected" would contradict the words in the middle.
-    if (session.sight != SessionSight::silent)
+    // "Connected" would contradict the words in the middle; and beside a hidden page nobody waits for a
+    // server.
+    if (session.sight != SessionSight::silent && !(is_page_hidden && has_problem(session.link.status)))
         text.push_back(line(has_problem(session.link.status) ? Tone::warning : Tone::plain,
                             session.link.status_line + received_part(session.link)));
     if (picture.preparation_percent)

@@ -41,6 +41,10 @@ std::string advice_before_first_answer() {
         "right.");
 }
 
+SightWords words_without_session() {
+    return {tr("No session runs"), {}, tr("A case is started, and a saved session opened, among the cases.")};
+}
+
 SightWords words_of_sight(const SeenSession& session, std::optional<int> preparation_percent, bool is_own) {
     const LinkUpdate& link = session.link;
     switch (session.sight) {

@@ -20,6 +20,8 @@ struct SightWords {
 
 /// Where no server has answered.
 std::string advice_before_first_answer();
+/// The text where no session runs, and the start page is hidden.
+SightWords words_without_session();
 /// The text for a sight that has one. `preparation_percent`: of the bone's textures, as far as known;
 /// `is_own`: this window started the session.
 SightWords words_of_sight(const SeenSession& session, std::optional<int> preparation_percent,

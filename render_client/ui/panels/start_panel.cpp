@@ -7,6 +7,7 @@
 #include <array>
 #include <glm/common.hpp>
 #include <string>
+#include <string_view>
 
 #include "common/words/translation.h"
 #include "render_client/ui/input/key_bindings.h"
@@ -46,8 +47,12 @@ CardGrid card_grid(const StartPage& page, float scroll_bar) {
 /// Goal of a case with its marks to pass; empty without marks.
 std::string goal_of(const ShelvedCase& shelved) {
     if (shelved.marks.empty()) return {};
-    return trf("{}: {} To pass: {}.", shelved.is_built_in ? tr(shelved.name) : shelved.name,
-               tr(shelved.description), shelved.marks);
+    // A person who writes a case may leave out the full stop.
+    std::string description = tr(shelved.description);
+    if (!description.empty() && std::string_view(".!?").find(description.back()) == std::string_view::npos)
+        description += '.';
+    return trf("{}: {} To pass: {}.", shelved.is_built_in ? tr(shelved.name) : shelved.name, description,
+               shelved.marks);
 }
 
 float wrapped_height(const std::string& text) {

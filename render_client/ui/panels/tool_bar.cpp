@@ -49,16 +49,17 @@ std::vector<ToolButton> buttons(const SeenSession& session, const ViewSettings& 
     const SessionStatus& can = session.link.controls;
     const bool may = can.may_control;
     std::vector<ToolButton> buttons;
-    if (session.operator_command) {
-        const OperatorCommand& command = *session.operator_command;
+    // While a question is open it has no command; its buttons stay, so that no other moves into their place.
+    const bool operates = session.info != nullptr && session.info->accepts_operator;
+    const auto& command = session.operator_command;
+    if (operates)
         buttons.push_back(
             {.press = [](ViewSettings&, SessionRequests& requests) { requests.switches_pedal = true; },
              .sign = "\u25CF",
              .word = tr("Pedal"),
              .tip = tr("the spindle turns until you press again, or while SPACE is held"),
-             .is_enabled = may && !can.is_paused,
-             .is_on = command.pedal});
-    }
+             .is_enabled = may && command && !can.is_paused,
+             .is_on = command && command->pedal});
     if (const std::optional<std::size_t> burr = burr_in_use(session))
         buttons.push_back({.press = [](ViewSettings&, SessionRequests&) { ImGui::OpenPopup("burrs"); },
                            .sign = "\u25CE",
@@ -68,14 +69,13 @@ std::vector<ToolButton> buttons(const SeenSession& session, const ViewSettings& 
                                       key_of(Action::slower), key_of(Action::faster)),
                            .is_enabled = may,
                            .opens_burrs = true});
-    if (session.operator_command) {
+    if (operates)
         buttons.push_back({.action = Action::tilt,
                            .sign = "\u2197",
                            .word = tr("Tilt"),
                            .tip = tr("left drag tilts the handpiece; the arrow keys do, too"),
-                           .is_enabled = may,
+                           .is_enabled = may && command,
                            .is_on = view.drag_tilts});
-    }
     buttons.push_back(
         {.action = Action::place,
          .sign = "\u25C9",

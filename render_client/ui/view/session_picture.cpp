@@ -70,6 +70,7 @@ SessionPicture::SessionPicture(SessionSource& source, ImguiContext& panels, cons
 }
 
 SessionNews SessionPicture::take_in() {
+    if (RecordingPlayer* player = source_.player(); player != nullptr && bone_.preparation()) player->wait();
     link_ = source_.poll();
     if (is_of_another_session()) {
         if (link_.bone_replaced || link_.status == LinkStatus::receiving_snapshot) {

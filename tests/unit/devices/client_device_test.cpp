@@ -82,6 +82,25 @@ TEST(ClientDevice, MovesNoFasterThanAHandHoweverFarTheMouseJumps) {
     }
 }
 
+TEST(ClientDevice, TellsOfAPedalThatWasUpBetweenTwoReads) {
+    Desk desk;
+    const auto says_down = [&](std::uint64_t releases) {
+        desk.input.back() = {
+            .command = wants(start.position_mm), .heard = desk.now, .client = 1, .releases = releases};
+        desk.input.publish();
+        desk.run(2);
+    };
+    says_down(0);
+    EXPECT_FALSE(desk.turns) << "held from the start on";
+    says_down(1);
+    EXPECT_TRUE(desk.turns) << "released and pressed anew";
+    desk.run(300);
+    says_down(1);
+    EXPECT_FALSE(desk.turns) << "held through a silence";
+    says_down(2);
+    EXPECT_TRUE(desk.turns);
+}
+
 TEST(ClientDevice, GoesNoFartherThanAReachForOneMessage) {
     Desk desk;
     desk.run(1);

@@ -122,6 +122,17 @@ TEST_F(RecordingPlayerTest, PausesAndChangesItsSpeed) {
     EXPECT_EQ(viewer.shown_checksum(), checksum_at(4.5));
 }
 
+TEST_F(RecordingPlayerTest, WaitsForAWindowThatCannotShowItYet) {
+    RecordingPlayer player(folder_ / "a.pcap");
+    Viewer viewer(player);
+    viewer.look();
+    player.wait();
+    viewer.look(1.0);
+    EXPECT_NEAR(player.time_s(), 0.0, 1e-6);
+    viewer.look(1.0);
+    EXPECT_NEAR(player.time_s(), 1.0, 1e-6);
+}
+
 TEST_F(RecordingPlayerTest, GoesBackIntoTheSessionBeforeInAJoinedRecording) {
     const MadeRecording second = testing::make_recording(folder_ / "b.pcap", {.states = 100, .seed = 9});
     testing::join(folder_ / "a.pcap", folder_ / "b.pcap", folder_ / "both.pcap");

@@ -174,6 +174,25 @@ TEST(HapticLoop, FadesOutAndStopsTheSpindleWhenTheModelStalls) {
     EXPECT_EQ(bench.loop().fault_counts()[static_cast<std::size_t>(Fault::model_stalled)], 1u);
 }
 
+TEST(HapticLoop, SaysThatTheComputerWasSlowWhenTheBurrHasSunkIntoTheBoneMeanwhile) {
+    Bench bench;
+    bench.mill();
+    bench.model_runs = false;
+    bench.run(50 + ticks_to_fade());
+    bench.model_runs = true;
+    bench.next.has_bone_inside = true;
+    bench.run(50);
+    EXPECT_EQ(bench.shown().fault, describe(Fault::in_bone));
+    EXPECT_EQ(bench.shown().notice,
+              "the computer was too slow for a moment: the force went off, and the burr sank into the bone");
+    bench.next.has_bone_inside = false;
+    bench.run(500);
+    EXPECT_EQ(bench.shown().fault, "");
+    EXPECT_EQ(bench.shown().notice,
+              "the spindle stays off, for the computer was too slow for a moment: let go of the pedal, and "
+              "press it anew");
+}
+
 TEST(HapticLoop, FadesTheForceOfASessionThatEndsAndStopsTheSpindle) {
     Bench bench;
     bench.mill();

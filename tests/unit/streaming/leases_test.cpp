@@ -28,6 +28,19 @@ TEST_F(ToolLeaseTest, PublishesWhatTheOperatorWants) {
     EXPECT_EQ(newest(), pressed_);
 }
 
+TEST_F(ToolLeaseTest, CountsTheHoldersReleasesForAReaderOfTheNewestCommandAlone) {
+    const OperatorCommand released{.hand_target_mm = {1, 2, 3}, .burr = 2};
+    lease_.take_input(1, released, start_);
+    lease_.take_input(1, pressed_, start_);
+    lease_.take_input(2, released, start_);
+    output_.refresh();
+    EXPECT_EQ(output_.front().releases, 1U) << "another's are not heard";
+    lease_.leave(1);
+    lease_.take_input(2, pressed_, start_);
+    output_.refresh();
+    EXPECT_EQ(output_.front().releases, 0U) << "it has released nothing yet";
+}
+
 TEST_F(ToolLeaseTest, BelongsToTheFirstUntilItLeaves) {
     EXPECT_TRUE(lease_.take_input(1, pressed_, start_));
     EXPECT_FALSE(lease_.take_input(2, {.burr = 0}, start_));

@@ -219,6 +219,32 @@ TEST(HandInput, HasAPedalForWhoeverHasOnlyAMouse) {
     EXPECT_FALSE(desk.source.sent.back().pedal) << "likewise a window that was left";
 }
 
+TEST(HandInput, SendsEveryReleaseThoughTheNextPressCameBeforeTheNextStep) {
+    Desk desk;
+    desk.desk.switch_pedal();
+    desk.step();
+    desk.step();
+    ASSERT_TRUE(desk.source.sent.back().pedal);
+    desk.desk.switch_pedal();
+    desk.desk.switch_pedal();
+    desk.step();
+    EXPECT_FALSE(desk.source.sent.back().pedal);
+    desk.step();  // the hand had let go of the tool, and says once more that the pedal is up
+    desk.step();
+    EXPECT_TRUE(desk.source.sent.back().pedal);
+
+    Desk by_key;
+    by_key.input.keys_down[GLFW_KEY_SPACE] = true;
+    by_key.step();
+    by_key.step();
+    ASSERT_TRUE(by_key.source.sent.back().pedal);
+    by_key.input.presses = {{.key = GLFW_KEY_SPACE}};
+    by_key.step();
+    EXPECT_FALSE(by_key.source.sent.back().pedal);
+    by_key.step();
+    EXPECT_TRUE(by_key.source.sent.back().pedal);
+}
+
 TEST(HandInput, TiltsTheHandpieceWithoutMovingItsTip) {
     Desk desk;
     desk.picture.drag_tilts = true;
