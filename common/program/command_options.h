@@ -20,7 +20,7 @@ class Option;
 
 namespace osteomill {
 
-/// What a value must be.
+/// A condition that a value must meet.
 struct OptionCheck {
     std::function<std::string(const std::string& value)> why_wrong;  ///< empty if it is right
     std::string description;                                         ///< for the help

@@ -19,7 +19,7 @@
 #include "common/wire/snapshot.h"
 #include "common/wire/structure_messages.h"
 
-// Of the generated headers, which take long to parse.
+// Named here, because the generated headers take long to parse.
 namespace osteomill::v2 {
 class Comparison;
 class CtPiece;

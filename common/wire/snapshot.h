@@ -14,7 +14,7 @@
 #include "common/wire/frame.h"
 #include "common/wire/zstd_compressor.h"
 
-// Of bone.pb.h, which takes long to parse.
+// Named here, because bone.pb.h takes long to parse.
 namespace osteomill::v2 {
 class SnapshotBegin;
 class SnapshotBricks;

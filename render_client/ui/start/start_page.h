@@ -178,7 +178,7 @@ class StartPage {
 
     void look_for_address();
 
-    /// What a count of loose parts is of.
+    /// The region of a scan, and its threshold, that a count of loose parts belongs to.
     struct CountOf {
         std::uint64_t voxels_number = 0;
         ScanBox region{};
