@@ -7,7 +7,7 @@ cd "$(dirname "$0")"
 source scripts/prepare.sh
 
 install_packages scripts/packages.txt
-say "compiling the two programs of the drilling: $(about_minutes 600), the first time"
+say "compiling the two programs of the drilling: $(about_minutes 480), the first time"
 build release haptic_server render_client
 
 out=out/demo
@@ -42,7 +42,7 @@ scripts/plot_forces.py "$out/forces.csv" "$out/forces.png"
 printf '{"server": %s,\n"client": %s}\n' "$(cat "$out/server.json")" "$(cat "$out/client.json")" >"$out/summary.json"
 rm "$out/server.json" "$out/client.json"
 
-say "compiling the other programs and the Python module: $(about_minutes 300), the first time"
+say "compiling the other programs and the Python module: $(about_minutes 180), the first time"
 build release packet_replay bone_import bone_export osteomill_slicer osteomill_study osteomill_python
 
 say "done: look into $out/; the programs are in $bin/, the Python module in build/release/python"
