@@ -254,6 +254,11 @@ void HapticLoop::show() noexcept {
 
 namespace {
 
+/// A loop did not get the processor in time: nothing is wrong with arm, hand or bone.
+constexpr bool is_of_slow_computer(Fault fault) noexcept {
+    return fault == Fault::overrun || fault == Fault::model_stalled;
+}
+
 /// Cause and remedy of a held pedal that turns nothing.
 const char* why_it_awaits_release(Fault locked_by) noexcept {
     switch (locked_by) {
@@ -266,20 +271,18 @@ const char* why_it_awaits_release(Fault locked_by) noexcept {
         case Fault::in_bone:
             return "the spindle stays off, for the burr was inside the bone: pull it back, let go of the "
                    "pedal, and press it anew";
-        case Fault::overrun:
-        case Fault::model_stalled:
-            return "the spindle stays off, for the computer was too slow for a moment: let go of the pedal, "
-                   "and press it anew";
         default:
-            return "the spindle stays off after a fault: let go of the pedal, and press it anew";
+            return is_of_slow_computer(locked_by)
+                       ? "the spindle stays off, for the computer was too slow for a moment: let go of the "
+                         "pedal, and press it anew"
+                       : "the spindle stays off after a fault: let go of the pedal, and press it anew";
     }
 }
 
 }  // namespace
 
 const char* HapticLoop::notice() const noexcept {
-    const Fault taken_by = safety_.force_taken_by();
-    if (safety_.fault() == Fault::in_bone && (taken_by == Fault::overrun || taken_by == Fault::model_stalled))
+    if (safety_.fault() == Fault::in_bone && is_of_slow_computer(safety_.force_taken_by()))
         return "the computer was too slow for a moment: the force went off, and the burr sank into the bone";
     if (burr_.waits_for() == BurrChange::none && safety_.awaits_release())
         return why_it_awaits_release(safety_.spindle_locked_by());

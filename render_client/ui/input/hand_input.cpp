@@ -112,12 +112,12 @@ void HandInput::move_hand(const WindowInput& input, double elapsed_s) {
     if (arrows != glm::dvec2(0.0))
         input.shift ? hand_.move_in_picture(by_keys_px, picture_.camera, picture_.size_px)
                     : hand_.tilt_in_picture(by_keys_px, picture_.camera);
-    bool came_up = false;  // a key that came up and went down again since the last step
-    for (const int key : input.pressed_keys()) {
-        came_up = came_up || (key == GLFW_KEY_SPACE && space_was_down_);
+    const std::vector<int> pressed = input.pressed_keys();
+    for (const int key : pressed)
         if (has_keyboard && key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
             hand_.choose_burr(static_cast<std::size_t>(key - GLFW_KEY_1));
-    }
+    // It came up and went down again since the last step.
+    const bool came_up = space_was_down_ && std::ranges::count(pressed, GLFW_KEY_SPACE) > 0;
     hand_.set_pedal((is_down(GLFW_KEY_SPACE) && !came_up) || pedal_switched_down_);
 }
 
